@@ -1,8 +1,7 @@
-"""One module for each kind of object: its measures, mesh, colliders, semantic class and outline on the ground.
+"""The kinds of objects, one module each: measures, mesh, colliders, semantic class and outline on the floor.
 
-A module that declares a kind binds it as ``KIND``, and as ``MOUNTED`` how objects of it hang on walls and columns,
-if they are. Both are found by these names, so that another module in this folder is another kind, and listed by the
-numbers of kinds, whatever the modules are called.
+A module declares a kind as ``KIND``, and as ``MOUNTED`` the rules that hang its objects on walls and columns. Both are
+found by these names, so a new module in this folder is a new kind. Kinds are listed by number.
 """
 
 from importlib import import_module
@@ -31,16 +30,16 @@ _MODULES = [import_module(module.name) for module in iter_modules(__path__, pref
 
 _OTHER_CARS = CAR_KINDS[1:]
 CAR_LABELS = frozenset(kind.label for kind in CAR_KINDS)
-"""The classes of vehicles that park."""
+"""Semantic classes of parked vehicles."""
 
 
 def _in_order(kinds: list[Kind]) -> tuple[Kind, ...]:
-    """Kinds by their numbers.
+    """Sort kinds of objects by number.
 
     Raises
     ------
     ValueError
-        If two have the same number, name or label, or one has that of a class of pieces.
+        If two kinds share a number, a name or a label, or if a kind has that of a class of pieces.
     """
     declared: list[Kind | PieceClass] = [*kinds, *_OTHER_CARS, *PIECES]
     numbers, labels = [str(each.number) for each in declared], [each.label for each in declared]
@@ -56,13 +55,13 @@ KINDS = _in_order([module.KIND for module in _MODULES if hasattr(module, "KIND")
 
 _ALL: list[Kind | PieceClass] = [*KINDS, *_OTHER_CARS, *PIECES]
 CLASSES: tuple[Kind | PieceClass, ...] = tuple(sorted(_ALL, key=lambda each: each.number))
-"""All semantic classes, of objects and of pieces of them, in the order of their numbers: the one table of them."""
+"""All semantic classes of objects and of their pieces, by number: the only table of them."""
 CLASSES_VERSION = 6
-"""Of the table: one more whenever a class is added, or covers something else than before."""
+"""Version of the table of semantic classes, raised when a class is added or covers something else."""
 PIECE_LABELS = frozenset(piece.label for piece in PIECES)
-"""The classes of pieces, which belong to the object that they are part of."""
+"""Semantic classes of pieces; a piece belongs to the object that it is a part of."""
 
 MOUNTED: tuple[Mounted, ...] = tuple(
     sorted((module.MOUNTED for module in _MODULES if hasattr(module, "MOUNTED")), key=lambda each: each.kind.number)
 )
-"""What hangs on walls and columns, in the same order."""
+"""The kinds of objects that hang on walls and columns, by number."""

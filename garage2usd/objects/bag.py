@@ -1,4 +1,4 @@
-"""Bags that are put down."""
+"""Bags left on the floor as clutter."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -14,7 +14,7 @@ KIND = Kind("bag", number=44, label="bag", cityscapes="dynamic", group="Clutter"
 
 
 class BagSort(StrEnum):
-    """What bags there are."""
+    """The sorts of bags."""
 
     CARRIER = "carrier"
     SUITCASE = "suitcase"
@@ -32,18 +32,18 @@ class BagSpec(Spec, kind=KIND):
     Attributes
     ----------
     sort
-        A carrier bag of paper, a suitcase on wheels, or a tied sack of rubbish.
+        A paper carrier bag, a suitcase on wheels, or a tied rubbish sack.
     """
 
     sort: BagSort = BagSort.CARRIER
 
     @property
     def mass_kg(self) -> float:
-        """Mass with what is in it; assumption."""
+        """Mass of the filled bag in kilograms; assumption."""
         return _MASS_KG[self.sort]
 
     def asset(self) -> Asset:
-        """A bag with its handles, or a knotted sack."""
+        """Make the meshes of a bag: its body and its handles or knot."""
         made = {BagSort.CARRIER: _carrier, BagSort.SUITCASE: _suitcase, BagSort.RUBBISH: _rubbish}[self.sort]
         body, material, rest, rest_material = made()
         return Asset(
@@ -54,7 +54,7 @@ class BagSpec(Spec, kind=KIND):
         )
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """The bag."""
+        """Return the outline of the bag on the floor."""
         x, z = _HALF_M[self.sort]
         return (rectangle(-x - 0.005, -z - 0.005, x + 0.005, z + 0.005),)
 

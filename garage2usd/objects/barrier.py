@@ -31,7 +31,7 @@ class BarrierSpec(Spec, kind=KIND):
     elbow_m: float
 
     def asset(self) -> Asset:
-        """A housing, a folding arm towards -X, and a ticket column at a driver's window."""
+        """Make the meshes of a boom barrier: housing, folding arm towards -X and ticket column."""
         x, top, z = _HOUSING_M[0] / 2, _HOUSING_M[1], _HOUSING_M[2] / 2
         housing = box_faces((-x, 0.1, -z), (x, top, z))
         plinth = box_faces((-x - 0.05, 0.0, -z - 0.05), (x + 0.05, 0.1, z + 0.05))
@@ -55,12 +55,12 @@ class BarrierSpec(Spec, kind=KIND):
         )
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Housing and ticket column on their plinths, and the arm as if it were down."""
+        """Return the outlines of the boom barrier's housing, its ticket column and its lowered arm."""
         return *_GATE, rectangle(-self.arm_m, _ARM_Z_M[0], _ARM_Z_M[1] - _ARM_Z_M[0], _ARM_Z_M[1])
 
 
 def _ticket_column() -> list[Part]:
-    """The column with a screen and a slot at a driver's window, 1.7 m before the barrier; it looks to -X."""
+    """Make the barrier's ticket column with its screen and slot, 1.7 m before the arm, facing -X."""
     z = -1.7
     plinth = box_faces((-0.17, 0.0, z - 0.2), (0.17, 0.1, z + 0.2))
     body = box_faces((-0.12, 0.1, z - 0.15), (0.12, 1.3, z + 0.15))
@@ -75,7 +75,7 @@ def _ticket_column() -> list[Part]:
 
 
 def _level(start_m: float, end_m: float, height_m: float) -> tuple[list[list[Face]], list[list[Face]]]:
-    """A level piece of arm from `start_m` to the left, in red and white boxes by turns."""
+    """Return the red and white boxes of a level piece of a barrier's arm, from `start_m` to the left."""
     count = max(1, round((start_m - end_m) / _ARM_PITCH_M))
     ends = np.linspace(start_m, end_m, count + 1).tolist()
     half = _ARM_M / 2
@@ -87,7 +87,7 @@ def _level(start_m: float, end_m: float, height_m: float) -> tuple[list[list[Fac
 
 
 def _arm(arm_m: float, elbow_m: float) -> tuple[list[list[Face]], list[list[Face]]]:
-    """A raised arm that folds at its elbow."""
+    """Return the red and white boxes of a raised barrier arm that folds at its elbow."""
     half, upright = _ARM_M / 2, elbow_m - _PIVOT_M
     red, white = _level(half, half - (arm_m - upright), elbow_m)
     count = max(1, round(upright / _ARM_PITCH_M))

@@ -1,4 +1,4 @@
-"""Beams from column to column."""
+"""Ceiling beams between columns."""
 
 from dataclasses import dataclass
 
@@ -21,7 +21,7 @@ class BeamSpec(Spec, kind=KIND):
     depth_m: float
 
     def asset(self) -> Asset:
-        """A concrete beam without a top, which the slab covers."""
+        """Make the mesh of a concrete beam without its top, which the slab covers."""
         x, z = self.width_m / 2, self.length_m / 2
         faces = box_faces((-x, -self.depth_m, -z), (x, 0, z), without="t")
         return Asset((make_part("Concrete", faces, "ceiling_concrete", collider=Collider.BOX),))
@@ -29,13 +29,13 @@ class BeamSpec(Spec, kind=KIND):
 
 @dataclass(frozen=True)
 class BeamNodeSpec(Spec, kind=KIND):
-    """Where beams meet without a column: rectangles that touch, `depth_m` deep; origin on the ceiling."""
+    """A node of beams without a column: touching rectangles, `depth_m` deep; origin on the ceiling."""
 
     boxes: tuple[Box, ...]
     depth_m: float
 
     def asset(self) -> Asset:
-        """A box for each rectangle."""
+        """Make the mesh of a beam node, one box per rectangle."""
         parts = [
             make_part(
                 f"Concrete{index}",

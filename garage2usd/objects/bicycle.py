@@ -26,23 +26,23 @@ _SPOKES = 12
 
 @dataclass(frozen=True)
 class BicycleSpec(Spec, kind=KIND):
-    """A city bicycle on its stand; origin on the floor in its middle, looking to +Z.
+    """A city bicycle on its stand; origin on the floor in its middle, facing +Z.
 
     Attributes
     ----------
     colour
-        Of the frame, one of `BICYCLE_COLOURS`.
+        Colour of the frame, one of `BICYCLE_COLOURS`.
     """
 
     colour: str = "black"
 
     @property
     def mass_kg(self) -> float:
-        """Mass of a city bicycle with its carrier; assumption."""
+        """Mass of the bicycle with its carrier in kilograms; assumption."""
         return 16.0
 
     def asset(self) -> Asset:
-        """Wheels with spokes, a frame of tubes, handlebars, a saddle, pedals, mudguards, a carrier and a lamp."""
+        """Make the meshes of a bicycle: wheels, frame, handlebars, saddle, pedals, mudguards, carrier and lamp."""
         tyres, rims = [], []
         for hub in (_FRONT, _REAR):
             tyre, rim = wheel_faces(_WHEEL_M, 0.02, 0.30)
@@ -109,12 +109,12 @@ class BicycleSpec(Spec, kind=KIND):
         )
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Handlebars and wheels."""
+        """Return the outline of the bicycle's handlebars and wheels on the floor."""
         return (rectangle(-0.315, -_BASE_M / 2 - _WHEEL_M - 0.03, 0.315, _BASE_M / 2 + _WHEEL_M + 0.03),)
 
 
 def wheel_faces(radius_m: float, half_width_m: float, rim_m: float) -> tuple[list[Face], list[Face]]:
-    """Tyre and rim of a wheel around the X axis: a ring each, open in the middle."""
+    """Return the faces of a wheel's tyre and rim, two open rings around the X axis."""
 
     def ring(inner: float, outer: float, half: float) -> list[Face]:
         middle = (inner + outer) / 2
@@ -149,7 +149,7 @@ def _tubes(*tubes: tuple[Sequence[float], Sequence[float], float]) -> list[Face]
 
 
 def _guard(hub: tuple[float, float, float], start_deg: float, end_deg: float) -> list[Face]:
-    """A mudguard around a wheel, from an angle to an angle over its front."""
+    """Return the faces of a bicycle's mudguard between two angles around its wheel."""
     angles = np.radians(np.linspace(start_deg, end_deg, 9))
     points = [(0.0, hub[1] + 0.37 * np.sin(at), hub[2] + 0.37 * np.cos(at)) for at in angles]
     return limb_faces(points, [0.028] * 9, [0.004] * 9, segments=8)

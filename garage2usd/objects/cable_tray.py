@@ -1,4 +1,4 @@
-"""Cable ladders."""
+"""Cable ladders under the ceiling."""
 
 from dataclasses import dataclass
 
@@ -13,7 +13,7 @@ KIND = Kind("cable_tray", number=11, label="cable_tray", cityscapes="static", fo
 _RAIL_M = 0.015
 _RUNG_PITCH_M = 0.3
 _CABLES_M = ((-0.115, 0.035), (-0.07, 0.025), (-0.035, 0.025), (0.03, 0.03), (0.07, 0.02))
-"""Left side and thickness of each cable on a tray."""
+"""Left edge and thickness of each cable on a cable ladder, in metres."""
 
 
 @dataclass(frozen=True)
@@ -23,11 +23,11 @@ class CableTraySpec(Spec, kind=KIND):
     Attributes
     ----------
     height_m
-        Of its rails.
+        Height of the rails.
     drop_m
-        From the ceiling down to its bottom.
+        Distance from the ceiling down to the bottom of the ladder.
     rods_at_m
-        Places of its pairs of rods along it, from its middle.
+        Places of the pairs of hanger rods along the ladder, from its middle.
     """
 
     length_m: float
@@ -37,7 +37,7 @@ class CableTraySpec(Spec, kind=KIND):
     rods_at_m: tuple[float, ...]
 
     def asset(self) -> Asset:
-        """A ladder of steel with cables on it, on bars between rods."""
+        """Make the meshes of a steel cable ladder: rails, rungs, cables, and bars between hanger rods."""
         x, z, low = self.width_m / 2, self.length_m / 2, -self.drop_m
         rails: list[Face] = []
         for left, right in ((-x, -x + _RAIL_M), (x - _RAIL_M, x)):

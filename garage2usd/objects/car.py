@@ -1,4 +1,4 @@
-"""Parked cars."""
+"""Parked cars, vans and trucks."""
 
 from dataclasses import dataclass, field, replace
 from typing import Self
@@ -19,15 +19,15 @@ KIND = Kind("car", number=16, label="car", cityscapes="car", follows=VariantSet.
 _VAN = replace(KIND, number=46, label="van")
 _TRUCK = replace(KIND, number=47, label="truck", cityscapes="truck")
 CAR_KINDS = (KIND, _VAN, _TRUCK)
-"""The kinds of parked vehicles: all are cars to layouts and reports, each has a semantic class of its own."""
+"""The kinds of parked vehicles: all count as cars in layouts and reports, each with its own semantic class."""
 
 PAINT_SET = "paint"
-"""Variant set of every car's asset."""
+"""Name of the variant set that holds the paints of a car's asset."""
 _ARCHES_M = 0.01
-"""How far the wheel arches stand out of a car's body."""
+"""Overhang of the wheel arches beyond a car's body, in metres."""
 _DENSITY_KG_M3 = 120.0
 _HALF_MIRROR_M = 0.1
-"""Of a car's mirrors, along it."""
+"""Half the length of a car's mirror along the car, in metres."""
 
 
 @dataclass(frozen=True)
@@ -37,14 +37,13 @@ class CarSpec(Spec, kind=KIND):
     Attributes
     ----------
     body, paint
-        Keys of the catalogue.
+        Keys of the car catalogue.
     steer_deg
-        How far its front wheels are turned to the left, at most `garage2usd.assets.car_wheels.MOST_STEER_DEG` either
-        way.
+        Angle of the front wheels to the left, at most `garage2usd.assets.car_wheels.MOST_STEER_DEG` either way.
     is_dusty
-        Whether its flanks are covered with dust.
+        True if dust covers the flanks.
     is_lit
-        Whether its head and tail lamps glow.
+        True if the head and tail lamps glow.
     """
 
     body: str
@@ -55,36 +54,36 @@ class CarSpec(Spec, kind=KIND):
 
     @property
     def measures(self) -> CarBody:
-        """Its measures, whether it is of the catalogue or a model of one's own."""
+        """Measures of the car, from the catalogue or from the user's model."""
         return body_named(self.body)
 
     @property
     def shape(self) -> Self:
-        """The same body in the first paint, as the paints are variants of one asset."""
+        """The same car in the first paint, since paints are variants of one asset."""
         return replace(self, paint=PAINTS[0])
 
     @property
     def look(self) -> Look:
-        """Its paint."""
+        """Variant of the car's paint."""
         return ((PAINT_SET, self.paint),)
 
     @property
     def mass_kg(self) -> float:
-        """Mass at 120 kg/m3 of the box around the body, an assumption: 1,480 kg for the saloon."""
+        """Mass of the car at 120 kg/m3 of its bounding box, an assumption: 1,480 kg for the saloon."""
         body = self.measures
         return round(_DENSITY_KG_M3 * body.length_m * body.width_m * body.height_m, -1)
 
     @property
     def plain(self) -> "CarSpec":
-        """The same shape as it comes from the factory: wheels straight, clean, and lamps off."""
+        """The same car as it left the factory: wheels straight, clean, lamps off."""
         return replace(self.shape, steer_deg=0.0, is_dusty=False, is_lit=False)
 
     def asset(self) -> Asset:
-        """The body with its wheels, dust and lamps, in every paint."""
+        """Make the meshes of a car with its wheels, dust and lamps, in every paint."""
         return self.asset_from(car(self.measures))
 
     def asset_from(self, plain: Asset) -> Asset:
-        """The asset made from that of the `plain` shape."""
+        """Make the car's asset from the asset of its `plain` shape."""
         body = self.measures
         asset = steered(plain, body, self.steer_deg)
         if self.is_dusty:
@@ -92,7 +91,7 @@ class CarSpec(Spec, kind=KIND):
         return lit(asset) if self.is_lit else asset
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Its body with the wheel arches, its mirrors, and its front wheels where they are turned."""
+        """Return the outlines of the car's body with wheel arches, its mirrors and its steered front wheels."""
         body = self.measures
         side, end, mirrors = body.width_m / 2 + _ARCHES_M, body.length_m / 2, body.overall_width_m / 2
         first, last = body.mirrors_m - _HALF_MIRROR_M, body.mirrors_m + _HALF_MIRROR_M
@@ -105,71 +104,71 @@ class CarSpec(Spec, kind=KIND):
 
 @dataclass(frozen=True)
 class OpenCarSpec(CarSpec):
-    """A parked car of the catalogue whose boot is open, if it has one: see `garage2usd.assets.car_boot.has_boot`."""
+    """A parked catalogue car with an open boot, where `garage2usd.assets.car_boot.has_boot` says that it has one."""
 
     @property
     def plain(self) -> CarSpec:
-        """The same body with its boot closed."""
+        """The same car with its boot closed."""
         return CarSpec(self.body, PAINTS[0])
 
     def asset_from(self, plain: Asset) -> Asset:
-        """The asset made from that of the `plain` shape, with its tailgate or boot lid up."""
+        """Make the car's asset from the asset of its `plain` shape, with the tailgate or boot lid raised."""
         return with_open_boot(super().asset_from(plain), self.measures)
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Those of the car, and a rectangle below what is swung up."""
+        """Return the outlines of the car and the rectangle below its raised tailgate or boot lid."""
         side, first, last = open_boot_box(self.measures)
         return *super().outlines(), rectangle(-side, first, side, last)
 
 
 @dataclass(frozen=True)
 class OwnCarSpec(CarSpec):
-    """A parked car that is a model of one's own; origin and axes as those of all cars.
+    """A parked car modelled by the user; origin and axes as for all cars.
 
     Attributes
     ----------
     model
-        The car; its paint is that of its file.
+        The user's car model; its paint is the one in its file.
     """
 
     model: OwnCar = field(kw_only=True)
 
     @property
     def measures(self) -> CarBody:
-        """As they were found in its file, or given."""
+        """Measures of the user's car model, as found in its file or as configured."""
         return self.model
 
     @property
     def shape(self) -> Self:
-        """Itself."""
+        """The spec itself, since a user's car model has no variants."""
         return self
 
     @property
     def look(self) -> Look:
-        """None: it has the colours of its file."""
+        """No variants: a user's car model keeps the colours of its file."""
         return ()
 
     def asset(self) -> Asset:
-        """Its meshes with their materials; raises ConfigError where the file has changed."""
+        """Make the meshes and materials of a user's car model; raise ConfigError if the file has changed."""
         return own_car(self.model)
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Its body, and its mirrors where they are known."""
+        """Return the outlines of the user's car body, and of its mirrors where they are known."""
         return self.model.outlines
 
 
 @dataclass(frozen=True)
 class _OwnVanSpec(OwnCarSpec, kind=_VAN):
-    """A model of the class van."""
+    """A parked van modelled by the user."""
 
 
 @dataclass(frozen=True)
 class _OwnTruckSpec(OwnCarSpec, kind=_TRUCK):
-    """A model of the class truck."""
+    """A parked truck modelled by the user."""
 
 
 def car_spec(car: CarBody, paint: str) -> CarSpec:
-    """A car of the catalogue in a paint, or a model of one's own in that of its file."""
+    """Return the spec of a parked car: a catalogue car in a paint, or a user's model in the paint of its file."""
     if not isinstance(car, OwnCar):
         return CarSpec(car.name, paint)
     spec = {spec.kind.label: spec for spec in (OwnCarSpec, _OwnVanSpec, _OwnTruckSpec)}[car.semantic_class]

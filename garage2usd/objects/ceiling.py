@@ -20,7 +20,7 @@ class CeilingSpec(Spec, kind=KIND):
     thickness_m: float
 
     def asset(self) -> Asset:
-        """The slab."""
+        """Make the mesh of a ceiling slab."""
         x, z = self.width_m / 2, self.depth_m / 2
         faces = box_faces((-x, 0, -z), (x, self.thickness_m, z))
         return Asset((make_part("Slab", faces, "ceiling_concrete", collider=Collider.BOX),))

@@ -1,4 +1,4 @@
-"""Charging posts."""
+"""Charging posts for electric cars."""
 
 from dataclasses import dataclass
 
@@ -14,10 +14,10 @@ KIND = Kind("charger", number=22, label="charger", cityscapes="static", part=Til
 
 @dataclass(frozen=True)
 class ChargerSpec(Spec, kind=KIND):
-    """A slim charging post that looks to +Z; origin in the middle of its foot."""
+    """A slim charging post facing +Z; origin in the middle of its foot."""
 
     def asset(self) -> Asset:
-        """A slim post with a lit screen, a socket and a cable."""
+        """Make the meshes of a charging post: body, lit screen, socket and cable."""
         front = 0.045
         body = box_faces((-0.16, 0.0, -0.045), (0.16, 1.45, front))
         band = box_faces((-0.16, 1.25, front), (0.16, 1.38, front + 0.003), without="n")
@@ -41,5 +41,5 @@ class ChargerSpec(Spec, kind=KIND):
         )
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Its body with the cable."""
+        """Return the outline of the charging post with its cable."""
         return (rectangle(-0.16, -0.045, 0.16, 0.065),)

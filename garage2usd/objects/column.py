@@ -1,4 +1,4 @@
-"""Columns."""
+"""Columns of the building, with their guards and boards."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -20,17 +20,17 @@ __all__ = ["KIND", "ROUND_SEGMENTS", "Board", "ColumnSpec"]
 KIND = Kind("column", number=7, label="column", cityscapes="pole", group="Columns")
 
 ROUND_SEGMENTS = 32
-"""Sides of what stands for a round column."""
+"""Number of sides of the prism that approximates a round column."""
 _BEVEL_M = 0.03
 _SHORT = 0.7
 """Short side of a rectangular section, as a share of the long one."""
 _RUBBER_M = 0.012
 _LEG_M = 0.1
-"""How far a rubber corner reaches along a side."""
+"""Length of a rubber corner guard along a column's side, in metres."""
 _BLOCK_M = 0.15
-"""Height of its black and yellow blocks, about."""
+"""Approximate height of the black and yellow blocks of a rubber guard."""
 _LEAST_BOARD = 0.8
-"""Half a board's width at most, as a share of a round column's radius."""
+"""Largest half width of a board, as a share of a round column's radius."""
 _PAINTED = {
     Guard.YELLOW_BLACK: "guard_yellow_black",
     Guard.RED_WHITE: "guard_red_white",
@@ -39,16 +39,16 @@ _PAINTED = {
 
 
 class Board(NamedTuple):
-    """What fills the gap behind an object that hangs where a side of the square would be.
+    """A board on a column that fills the gap behind a mounted object.
 
     Attributes
     ----------
     side
-        The side that it looks to: 0 for +Z, 1 for +X, 2 for -Z, 3 for -X.
+        Side of the column that the board faces: 0 for +Z, 1 for +X, 2 for -Z, 3 for -X.
     left_m, right_m
-        From where to where across that side, from its middle, +X to the right on side 0.
+        Extent across that side, from its middle; +X is to the right on side 0.
     low_m, high_m
-        From where to where above the floor.
+        Extent above the floor.
     """
 
     side: int
@@ -65,21 +65,21 @@ class ColumnSpec(Spec, kind=KIND):
     Attributes
     ----------
     size_m
-        Side of the square that holds all of it, which a square column fills.
+        Side of the bounding square of the section; a square column fills it.
     height_m
-        Height.
+        Height of the column.
     section
-        Shape of the section: round as wide as the square, rectangular as long.
+        Shape of the section: a round one is as wide as the square, a rectangular one as long.
     is_long_along_x
-        Whether a rectangular one is long along X, else along Z.
+        True if a rectangular section is long along X, else along Z.
     guard
-        What protects its foot.
+        Guard that protects the column's foot.
     guard_height_m
-        How high that reaches.
+        Height of that guard.
     head_m
-        Height of the square head, on which beams bear, of a column that does not fill its square.
+        Height of the square head that carries beams, for a column that does not fill its square.
     boards
-        What objects hang on where it does not reach the side of the square.
+        Boards that carry mounted objects where the column does not reach the side of its square.
     """
 
     size_m: float
@@ -93,17 +93,17 @@ class ColumnSpec(Spec, kind=KIND):
 
     @property
     def is_round(self) -> bool:
-        """Whether its section is a circle."""
+        """True if the column's section is a circle."""
         return self.section is ColumnSection.ROUND
 
     @property
     def fills_square(self) -> bool:
-        """Whether its sides are those of the square."""
+        """True if the column's sides are those of its bounding square."""
         return self.section is ColumnSection.SQUARE and self.guard is not Guard.RUBBER
 
     @property
     def halves_m(self) -> Point:
-        """Half the extent of its shaft along X and Z."""
+        """Half extents of the column's shaft along X and Z."""
         half = self.size_m / 2
         short = half * _SHORT if self.section is ColumnSection.RECTANGULAR else half
         x, z = (half, short) if self.is_long_along_x else (short, half)
@@ -111,19 +111,19 @@ class ColumnSpec(Spec, kind=KIND):
         return round(x - inset, 6), round(z - inset, 6)
 
     def side_m(self, side: int) -> float:
-        """From the axis to the surface where a side looks, numbered as in `Board`."""
+        """Return the distance from the column's axis to its surface on a side, numbered as in `Board`."""
         return self.halves_m[1 - side % 2]
 
     @property
     def diagonal_m(self) -> float:
-        """From the axis to the surface along the square's diagonals."""
+        """Distance from the column's axis to its surface along the diagonals of its square."""
         x, z = self.halves_m
         if self.is_round:
             return x
         return min(min(x, z) * math.sqrt(2), (x + z - _BEVEL_M) / math.sqrt(2))
 
     def asset(self) -> Asset:
-        """A shaft with bevelled edges, or a round one, over its guard; a head and boards where it has some."""
+        """Make the meshes of a column: its shaft, and its guard, head and boards if any."""
         top = round(self.height_m - self.head_m, 6)
         guard_top = min(self.guard_height_m, top)
         is_painted = self.guard in _PAINTED
@@ -142,10 +142,10 @@ class ColumnSpec(Spec, kind=KIND):
         return Asset(tuple(parts))
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """The square that holds all of it, whatever its section.
+        """Return the bounding square of the column, whatever its section.
 
-        So plans, stalls and proofs do not depend on how columns look; what is proven is a little more than needed
-        where they do not fill it. Colliders have the true shape.
+        Plans, stalls and proofs thus do not depend on the look of columns, and proofs are on the safe side. Colliders
+        have the true shape.
         """
         return (square(self.size_m),)
 
@@ -155,7 +155,7 @@ class ColumnSpec(Spec, kind=KIND):
         return make_part(name, faces, material, collider=Collider.CONVEX_HULL, project=around)
 
     def _ring(self, x: float, z: float) -> list[Point]:
-        """The section with half extents, from +Z towards +X."""
+        """Return the outline of a column's section with half extents, from +Z towards +X."""
         if self.is_round:
             angles = np.arange(ROUND_SEGMENTS) * (2 * np.pi / ROUND_SEGMENTS)
             return [(x * math.sin(angle), x * math.cos(angle)) for angle in angles.tolist()]
@@ -164,7 +164,7 @@ class ColumnSpec(Spec, kind=KIND):
         return [*ring, *((-a, -c) for a, c in ring)]
 
     def _rubber(self, top: float) -> list[Part]:
-        """Black and yellow blocks by turns, from the floor up: a collar, or an angle on each edge."""
+        """Make the black and yellow blocks of a rubber guard: a collar on a round column, else an angle per edge."""
         x, z = self.halves_m
         outer, inner = self._ring(x + _RUBBER_M, z + _RUBBER_M), self._ring(x, z)
         strips = [([*outer, outer[0]], [*inner, inner[0]])] if self.is_round else list(self._corners(outer))
@@ -184,7 +184,7 @@ class ColumnSpec(Spec, kind=KIND):
         ]
 
     def _corners(self, outer: Sequence[Point]) -> list[tuple[list[Point], list[Point]]]:
-        """The outer and the inner line of each rubber corner."""
+        """Return the outer and the inner line of each rubber corner of a column."""
         x, z = self.halves_m
         inner = self._ring(x, z)
         # each bevel, from +Z towards +X, with the legs before and after it
@@ -206,7 +206,7 @@ class ColumnSpec(Spec, kind=KIND):
         return found
 
     def _board(self, number: int, board: Board) -> Part:
-        """From the square's side back to the shaft, or as far into a round one as its edges are away."""
+        """Make a board from the side of the column's square back to the shaft, or into a round one up to its edges."""
         left, right = board.left_m, board.right_m
         front, back = self.size_m / 2, self.side_m(board.side)
         if self.is_round:
@@ -221,7 +221,7 @@ class ColumnSpec(Spec, kind=KIND):
 
 
 def _along(start: NDArray[np.float64], to: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A leg's length from a point towards another, but less than half of the way."""
+    """Return the leg of a rubber corner from a point towards another, less than half of the distance."""
     way = to - start
     far = float(np.linalg.norm(way))
     leg: NDArray[np.float64] = way / far * min(_LEG_M, 0.4 * far)
@@ -229,7 +229,7 @@ def _along(start: NDArray[np.float64], to: NDArray[np.float64]) -> NDArray[np.fl
 
 
 def _prism(ring: Sequence[Point], low: float, high: float) -> list[Face]:
-    """A closed prism over a convex section."""
+    """Return the faces of a closed prism over a column's convex section."""
     faces = [
         np.array([(x0, low, z0), (x1, low, z1), (x1, high, z1), (x0, high, z0)])
         for (x0, z0), (x1, z1) in pairwise([*ring, ring[0]])
@@ -242,7 +242,7 @@ def _prism(ring: Sequence[Point], low: float, high: float) -> list[Face]:
 def _shell(
     outside: Sequence[Point], inside: Sequence[Point], low: float, high: float, *, is_closed: bool
 ) -> list[Face]:
-    """What lies between two lines from one height to another, without the side that looks at the inner line."""
+    """Return the faces of a rubber guard between two lines and two heights, without its inner side."""
     faces = []
     for ((x0, z0), (x1, z1)), ((u0, w0), (u1, w1)) in zip(pairwise(outside), pairwise(inside), strict=True):
         faces.append(np.array([(x0, low, z0), (x1, low, z1), (x1, high, z1), (x0, high, z0)]))
@@ -254,7 +254,7 @@ def _shell(
 
 
 def _around(radius_m: float) -> Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]:
-    """Texture coordinates that run around a round column from its -Z, and up."""
+    """Return texture coordinates around a round column, from -Z and upwards."""
 
     def project(corners: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
         x, y, z = corners.T

@@ -14,7 +14,7 @@ KIND = Kind("cone", number=15, label="traffic_cone", cityscapes="static", part=T
 
 _FOOT_M = 0.38
 _BANDS_M = (0.03, 0.28, 0.4, 0.5, 0.6, 0.75)
-"""Heights where its colours change, orange first."""
+"""Heights in metres where a traffic cone changes colour, orange first."""
 
 
 @dataclass(frozen=True)
@@ -23,11 +23,11 @@ class ConeSpec(Spec, kind=KIND):
 
     @property
     def mass_kg(self) -> float:
-        """Mass of a cone of 0.75 m with a foot of rubber; assumption."""
+        """Mass of a traffic cone of 0.75 m with a rubber foot; assumption."""
         return 3.2
 
     def asset(self) -> Asset:
-        """An orange cone 0.75 m high with two reflective bands on a rubber foot."""
+        """Make the meshes of a traffic cone: orange, 0.75 m high, two reflective bands, a rubber foot."""
         side = _FOOT_M / 2
         foot = box_faces((-side, 0.0, -side), (side, 0.03, side))
         orange: list[Face] = []
@@ -44,7 +44,7 @@ class ConeSpec(Spec, kind=KIND):
         )
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Its foot."""
+        """Return the outline of the traffic cone's foot."""
         return (square(_FOOT_M),)
 
 

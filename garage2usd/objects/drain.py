@@ -1,4 +1,4 @@
-"""Drains of lanes: gratings of gullies, and channels, level with the floor."""
+"""Drains in lanes, level with the floor: gratings of gullies and of channels."""
 
 from dataclasses import dataclass
 
@@ -15,15 +15,15 @@ KIND = Kind("drain", number=36, label="drain", cityscapes="road", is_solid=False
 GULLY_SIDE_M, CHANNEL_WIDTH_M = 0.3, 0.15
 _FRAME_M = 0.016
 _ELEMENT_M = 1.0
-"""About the length of a channel's elements."""
+"""Approximate length of the elements of a channel drain."""
 _GULLY_SLOTS, _CHANNEL_SLOTS = (7, 2), (3, 3)
-"""Beside each other, and one behind the other in each element."""
+"""Number of slots across and along each element of a drain's grating."""
 _SLOT_SHARE = 0.52
-"""Of the width between two bars' middles."""
+"""Width of a slot as a share of the pitch of the grating's bars."""
 _TIE_M = 0.022
-"""Between slots one behind the other."""
+"""Distance between consecutive slots along a drain."""
 _JOINT_M = 0.004
-"""Between elements, and between a gully's grating and its frame."""
+"""Width of the joints between elements, and between a gully's grating and its frame."""
 
 
 @dataclass(frozen=True)
@@ -41,11 +41,11 @@ class DrainSpec(Spec, kind=KIND):
 
     @property
     def is_channel(self) -> bool:
-        """Whether it is a channel's grating, of galvanised steel; else a gully's, of cast iron."""
+        """True for the galvanised steel grating of a channel, False for the cast iron grating of a gully."""
         return self.length_m > self.width_m
 
     def asset(self) -> Asset:
-        """Metal, and the dark that is seen between its bars."""
+        """Make the meshes of a drain: its metal grating and the dark gaps between the bars."""
         x, z = self.width_m / 2, self.length_m / 2
         outline = shapely.box(-x, -z, x, z)
         seen = shapely.union_all([*self._slots(), *self._joints()], grid_size=GRID_M)

@@ -15,25 +15,25 @@ _FLANGE_PITCH_M = 1.35
 _FLANGE_M = 0.025
 _SEGMENTS = 20
 _NECK_M = 0.12
-"""Half the height of the necks through which round ducts blow out."""
+"""Half the height of the outlet necks of round ducts."""
 
 
 @dataclass(frozen=True)
 class DuctSpec(Spec, kind=KIND):
-    """A duct on hangers, or two round ones side by side, long along Z; origin in the middle of its top.
+    """A ventilation duct on hangers, or two round ducts side by side, long along Z; origin in the middle of its top.
 
     Attributes
     ----------
     length_m, width_m, height_m
-        Extent of a rectangular one, or of the box that holds both round ones.
+        Extent of a rectangular duct, or of the bounding box of both round ducts.
     hanger_m
-        Length of the hangers from its top to the ceiling.
+        Length of the hangers from the duct's top to the ceiling.
     hangers_at_m
-        Places of the hangers along it, from its middle.
+        Places of the hangers along the duct, from its middle.
     is_round
-        Whether there are two round ones, as thick as the box is high.
+        True for two round ducts, as thick as the box is high.
     joint
-        At which end round ones lead into others across it, 1 at +Z and -1 at -Z; 0 at none.
+        End where round ducts join a transverse one: 1 at +Z, -1 at -Z, 0 at none.
     """
 
     length_m: float
@@ -45,7 +45,7 @@ class DuctSpec(Spec, kind=KIND):
     joint: int = 0
 
     def asset(self) -> Asset:
-        """A duct with flanges and hangers, and outlets if it is long."""
+        """Make the meshes of a duct: its body, flanges, hangers, and outlets if it is long."""
         x, z = self.width_m / 2, self.length_m / 2
         count = max(1, round(self.length_m / _FLANGE_PITCH_M))
         middles = [-z + (index + 0.5) * self.length_m / count for index in range(count)]
@@ -76,7 +76,7 @@ class DuctSpec(Spec, kind=KIND):
         return Asset(tuple(parts))
 
     def _rectangular(self, flanges_at: Sequence[float]) -> tuple[list[Face], list[Face]]:
-        """Body and flanges of one duct that fills the box."""
+        """Return the body and flanges of a rectangular duct."""
         x, z = self.width_m / 2, self.length_m / 2
         flanges: list[Face] = []
         for middle in flanges_at:
@@ -84,7 +84,7 @@ class DuctSpec(Spec, kind=KIND):
         return box_faces((-x, -self.height_m, -z), (x, 0, z)), flanges
 
     def _round(self, flanges_at: Sequence[float]) -> tuple[list[Face], list[Face]]:
-        """The same of two ducts at the sides of the box; where they lead into others, to the middle of the nearer."""
+        """Return the body and flanges of two round ducts; a joint extends both into the nearer transverse duct."""
         radius, half = self.height_m / 2, self.length_m / 2
         start, end = -half - radius * (self.joint < 0), half + radius * (self.joint > 0)
         body: list[Face] = []

@@ -21,7 +21,7 @@ KIND = Kind("exit_sign", number=24, label="exit_sign", cityscapes="traffic sign"
 
 
 class Turn(StrEnum):
-    """The direction in which a sign's arrow sends people."""
+    """The direction of the arrow on an exit sign."""
 
     LEFT = "left"
     AHEAD = "ahead"
@@ -33,7 +33,7 @@ _SIGN_WIDTH_M = 0.8
 _SIGN_DEPTH_M = 0.05
 _LEGEND_M, _GAP_M = (-0.37, 0.12), 0.04
 _RUNNER, _RUNNER_HALF, _WORD = 0.86, 0.62, 0.62
-"""Height of the pictogram and of the word in that of the sign, and half the pictogram's width in its height."""
+"""Heights of the pictogram and the word as shares of the exit sign's, and half the pictogram's width per height."""
 # strokes of E, X, I and T as quadrilaterals in a cell of 1 x 1, counter-clockwise
 _BAR = 0.2
 _LETTERS: dict[str, list[tuple[tuple[float, float], ...]]] = {
@@ -51,7 +51,7 @@ _LETTERS: dict[str, list[tuple[tuple[float, float], ...]]] = {
 
 @dataclass(frozen=True)
 class ExitSignSpec(Spec, kind=KIND):
-    """A lit exit sign that looks to +Z; origin on the ceiling over its middle, its top `top_m` below that."""
+    """A lit exit sign facing +Z; origin on the ceiling over its middle, its top `top_m` below the ceiling."""
 
     turn: Turn
     top_m: float
@@ -59,7 +59,7 @@ class ExitSignSpec(Spec, kind=KIND):
     country: Country = Country.NONE
 
     def asset(self) -> Asset:
-        """A box on two rods, with an arrow and what the country's exit signs have: the word EXIT at first."""
+        """Make the meshes of an exit sign: a box on two rods with an arrow and the country's pictogram or word."""
         signs = SIGNAGE[self.country]
         ground, ink = ("housing_white", "sign_red") if signs.is_red else ("exit_green", "exit_white")
         half, low = _SIGN_WIDTH_M / 2, -self.top_m - self.height_m
@@ -83,7 +83,7 @@ class ExitSignSpec(Spec, kind=KIND):
 
 
 def _arrow(turn_deg: float, x: float, y: float, z: float, reach: float, ink: str) -> list[Part]:
-    """The sign's arrow: a shaft and a head."""
+    """Make the arrow of an exit sign from a shaft and a head."""
     angle = -np.radians(turn_deg)
     turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
     shaft = [(-0.018, -reach), (0.018, -reach), (0.018, 0.1 * reach), (-0.018, 0.1 * reach)]
@@ -93,7 +93,7 @@ def _arrow(turn_deg: float, x: float, y: float, z: float, reach: float, ink: str
 
 
 def _legend(signs: Signage, y: float, z: float, height_m: float, ink: str) -> list[Part]:
-    """The pictogram and the word on the left part of a sign."""
+    """Make the pictogram and the word on the left of an exit sign."""
     left, right = _LEGEND_M
     shapes = []
     if signs.has_runner:
@@ -109,7 +109,7 @@ def _legend(signs: Signage, y: float, z: float, height_m: float, ink: str) -> li
 
 
 def _letters(y: float, z: float, size: float) -> list[Part]:
-    """The word EXIT on the left part of a sign, a part for each stroke."""
+    """Make the word EXIT on the left of an exit sign, one part per stroke."""
     parts = []
     for index, letter in enumerate("EXIT"):
         left = -0.34 + index * size * 0.95

@@ -1,4 +1,4 @@
-"""Pairs of portable fire extinguishers on brackets, with a sign over them."""
+"""Pairs of portable fire extinguishers on brackets, below their sign."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -18,22 +18,22 @@ __all__ = ["KIND", "MOUNTED", "FireExtinguisherSpec"]
 KIND = Kind("fire_extinguisher", number=28, label="fire_extinguisher", cityscapes="static", group="FireProtection")
 
 _SIDES_M = (-0.105, 0.105)
-"""Middles of the two, across."""
+"""Offsets of the two fire extinguishers across the wall, in metres."""
 _RADIUS_M, _FROM_WALL_M, _FOOT_M = 0.067, 0.090, 0.55
-"""Of a 4 kg powder extinguisher, from the wall to its axis, and from the floor to its foot."""
+"""Radius of a 4 kg powder extinguisher, distance from the wall to its axis, and from the floor to its foot."""
 _BODY_M = ((0.0, 0.052), (0.012, 0.064), (0.020, 0.067), (0.350, 0.067), (0.375, 0.062), (0.395, 0.048), (0.408, 0.026))
-"""(height, radius) along a body, from its foot to its shoulder."""
+"""(height, radius) pairs along an extinguisher's body, from its foot to its shoulder."""
 _NECK_M = ((0.406, 0.022), (0.440, 0.022), (0.442, 0.016), (0.455, 0.016))
 _SIGN_M = (1.13, 1.33)
-"""Lower and upper edge of the sign, below the plates of zones."""
+"""Lower and upper edge of the extinguisher sign, below the zone plates."""
 
 
 @dataclass(frozen=True)
 class FireExtinguisherSpec(Spec, kind=KIND):
-    """Two extinguishers on a wall; origin on the floor in the middle of their back, their labels to +Z."""
+    """Two fire extinguishers on a wall; origin on the floor in the middle of their back, labels to +Z."""
 
     def asset(self) -> Asset:
-        """Red bodies with neck, valve, gauge, hose and label, on straps and a rail, under the sign of ISO 7010."""
+        """Make the meshes of two fire extinguishers with valves, hoses and labels, on a rail under their sign (ISO 7010)."""
         pieces = [_extinguisher(side) for side in _SIDES_M]
         faces = {name: [face for piece in pieces for face in piece[name]] for name in pieces[0]}
         bodies = [
@@ -57,7 +57,7 @@ class FireExtinguisherSpec(Spec, kind=KIND):
         )
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Both with their hoses, to the wall."""
+        """Return the outline of both fire extinguishers with their hoses, up to the wall."""
         return (rectangle(-0.20, 0.0, 0.20, 0.18),)
 
 
@@ -65,7 +65,7 @@ MOUNTED = Mounted(FireExtinguisherSpec(), setting="fire_extinguishers", clause="
 
 
 def _extinguisher(x_m: float) -> dict[str, list[Face]]:
-    """The faces of one extinguisher by what they are, where it hangs."""
+    """Return the faces of one fire extinguisher in its place, by part."""
     top = _NECK_M[-1][0]
     squeeze = box_faces((-0.012, top + 0.012, -0.035), (0.012, top + 0.020, 0.075))
     carry = box_faces((-0.012, top - 0.012, -0.030), (0.012, top - 0.004, 0.070))
@@ -99,7 +99,7 @@ def _extinguisher(x_m: float) -> dict[str, list[Face]]:
 
 
 def _wrapped(radius_m: float, heights_m: tuple[float, float], half_deg: float) -> list[Face]:
-    """A label around the front of a body."""
+    """Return the faces of a label around the front of a fire extinguisher."""
     low, high = heights_m
     angles = np.radians(np.linspace(-half_deg, half_deg, 7))
     rim = [(radius_m * np.sin(angle), radius_m * np.cos(angle)) for angle in angles.tolist()]
@@ -109,7 +109,7 @@ def _wrapped(radius_m: float, heights_m: tuple[float, float], half_deg: float) -
 
 
 def _sign() -> list[Part]:
-    """The sign F001 of ISO 7010: an extinguisher and flames in white on red."""
+    """Make the fire extinguisher sign F001 of ISO 7010: an extinguisher and flames in white on red."""
     low, high = _SIGN_M
     half = (high - low) / 2
     plate = box_faces((-half, low, 0.006), (half, high, 0.009))

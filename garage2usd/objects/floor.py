@@ -1,4 +1,4 @@
-"""The floor of squares, open where stalls lie."""
+"""The concrete floor of squares, with openings for the stalls."""
 
 from garage2usd.objects.kind import Kind
 from garage2usd.objects.panel import PanelSpec
@@ -9,4 +9,4 @@ KIND = Kind("floor", number=1, label="floor", cityscapes="road", is_solid=False)
 
 
 class FloorSpec(PanelSpec, kind=KIND):
-    """The floor of a square."""
+    """The floor panel of a square."""

@@ -1,4 +1,4 @@
-"""Wear of the floor as thin sheets: oil, damp, cracks, patches, tyre marks, dirt along the ways of wheels, puddles."""
+"""Stains and wear of the floor as thin sheets: oil, damp, cracks, patches, tyre marks, wheel tracks and puddles."""
 
 import math
 from collections.abc import Callable
@@ -26,14 +26,14 @@ _TYRE_WIDTH_M = 0.24
 _GAUGE_M = 1.55
 _STEP_DEG = 7.5
 _EDGE = 1 / 512
-"""What is left out around each cell, so that a small texture does not mix it with its neighbour."""
+"""Margin around each cell of the stain texture, so that mipmaps do not mix it with its neighbours."""
 
 
 class StainMark(StrEnum):
-    """What stains a floor."""
+    """The marks of stains on a floor."""
 
     WEAR_STRAIGHT = "wear_straight"
-    """Wheels that rolled from -Z to +Z; a bend joins +Z and +X, a T-junction lets +Z into the lane along X."""
+    """Wheel tracks from -Z to +Z; a bend joins +Z and +X, a T-junction lets +Z into the lane along X."""
     WEAR_BEND = "wear_bend"
     WEAR_T = "wear_t"
     WEAR_CROSS = "wear_cross"
@@ -46,7 +46,7 @@ class StainMark(StrEnum):
 
 @dataclass(frozen=True)
 class StainSpec(Spec, kind=KIND):
-    """A stain on a rectangle of the floor; origin in its middle."""
+    """A floor stain on a rectangle; origin in its middle."""
 
     mark: StainMark
     variant: int
@@ -54,7 +54,7 @@ class StainSpec(Spec, kind=KIND):
     depth_m: float
 
     def asset(self) -> Asset:
-        """A level sheet with the top of its cell to -Z."""
+        """Make the mesh of a floor stain: a level sheet with the top of its texture cell to -Z."""
         x, z = self.width_m / 2, self.depth_m / 2
         left, top, right, bottom = _bounds(self._cell())
 
@@ -74,7 +74,7 @@ class StainSpec(Spec, kind=KIND):
 
 @dataclass(frozen=True)
 class DirtSpec(StainSpec):
-    """A square of a lane that wheels have made less or more dark than usual; its mark is one of wear."""
+    """A floor stain on a square of a lane that wheels made lighter or darker; its mark is one of wear."""
 
     dirt: Dirt
 
@@ -87,14 +87,14 @@ class DirtSpec(StainSpec):
 
 @dataclass(frozen=True)
 class PuddleSpec(Spec, kind=KIND):
-    """A puddle that fills a rectangle of the floor with its damp border; origin in its middle."""
+    """A puddle with its damp border, filling a rectangle of the floor; origin in its middle."""
 
     variant: int
     width_m: float
     depth_m: float
 
     def asset(self) -> Asset:
-        """Water that mirrors, and the wet floor around it; both let the floor be seen."""
+        """Make the meshes of a puddle: reflecting water and the wet floor around it, both translucent."""
         outline = puddle_outline(self.variant, self.width_m, self.depth_m)
         return Asset(
             (
@@ -106,14 +106,14 @@ class PuddleSpec(Spec, kind=KIND):
 
 @dataclass(frozen=True)
 class TyreMarkSpec(Spec, kind=KIND):
-    """The marks of a car's wheels; origin in the middle of their end, where the car moved to -Z.
+    """The tyre marks of a car; origin in the middle of their end, where the car moved to -Z.
 
     Attributes
     ----------
     length_m
-        Of the way between them.
+        Length of the path midway between the marks.
     turn_rad
-        By how much the car turned on it; positive where it came from +X.
+        Angle by which the car turned along it; positive if it came from +X.
     """
 
     variant: int
@@ -121,7 +121,7 @@ class TyreMarkSpec(Spec, kind=KIND):
     turn_rad: float = 0.0
 
     def asset(self) -> Asset:
-        """The marks of two wheels."""
+        """Make the meshes of the tyre marks of two wheels."""
         cell = _bounds(CELLS["tyre"][self.variant])
         parts = [
             make_part(name, faces, "stain_rubber", project=_along_strip(cell, faces))
@@ -132,7 +132,7 @@ class TyreMarkSpec(Spec, kind=KIND):
 
 
 def _strip(offset_m: float, length_m: float, turn_rad: float) -> list[Face]:
-    """The faces of one wheel's mark, from its end back to its start, `offset_m` to the right of the middle."""
+    """Return the faces of one wheel's tyre mark, from its end back to its start, `offset_m` right of the middle."""
     count = max(1, math.ceil(math.degrees(abs(turn_rad)) / _STEP_DEG))
     inner, outer = offset_m - _TYRE_WIDTH_M / 2, offset_m + _TYRE_WIDTH_M / 2
     rows = []
@@ -147,7 +147,7 @@ def _strip(offset_m: float, length_m: float, turn_rad: float) -> list[Face]:
 
 
 def _along_strip(cell: tuple[float, float, float, float], faces: list[Face]) -> Projection:
-    """Texture coordinates along a strip: its end at the top of the cell, its start at the bottom."""
+    """Return texture coordinates along a tyre mark: its end at the top of the cell, its start at the bottom."""
     left, top, right, bottom = cell
     places = []
     for index in range(len(faces)):
@@ -165,6 +165,6 @@ def _along_strip(cell: tuple[float, float, float, float], faces: list[Face]) -> 
 
 
 def _bounds(cell: Cell) -> tuple[float, float, float, float]:
-    """Left, top, right and bottom of a cell in shares of the texture."""
+    """Return left, top, right and bottom of a cell of the stain texture, as shares of the texture."""
     x, y, width, height = (value / CELLS_ACROSS for value in cell)
     return x + _EDGE, y + _EDGE, x + width - _EDGE, y + height - _EDGE

@@ -20,13 +20,13 @@ __all__ = ["KIND", "MOUNTED", "HydrantCabinetSpec"]
 KIND = Kind("hydrant_cabinet", number=27, label="hydrant_cabinet", cityscapes="static", group="FireProtection")
 
 _WIDTH_M, _HEIGHT_M, _DEPTH_M = 0.65, 0.80, 0.24
-"""The smallest cabinet of GB/T 14561-2019."""
+"""Width, height and depth of the smallest cabinet of GB/T 14561-2019."""
 _FOOT_M = 0.88
-"""From the floor up to it: the outlet is at 1.10 m then, and the top below the letters of zones."""
+"""Height of the hydrant cabinet's bottom, which puts its outlet at 1.10 m and its top below the zone plates' letters."""
 _OUTLET_M = 1.10
 _SHEET_M, _DOOR_M, _FRAME_M = 0.012, 0.022, 0.055
 _PANEL_M = 0.26
-"""Height of the steel panel under the glass."""
+"""Height of the steel panel under the cabinet's glass."""
 _TEXT_LENGTH_M = 0.46
 _REEL_M = 0.20
 _PIPE_M = 0.038
@@ -34,18 +34,18 @@ _PIPE_M = 0.038
 
 @dataclass(frozen=True)
 class HydrantCabinetSpec(Spec, kind=KIND):
-    """A cabinet fed by a pipe from the floor; origin on the floor in the middle of its back, its front to +Z.
+    """A fire hydrant cabinet with a supply pipe; origin on the floor in the middle of its back, front to +Z.
 
     Attributes
     ----------
     country
-        Whose words and number it has.
+        Country of the cabinet's words and fire number.
     """
 
     country: Country = Country.NONE
 
     def asset(self) -> Asset:
-        """A red cabinet with a framed glass door, lettered on the panel below, with what is in it, and its pipe."""
+        """Make the meshes of a red hydrant cabinet: glass door, lettered panel, valve, hose, nozzle and supply pipe."""
         x, low, high, front = _WIDTH_M / 2, _FOOT_M, _FOOT_M + _HEIGHT_M, _DEPTH_M - _DOOR_M
         inside = (-x + _SHEET_M, low + _SHEET_M, 0.0), (x - _SHEET_M, high - _SHEET_M, front)
         back = box_faces(inside[0], (inside[1][0], inside[1][1], _SHEET_M))
@@ -62,7 +62,7 @@ class HydrantCabinetSpec(Spec, kind=KIND):
         )
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """The cabinet with its handle."""
+        """Return the outline of the hydrant cabinet with its handle."""
         return (rectangle(-_WIDTH_M / 2, 0.0, _WIDTH_M / 2, _DEPTH_M + 0.03),)
 
 
@@ -78,7 +78,7 @@ MOUNTED = Mounted(
 
 
 def _door(x: float, low: float, high: float, back: float, country: Country) -> list[Part]:
-    """The door leaf: a frame, the glass, the lettered panel under it, a handle and two hinges."""
+    """Make the door of a hydrant cabinet: frame, glass, lettered panel, handle and two hinges."""
     frame = _FRAME_M
     opening = (-x + frame, low + frame, back), (x - frame, high - frame, _DEPTH_M)
     sill = low + frame + _PANEL_M
@@ -110,7 +110,7 @@ def _door(x: float, low: float, high: float, back: float, country: Country) -> l
 
 
 def _fittings(at_pipe: tuple[float, float, float]) -> list[Part]:
-    """The riser's end with its valve and hand wheel, the hose on its reel, and the nozzle."""
+    """Make the inside of a hydrant cabinet: riser with valve and hand wheel, hose on its reel, and nozzle."""
     top = _OUTLET_M + 0.06
     riser = upright_lathe_faces([(_FOOT_M + _SHEET_M, _PIPE_M), (top, _PIPE_M)], segments=16)
     # the outlet looks to +Z, the wheel's stem to the top

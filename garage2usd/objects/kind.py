@@ -1,4 +1,4 @@
-"""What each module of this package declares: a kind of object, and the shapes that objects of it have."""
+"""The base classes of the modules of objects: a kind of object, and the shapes of its objects."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from garage2usd.objects.outline import Polygon
 __all__ = ["Kind", "Look", "Spec", "TilePart", "VariantSet"]
 
 Look = tuple[tuple[str, str], ...]
-"""(variant set, variant) pairs that an instance selects."""
+"""(variant set, variant) pairs selected by an instance."""
 
 
 class VariantSet(StrEnum):
@@ -23,7 +23,7 @@ class VariantSet(StrEnum):
 
 
 class TilePart(StrEnum):
-    """The parts that tiles consist of where they share prototypes: each repeats more often than whole tiles."""
+    """The parts of tiles that become shared prototypes, since parts repeat more often than whole tiles."""
 
     BUILDING = "Building"
     PARKING = "Parking"
@@ -36,23 +36,23 @@ class Kind:
     Attributes
     ----------
     name
-        As reports count it; assets are named after it.
+        Name in reports and in the names of assets.
     number
-        Id of its semantic class, from 1, which is never given to another kind; kinds are listed in this order.
+        Id of the semantic class, from 1 and never reused; kinds are listed by number.
     label
-        Its semantic class.
+        Semantic class.
     cityscapes
         Name of the nearest Cityscapes class.
     is_solid
-        Whether something can touch it; False for what lies on the floor, clads another object or is the sky.
+        True if objects of the kind can be touched; False for floor markings, cladding and the sky.
     follows
-        The variant set of the garage that switches it.
+        Variant set of the garage that switches the kind.
     group
-        Group of the building that holds those that stand on no square.
+        Group of the building that holds the objects outside squares.
     part
-        The part of a tile that holds those that stand on one.
+        Part of a tile that holds the objects on a square.
     scattered
-        Where tiles share prototypes, the point instancer that draws it, because it makes all tiles different.
+        Point instancer that draws the kind where tiles share prototypes, since its objects make all tiles differ.
     """
 
     name: str
@@ -67,40 +67,40 @@ class Kind:
 
 
 class Spec(ABC):
-    """A shape by its measures: what a placement places. Equal specs are one prototype.
+    """The shape of an object by its measures, for placements. Equal specs share one prototype.
 
     Attributes
     ----------
     kind
-        What every object of this shape is.
+        Kind of the objects of this shape.
     """
 
     kind: ClassVar[Kind]
 
     def __init_subclass__(cls, *, kind: Kind | None = None) -> None:
-        """Take the kind from the class statement: ``class MirrorSpec(Spec, kind=KIND)``."""
+        """Set the kind of object from the class statement: ``class MirrorSpec(Spec, kind=KIND)``."""
         if kind is not None:
             cls.kind = kind
 
     @property
     def shape(self) -> Self:
-        """The spec whose asset this one uses: itself, unless variants of one asset make the difference."""
+        """The spec that owns the asset: the spec itself, unless it is a variant of another spec's asset."""
         return self
 
     @property
     def look(self) -> Look:
-        """The variants of that asset."""
+        """Variants of the asset that this object selects."""
         return ()
 
     @property
     def mass_kg(self) -> float | None:
-        """Mass of a thing that can be moved; None for what belongs to the building."""
+        """Mass of a movable object in kilograms; None for a part of the building."""
         return None
 
     @abstractmethod
     def asset(self) -> Asset:
-        """Make its meshes, with their colliders."""
+        """Make the meshes and colliders of the object."""
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Convex outlines on the floor that hold all of it that a car could touch; none where a car touches nothing."""
+        """Return convex outlines on the floor around all that a car could touch; none if a car touches nothing."""
         return ()

@@ -1,4 +1,4 @@
-"""Lamps under the ceiling: battens with bare tubes, square panels, round lamps."""
+"""Ceiling lamps: battens with bare tubes, square panels, round lamps."""
 
 import math
 from dataclasses import dataclass
@@ -17,27 +17,27 @@ _BATTEN_HEIGHT_M, _TUBE_RADIUS_M = 0.06, 0.016
 _PANEL_HEIGHT_M, _PANEL_BORDER_M, _PANEL_LIP_M = 0.05, 0.012, 0.004
 _RIM_HEIGHT_M, _RIM_M = 0.035, 0.012
 _BOWL = ((0.095, 0.1), (0.092, 0.34), (0.080, 0.62), (0.060, 0.86), (_RIM_HEIGHT_M, 1.0))
-"""How far below its top the cover of a round lamp is, and its radius there as a share of the whole."""
+"""(depth below the top, share of the radius) pairs along the cover of a round lamp."""
 
 
 @dataclass(frozen=True)
 class LampSpec(Spec, kind=KIND):
-    """A lamp; origin in the middle of its top.
+    """A ceiling lamp; origin in the middle of its top.
 
     Attributes
     ----------
     length_m, width_m
-        Of its lit face along X and Z; both are the diameter of a round one.
+        Extent of the lit face along X and Z; both are the diameter of a round lamp.
     drop_m
-        From its top down to its lit face.
+        Distance from the lamp's top down to its lit face.
     luminance_nit
-        Of that face, which looks down, cd/m2; of the lamp as it is when it burns.
+        Luminance in cd/m2 of the lit face, which faces down, while the lamp burns.
     form
-        What it is; tubes lie along X.
+        Form of the lamp; tubes lie along X.
     temperature_k
-        Colour temperature.
+        Colour temperature in kelvins.
     is_dead
-        Whether it hangs there and gives no light.
+        True if the lamp gives no light.
     """
 
     length_m: float
@@ -50,11 +50,11 @@ class LampSpec(Spec, kind=KIND):
 
     @property
     def area_m2(self) -> float:
-        """Of its lit face."""
+        """Area of the lamp's lit face in square metres."""
         return self.length_m * self.width_m * (math.pi / 4 if self.form is LampKind.ROUND else 1.0)
 
     def asset(self) -> Asset:
-        """Its housing, what glows in it, and a light that shines from `drop_m` below."""
+        """Make the meshes of a lamp: housing, glowing face, and an area light `drop_m` below the top."""
         light = AreaLight(
             self.length_m,
             self.width_m,
@@ -69,7 +69,7 @@ class LampSpec(Spec, kind=KIND):
         )
 
     def _tubes(self, glow: str) -> tuple[Part, ...]:
-        """A batten with two bare tubes."""
+        """Make a batten lamp with two bare tubes."""
         x, z = self.length_m / 2, self.width_m / 2
         housing = box_faces((-x, -_BATTEN_HEIGHT_M, -z), (x, 0, z))
         ends: list[Face] = []
@@ -86,7 +86,7 @@ class LampSpec(Spec, kind=KIND):
         )
 
     def _panel(self, glow: str) -> tuple[Part, ...]:
-        """A flat box whose lower side glows within a frame."""
+        """Make a panel lamp: a flat box with a glowing, framed underside."""
         x, z, border = self.length_m / 2, self.width_m / 2, _PANEL_BORDER_M
         box = box_faces((-x, -_PANEL_HEIGHT_M, -z), (x, 0, z))
         low, lit = -_PANEL_HEIGHT_M - _PANEL_LIP_M, -_PANEL_HEIGHT_M - _PANEL_LIP_M / 2
@@ -103,7 +103,7 @@ class LampSpec(Spec, kind=KIND):
         )
 
     def _bowl(self, glow: str) -> tuple[Part, ...]:
-        """A flat drum under which a shallow bowl glows."""
+        """Make a round lamp: a flat drum over a shallow, glowing bowl."""
         radius = self.length_m / 2
         rim = upright_lathe_faces([(-_RIM_HEIGHT_M, radius), (0.0, radius)], segments=24)
         bowl = upright_lathe_faces([(-depth, share * (radius - _RIM_M)) for depth, share in _BOWL], segments=24)

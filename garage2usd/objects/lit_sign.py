@@ -1,4 +1,4 @@
-"""Lit signs over vehicle doors: who may drive through, and who may not."""
+"""Lit signs over vehicle doors: ways in and out, and no entry."""
 
 import numpy as np
 import shapely
@@ -16,12 +16,12 @@ __all__ = ["lit_sign"]
 
 _MOST_HEIGHT_M, _LEAST_HEIGHT_M = 0.5, 0.06
 _LENGTH = 5.6
-"""In heights of the sign, as all measures of what is on it."""
+"""Length of a lit sign in sign heights, the unit of all measures on it."""
 _TEXT, _HAN_TEXT, _TEXT_LENGTH = 0.5, 0.66, 3.4
 _SYMBOLS_AT = (-2.3, 2.3)
 _ARROW = ((-0.1, -0.36), (0.1, -0.36), (0.1, 0.0), (0.3, 0.0), (0.0, 0.36), (-0.3, 0.0), (-0.1, 0.0))
 _PLATE, _DISC, _BAR = 0.84, 0.38, (0.27, 0.07)
-"""Of the sign of no entry: side of the white plate, radius of the disc, half of its bar's length and width."""
+"""Measures of the no-entry sign: side of its white plate, radius of its disc, half length and half width of its bar."""
 _DEPTH_M, _LIFT_M = 0.06, 0.004
 
 
@@ -35,28 +35,28 @@ def lit_sign(
     country: Country = Country.NONE,
     looks_back: bool = False,
 ) -> list[Part]:
-    """A lit sign on a wall, as large as its room allows; none where that is too low.
+    """Make a lit sign on the wall over a vehicle door, as large as fits; none if the space is too low.
 
     Parameters
     ----------
     name
-        What its parts' names begin with.
+        Prefix of the names of the sign's parts.
     way
-        What it says.
+        Message of the sign.
     across_m, heights_m
-        The room for it along X and Y.
+        Space for the sign along X and Y.
     wall_m
-        Where the wall's face is along Z.
+        Z of the wall's face.
     country
-        Whose words it has.
+        Country of the sign's words.
     looks_back
-        Whether it looks to -Z, not to +Z.
+        True if the sign faces -Z, else +Z.
 
     Notes
     -----
-    Over a lane, green with an arrow that points down says that it is open (Vienna Convention on Road Signs and Signals,
-    article 23), and a red disc with a white bar that nobody may enter (its sign C, 1; on a plate as R5-1 of the MUTCD).
-    Letters and arrows are white, as on signs that show the way.
+    A green sign with an arrow that points down marks an open lane (Vienna Convention on Road Signs and Signals, article
+    23). A red disc with a white bar forbids entry (its sign C, 1; on a plate as R5-1 of the MUTCD). Letters and arrows
+    are white, as on direction signs.
     """
     (left, right), (low, high) = across_m, heights_m
     height = min(high - low, (right - left) / _LENGTH, _MOST_HEIGHT_M)
@@ -80,7 +80,7 @@ def lit_sign(
 
 
 def _around_disc() -> shapely.Geometry:
-    """The white of the sign of no entry: its plate around the disc, and the bar on it."""
+    """Return the white areas of a no-entry sign: the plate around the disc, and the bar."""
     bar = shapely.box(-_BAR[0], -_BAR[1], *_BAR)
     disc = shapely.Point(0, 0).buffer(_DISC, quad_segs=6).difference(bar)
     return shapely.box(-_PLATE / 2, -_PLATE / 2, _PLATE / 2, _PLATE / 2).difference(disc)

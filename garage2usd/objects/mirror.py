@@ -15,13 +15,13 @@ KIND = Kind("mirror", number=25, label="mirror", cityscapes="static")
 
 @dataclass(frozen=True)
 class MirrorSpec(Spec, kind=KIND):
-    """A convex traffic mirror that looks to +Z; origin in the middle of its rim, which an arm holds from behind."""
+    """A convex traffic mirror facing +Z; origin in the middle of its rim, which an arm holds from behind."""
 
     radius_m: float
     arm_m: float
 
     def asset(self) -> Asset:
-        """A convex glass in an orange rim, on an arm to -Z."""
+        """Make the meshes of a convex mirror: glass in an orange rim, on an arm to -Z."""
         rim = [
             (-0.03, 0.0),
             (-0.03, self.radius_m),

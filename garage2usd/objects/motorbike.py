@@ -1,4 +1,4 @@
-"""Motorbikes: scooters and naked ones."""
+"""Motorbikes: scooters and naked bikes."""
 
 from dataclasses import dataclass
 
@@ -18,14 +18,14 @@ _SIDE = (1.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class MotorbikeSpec(Spec, kind=KIND):
-    """A motorbike upright on its stand; origin on the floor in its middle, looking to +Z.
+    """A motorbike upright on its stand; origin on the floor in its middle, facing +Z.
 
     Attributes
     ----------
     colour
-        Of its tank or shell, one of `MOTORBIKE_COLOURS`.
+        Colour of the tank or shell, one of `MOTORBIKE_COLOURS`.
     is_scooter
-        Whether it is a scooter.
+        True if the motorbike is a scooter.
     """
 
     colour: str = "black"
@@ -33,11 +33,11 @@ class MotorbikeSpec(Spec, kind=KIND):
 
     @property
     def mass_kg(self) -> float:
-        """Mass with its fuel; assumption."""
+        """Mass of the motorbike with fuel in kilograms; assumption."""
         return 130.0 if self.is_scooter else 200.0
 
     def asset(self) -> Asset:
-        """Wheels, fork, engine or shell, tank, seat, lamps and handlebars with mirrors."""
+        """Make the meshes of a motorbike: wheels, fork, engine or shell, tank, seat, lamps, handlebars and mirrors."""
         parts = _scooter() if self.is_scooter else _naked()
         materials = {
             "Body": f"car_paint_{self.colour}",
@@ -64,7 +64,7 @@ class MotorbikeSpec(Spec, kind=KIND):
         )
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Handlebars, mirrors and wheels."""
+        """Return the outline of the motorbike's handlebars, mirrors and wheels."""
         return (rectangle(-0.39, -0.93, 0.39, 0.93) if self.is_scooter else rectangle(-0.42, -1.05, 0.42, 1.05),)
 
 

@@ -1,4 +1,4 @@
-"""Objects that hang on walls and columns, as many as it takes for every place to have one within reach."""
+"""Rules for objects that hang on walls and columns within reach of every place, such as fire extinguishers."""
 
 from dataclasses import dataclass
 
@@ -9,25 +9,24 @@ __all__ = ["Mounted"]
 
 @dataclass(frozen=True)
 class Mounted:
-    """What a module declares as ``MOUNTED`` beside its kind, so that the layout places it.
+    """The rules of a kind that hangs on walls and columns; a module declares them as ``MOUNTED``.
 
     Attributes
     ----------
     spec
-        The shape; origin on the floor, in the middle of its back, which touches what it hangs on; it looks to +Z.
+        Shape of the object; origin on the floor, in the middle of its back on the wall, facing +Z.
     setting
         Name of its switch in the fittings.
     clause
-        Name of the profile's clause on how far it serves.
+        Name of the profile's clause on its reach.
     reach_m
-        The same where the profile has none.
+        Reach in metres if the profile has no such clause.
     count
-        How many serve each place.
+        Number of objects within reach of each place.
     spacing
-        Name of the profile's clause on how far the next one of its kind is at most; None where that does not matter.
+        Name of the profile's clause on the largest distance to the next object of the kind; None without a limit.
     is_walked
-        Whether how far it serves is measured as people walk between rows of cars, along X and then along Z; else
-        straight.
+        True if the reach is a walking distance between rows of cars, along X and then Z; else a straight distance.
     """
 
     spec: Spec
@@ -40,10 +39,10 @@ class Mounted:
 
     @property
     def kind(self) -> Kind:
-        """What it is."""
+        """Kind of the mounted object."""
         return self.spec.kind
 
     @property
     def norm(self) -> int:
-        """The Minkowski norm of its distance: 1 if it is walked along both axes, 2 if it is straight."""
+        """Minkowski norm of the reach: 1 for a walking distance along both axes, 2 for a straight one."""
         return 1 if self.is_walked else 2

@@ -18,10 +18,10 @@ _DISC_RADIUS_M = 0.3
 
 @dataclass(frozen=True)
 class NoParkingSignSpec(Spec, kind=KIND):
-    """A free-standing no-parking sign that looks to +Z; origin in the middle of its foot."""
+    """A free-standing no-parking sign facing +Z; origin in the middle of its foot."""
 
     def asset(self) -> Asset:
-        """A disc on a post with a heavy foot."""
+        """Make the meshes of a no-parking sign: a disc on a post with a heavy foot."""
         foot = upright_lathe_faces([(0.0, 0.22), (0.05, 0.22), (0.09, 0.06)], segments=20)
         post = upright_lathe_faces([(0.09, 0.025), (1.45, 0.025)], segments=10)
         centre = 1.7
@@ -41,5 +41,5 @@ class NoParkingSignSpec(Spec, kind=KIND):
         )
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """The disc over its foot, from every side."""
+        """Return the outline of the no-parking sign: a square around its disc in any direction."""
         return (square(2 * _DISC_RADIUS_M),)

@@ -27,7 +27,7 @@ KIND = Kind(
 
 @dataclass(frozen=True)
 class NumberPlateSpec(Spec, kind=KIND):
-    """The front and the rear plate of a car; origin where the car's is, in the middle of its footprint, nose to -Z."""
+    """The front and rear number plates of a car; origin as the car's, in the middle of its footprint, nose to -Z."""
 
     body: str
     text: str
@@ -35,32 +35,32 @@ class NumberPlateSpec(Spec, kind=KIND):
 
     @property
     def shape(self) -> Self:
-        """The plates of the same body without text, as all are one asset: texture coordinates make the difference."""
+        """The same number plates without text, since texture coordinates of one asset make the difference."""
         return replace(self, text=" " * PLATE_STYLES[self.country].characters)
 
     @property
     def measures(self) -> CarBody:
-        """Those of the car."""
+        """Measures of the car that carries the number plates."""
         return body_named(self.body)
 
     def asset(self) -> Asset:
-        """Both plates with the text."""
+        """Make the meshes of both number plates with their text."""
         return number_plates(self.measures, self.text, self.country)
 
 
 @dataclass(frozen=True)
 class OpenPlateSpec(NumberPlateSpec):
-    """The plates of a car of the catalogue whose boot is open, with the rear plate on it."""
+    """The number plates of a catalogue car with an open boot, which carries the rear plate."""
 
     def asset(self) -> Asset:
-        """Both plates with the text."""
+        """Make the meshes of both number plates, the rear one swung up with the boot."""
         asset = super().asset()
         return replace(asset, parts=tuple(with_rear_swung_up(part, self.measures) for part in asset.parts))
 
 
 @dataclass(frozen=True)
 class OwnPlateSpec(NumberPlateSpec):
-    """The plates of a car that is a model of one's own.
+    """The number plates of a car modelled by the user.
 
     Attributes
     ----------
@@ -72,12 +72,12 @@ class OwnPlateSpec(NumberPlateSpec):
 
     @property
     def measures(self) -> CarBody:
-        """Those of the car."""
+        """Measures of the user's car that carries the number plates."""
         return self.car or super().measures
 
 
 def plates_on(car: CarSpec, text: str, country: Country) -> NumberPlateSpec:
-    """The plates of a car, whether it is of the catalogue or a model of one's own."""
+    """Return the number plates of a parked car, from the catalogue or from the user's model."""
     if isinstance(car, OwnCarSpec):
         return OwnPlateSpec(car.body, text, country, car.measures)
     of = OpenPlateSpec if isinstance(car, OpenCarSpec) else NumberPlateSpec

@@ -18,23 +18,23 @@ KIND = Kind("obstacle", number=6, label="obstacle", cityscapes="building", group
 
 _STRIPE_M = 0.12
 _SIGN_OVER_DOOR_M = (2.3, 2.6)
-"""Lower and upper edge of the sign over a core's door."""
+"""Lower and upper edge of the exit sign over a stair core's door."""
 _CORE_DOOR_M = (1.2, 0.09)
-"""Width of the door of a stair core with its frame, and how far it stands out of the wall."""
+"""Width of a stair core's door with its frame, and its projection from the wall."""
 
 
 @dataclass(frozen=True)
 class ObstacleSpec(Spec, kind=KIND):
-    """A concrete core; origin in the middle of its foot, its door in the middle of the side that looks to +Z.
+    """A concrete block or stair core; origin in the middle of its foot, door in the middle of the side facing +Z.
 
     Attributes
     ----------
     width_m, depth_m, height_m
-        Extent.
+        Extent of the block.
     has_door
-        Whether it has one.
+        True for a stair core with a door.
     dado_m
-        Height of a painted band at its foot as walls have it, 0 without any; None for hazard stripes.
+        Height of a painted band at the foot, 0 for none; None for hazard stripes.
     """
 
     width_m: float
@@ -44,7 +44,7 @@ class ObstacleSpec(Spec, kind=KIND):
     dado_m: float | None = None
 
     def asset(self) -> Asset:
-        """A block with a band around its foot; a core has a door, with an exit sign where there is room."""
+        """Make the meshes of a concrete block: the band around its foot, and a core's door and exit sign."""
         x, z = self.width_m / 2, self.depth_m / 2
         top = _STRIPE_M * 3 if self.dado_m is None else self.dado_m
         band = box_faces((-x, 0, -z), (x, top, z), without="tb")
@@ -70,7 +70,7 @@ class ObstacleSpec(Spec, kind=KIND):
         )
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """The block, and its door with the frame."""
+        """Return the outlines of the concrete block and of its door with the frame."""
         x, z = self.width_m / 2, self.depth_m / 2
         block = rectangle(-x, -z, x, z)
         if not self.has_door:
@@ -80,7 +80,7 @@ class ObstacleSpec(Spec, kind=KIND):
 
 
 def _exit_sign(face_m: float, height_m: float) -> list[Part]:
-    """A green plate over a core's door with who runs through a doorway; none where the ceiling leaves no room."""
+    """Make the green exit sign with the running man over a stair core's door; none if the ceiling is too low."""
     low, high = _SIGN_OVER_DOOR_M
     if high > height_m - _STRIPE_M:
         return []

@@ -1,4 +1,4 @@
-"""Outlines in (x, z), metres, in the coordinates of what they belong to."""
+"""Outlines in (x, z), in metres and in local coordinates of their object."""
 
 __all__ = ["Box", "Point", "Polygon", "rectangle", "square"]
 
@@ -10,10 +10,10 @@ Box = tuple[float, float, float, float]
 
 
 def rectangle(left: float, top: float, right: float, bottom: float) -> Polygon:
-    """The corners of an axis-aligned rectangle, x from left to right and z from top to bottom."""
+    """Return the corners of an axis-aligned rectangle outline, x from left to right and z from top to bottom."""
     return (left, top), (left, bottom), (right, bottom), (right, top)
 
 
 def square(side_m: float) -> Polygon:
-    """The corners of an axis-aligned square around the origin."""
+    """Return the corners of an axis-aligned square outline around the origin."""
     return rectangle(-side_m / 2, -side_m / 2, side_m / 2, side_m / 2)

@@ -1,4 +1,4 @@
-"""Pallets."""
+"""Stacks of wooden pallets."""
 
 from dataclasses import dataclass
 
@@ -17,19 +17,19 @@ PALLET_HEIGHT_M = 0.144
 _LENGTH_M, _WIDTH_M = 1.2, 0.8
 _BOARD_M, _JOINT_M = 0.022, 0.0005
 _ROWS_M = ((-0.4, -0.3), (-0.0725, 0.0725), (0.3, 0.4))
-"""Where its three rows of blocks lie across it."""
+"""Extent across a pallet of its three rows of blocks."""
 
 
 @dataclass(frozen=True)
 class PalletSpec(Spec, kind=KIND):
-    """Flat pallets of EN 13698-1, 1.2 m along X and 0.8 m along Z, on each other; origin on the floor in the middle.
+    """A stack of flat pallets of EN 13698-1, 1.2 m along X and 0.8 m along Z; origin on the floor in the middle.
 
     Attributes
     ----------
     count
-        How many.
+        Number of pallets.
     is_upright
-        Whether they stand on a long side instead, deep along Z.
+        True if the pallets are stood on a long side, deep along Z.
     """
 
     count: int = 1
@@ -37,11 +37,11 @@ class PalletSpec(Spec, kind=KIND):
 
     @property
     def mass_kg(self) -> float:
-        """Mass: 25 kg for each, as EPAL gives for the Euro pallet."""
+        """Mass of the pallets, 25 kg each as EPAL gives for the Euro pallet."""
         return 25.0 * self.count
 
     def asset(self) -> Asset:
-        """Boards on boards on nine blocks on three runners, each pallet 0.144 m high."""
+        """Make the mesh of pallets: boards on nine blocks on three runners, each pallet 0.144 m high."""
         wood: list[Face] = []
         for number in range(self.count):
             wood += moved(_pallet(), (0.0, number * PALLET_HEIGHT_M, 0.0))
@@ -54,7 +54,7 @@ class PalletSpec(Spec, kind=KIND):
         return Asset((make_part("Wood", wood, "wood_pallet", collider=Collider.BOX),))
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """The boards."""
+        """Return the outline of the pallets on the floor."""
         return (rectangle(-_LENGTH_M / 2, -self._depth_m / 2, _LENGTH_M / 2, self._depth_m / 2),)
 
     @property

@@ -1,4 +1,4 @@
-"""Flat pieces of floor with their markings, partitioned so that nothing lies on anything else."""
+"""Floor panels: flat pieces of floor partitioned by their markings, so that no face covers another."""
 
 from collections import defaultdict
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ __all__ = ["Marking", "Paint", "PanelSpec", "Surface"]
 
 
 class Surface(StrEnum):
-    """What a floor panel is coated with."""
+    """The coating of a floor panel."""
 
     LANE = "lane"
     STALL = "stall"
@@ -49,7 +49,7 @@ _MATERIALS = {
 
 
 class Paint(StrEnum):
-    """What is painted on a floor panel: its semantic class."""
+    """The semantic class of a marking painted on a floor panel."""
 
     STALL_LINE = "stall_line"
     LANE_LINE = "lane_line"
@@ -66,11 +66,11 @@ class Marking:
     Attributes
     ----------
     polygon
-        Without holes.
+        Polygon without holes.
     surface
-        What it is painted with.
+        Paint or coating of the polygon.
     paint
-        Its semantic class; None for what belongs to the floor, as coloured strips and traces of older lines do.
+        Semantic class; None for a part of the floor, such as coloured strips and traces of older lines.
     """
 
     polygon: Polygon
@@ -80,19 +80,18 @@ class Marking:
 
 @dataclass(frozen=True)
 class PanelSpec(Spec):
-    """A flat piece of floor with its markings; origin in its middle.
+    """A floor panel: a flat piece of floor with its markings; origin in its middle.
 
     Attributes
     ----------
     width_m, depth_m
         Extent along X and Z.
     surface
-        Coating where nothing is marked.
+        Coating of the unmarked floor.
     markings
-        Painted polygons; those of each class and surface become a mesh of its own in the same plane. Where classes
-        overlap, the first one counts.
+        Painted polygons; each class and surface becomes one mesh in the same plane. The first class wins an overlap.
     openings
-        Polygons where other panels lie, free of this one.
+        Polygons cut out of the panel, where other panels lie.
     """
 
     width_m: float
@@ -102,7 +101,7 @@ class PanelSpec(Spec):
     openings: tuple[Polygon, ...] = ()
 
     def __hash__(self) -> int:
-        """As of any frozen value, but kept: the polygons are many and every object is looked up by its spec."""
+        """Return the cached hash of the floor panel, since hashing its many polygons is slow."""
         return self._hash
 
     @cached_property
@@ -110,7 +109,7 @@ class PanelSpec(Spec):
         return hash((self.width_m, self.depth_m, self.surface, self.markings, self.openings))
 
     def asset(self) -> Asset:
-        """Coating and paint, each a level sheet."""
+        """Make the meshes of a floor panel: coating and paints, each a level sheet."""
         groups: dict[tuple[Paint | None, Surface], list[shapely.Polygon]] = defaultdict(list)
         for marking in self.markings:
             groups[marking.paint, marking.surface].append(shapely.Polygon(marking.polygon))
@@ -131,7 +130,7 @@ class PanelSpec(Spec):
 
 
 def _level(shape: shapely.Geometry) -> shapely.Geometry:
-    """What has an area of a shape: where paints only touch, it holds lines and points as well."""
+    """Return the polygons of a shape, without the lines and points where paints only touch."""
     if shape.geom_type in {"Polygon", "MultiPolygon"}:
         return shape
     parts = shapely.get_parts(shape)
@@ -139,4 +138,4 @@ def _level(shape: shapely.Geometry) -> shapely.Geometry:
 
 
 _AREA = 2
-"""Dimension of what has an area."""
+"""Dimension of a polygon in shapely."""

@@ -1,4 +1,4 @@
-"""People who stand."""
+"""Standing people."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -45,17 +45,17 @@ PEOPLE: tuple[Figure, ...] = tuple(
         (1.60, 1.10, True, _JACKET, "brown", "grey", "black", "pale", "grey", False),
     )
 )
-"""Who there are, each in clothes of their own."""
+"""The figures of people, each in different clothes."""
 
 
 @dataclass(frozen=True)
 class PersonSpec(Spec, kind=KIND):
-    """Somebody; origin on the floor below the hips, looking to +Z.
+    """A standing person; origin on the floor below the hips, facing +Z.
 
     Attributes
     ----------
     number
-        Place in `PEOPLE`.
+        Index in `PEOPLE`.
     pose
         Name of a pose of `garage2usd.assets.figures.POSES`.
     """
@@ -65,16 +65,16 @@ class PersonSpec(Spec, kind=KIND):
 
     @property
     def mass_kg(self) -> float:
-        """Mass by the stature and a body mass index of 23, 75 kg at 1.80 m, and by the build."""
+        """Mass of the person by stature, a body mass index of 23 and the build: 75 kg at 1.80 m."""
         figure = PEOPLE[self.number]
         return round(23.0 * figure.height_m**2 * figure.build**2, 1)
 
     def asset(self) -> Asset:
-        """A dressed body, with what it holds."""
+        """Make the meshes of a dressed person with any carried things."""
         return figure_asset(PEOPLE[self.number], POSES[self.pose])
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """A rectangle around all of it."""
+        """Return the bounding rectangle of the person on the floor."""
         return _outlines(self)
 
 

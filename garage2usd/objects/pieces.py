@@ -1,4 +1,4 @@
-"""Pieces of objects that have a semantic class of their own: what is painted on floors."""
+"""Semantic classes of pieces of objects: the paints on floors."""
 
 from dataclasses import dataclass
 
@@ -9,18 +9,18 @@ __all__ = ["PAINT_CLASSES", "PIECES", "PieceClass", "piece_name", "pieces_of"]
 
 @dataclass(frozen=True)
 class PieceClass:
-    """A semantic class of pieces.
+    """A semantic class of pieces of objects.
 
     Attributes
     ----------
     label
-        Its name, which `garage2usd.assets.Part.piece` gives.
+        Name of the class, as in `garage2usd.assets.Part.piece`.
     number
-        Its id, which is never given to another class.
+        Id of the class, never reused.
     cityscapes
         Name of the nearest Cityscapes class.
     what
-        What it is, in words.
+        Description in words.
     """
 
     label: str
@@ -37,14 +37,14 @@ PAINT_CLASSES = (
     PieceClass("hatching", 33, "road", "frames and stripes where nobody parks or stands"),
     PieceClass("stall_symbol", 34, "parking", "symbols of what a stall is for"),
 )
-"""What is painted on floors; painted numbers are objects, of the class ``stall_number``."""
+"""Classes of paint on floors; painted numbers are objects, of the class ``stall_number``."""
 
 PIECES = PAINT_CLASSES
-"""All classes of pieces, in the order of their numbers."""
+"""All classes of pieces, by number."""
 
 
 def pieces_of(asset: Asset) -> dict[str, list[Part]]:
-    """The parts of each labelled piece of an asset, by its label."""
+    """Return the parts of each labelled piece of an asset, by label."""
     found: dict[str, list[Part]] = {}
     for part in asset.parts:
         if part.piece:
@@ -53,5 +53,5 @@ def pieces_of(asset: Asset) -> dict[str, list[Part]]:
 
 
 def piece_name(label: str) -> str:
-    """Name of the prim of a piece, below that of its object."""
+    """Return the name of a piece's prim, below the prim of its object."""
     return pascal_case(label)

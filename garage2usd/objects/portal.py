@@ -1,4 +1,4 @@
-"""Walls with a vehicle door."""
+"""Walls with a vehicle door: the portals of a garage."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -22,7 +22,7 @@ _FRAME_PROUD_M = 0.02
 _LAMELLA_M = 0.12
 _GROOVE_M = 0.012
 _OVER_FRAME_M, _UNDER_CEILING_M = 0.08, 0.04
-"""Room around the signs over the door."""
+"""Margins of the lit signs over the door: above the frame and below the ceiling."""
 
 
 @dataclass(frozen=True)
@@ -36,12 +36,12 @@ class PortalSpec(Spec, kind=KIND):
     door_height_m: float
     is_entrance: bool
     is_open: bool = False
-    """Whether its roller door is up, because a ramp lies behind it."""
+    """True if the roller door is up because a ramp lies behind it."""
     country: Country = Country.NONE
-    """Whose words are on its signs."""
+    """Country of the words on the door's signs."""
 
     def asset(self) -> Asset:
-        """A roller door set back in the wall, closed or up, a steel frame, and a lit sign on both faces."""
+        """Make the meshes of a portal: wall, roller door, closed or up, steel frame, and lit signs on both faces."""
         half, jamb, back = self.length_m / 2, self.door_width_m / 2, -self.thickness_m
         concrete = box_faces((-half, 0, back), (-jamb, self.height_m, 0))
         concrete += box_faces((jamb, 0, back), (half, self.height_m, 0))
@@ -70,7 +70,7 @@ class PortalSpec(Spec, kind=KIND):
         )
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """The wall on both sides of its opening, and the frame that stands out of it."""
+        """Return the outlines of the wall on both sides of the vehicle door, with its projecting frame."""
         half, opening = self.length_m / 2, self.door_width_m / 2 - DOOR_FRAME_M if self.is_open else 0.0
         return (
             rectangle(-half, -self.thickness_m, -opening, _FRAME_PROUD_M),
@@ -79,7 +79,7 @@ class PortalSpec(Spec, kind=KIND):
 
 
 def _lamellae(half_m: float, height_m: float, front_m: float) -> list[Face]:
-    """The front of a roller door: flat slats with a groove under each, one sheet from the floor to the head."""
+    """Return the front of a roller door: flat slats with grooves between them, one sheet from the floor to the head."""
     count = max(1, int(height_m / _LAMELLA_M))
     step = height_m / count
     profile = [(0.0, front_m - _GROOVE_M)]

@@ -1,4 +1,4 @@
-"""Prams."""
+"""Prams left as clutter."""
 
 from dataclasses import dataclass
 
@@ -24,18 +24,18 @@ class PramSpec(Spec, kind=KIND):
     Attributes
     ----------
     colour
-        Of its cloth, one of `PRAM_COLOURS`.
+        Colour of the cloth, one of `PRAM_COLOURS`.
     """
 
     colour: str = "navy"
 
     @property
     def mass_kg(self) -> float:
-        """Mass without a child; assumption."""
+        """Mass of the empty pram in kilograms; assumption."""
         return 13.0
 
     def asset(self) -> Asset:
-        """A carrycot with a hood on a folding frame with four wheels and a handle."""
+        """Make the meshes of a pram: carrycot with hood on a folding frame with four wheels and a handle."""
         cot = loft_faces(
             [
                 rectangle_ring(0.13, 0.32, y=0.52, z=0.08),
@@ -87,7 +87,7 @@ class PramSpec(Spec, kind=KIND):
         )
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Wheels and handle."""
+        """Return the outline of the pram's wheels and handle."""
         return (rectangle(-0.315, -0.545, 0.315, 0.54),)
 
 
@@ -96,6 +96,6 @@ def _tube(*points: tuple[float, float, float]) -> list[Face]:
 
 
 def _shell(lines: list[Face]) -> list[Face]:
-    """A thin closed shell through lines of as many points each: a loft of their bands, 1 cm thick."""
+    """Return a thin closed shell through lines with equal numbers of points, for a pram's hood: 1 cm thick."""
     rings = [np.concatenate([line, (line * (0.95, 1.0, 1.0) - (0.0, 0.012, -0.012))[::-1]]) for line in lines]
     return loft_faces([ring[::-1] for ring in rings])

@@ -1,4 +1,4 @@
-"""Ramps to the ground outside."""
+"""Ramps from a portal to the ground outside."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -37,19 +37,19 @@ class RampSpec(Spec, kind=KIND):
     Attributes
     ----------
     width_m
-        Between its side walls.
+        Width between the side walls.
     wall_m
         Thickness of the side walls.
     threshold_width_m
-        Of the floor in the door's opening.
+        Width of the floor in the door's opening.
     profile
-        (run, height) along the floor, from the back of the door's wall to the far end.
+        (run, height) pairs along the floor, from the back of the door's wall to the far end.
     cover_end_m, cover_height_m
-        Run where the slab over its foot ends, and height of that slab's underside.
+        Run where the slab over the ramp's foot ends, and height of that slab's underside.
     wall_top_m
-        Height of the side walls.
+        Height of the side walls' tops.
     dado_m, has_stripe
-        Of the side walls, as `WallSpec` has them.
+        Painted band and stripe of the side walls, as in `WallSpec`.
     """
 
     width_m: float
@@ -63,7 +63,7 @@ class RampSpec(Spec, kind=KIND):
     has_stripe: bool = True
 
     def asset(self) -> Asset:
-        """A grooved floor with kerbs, side walls, a slab over its foot and a drain."""
+        """Make the meshes of a ramp: grooved floor, kerbs, side walls, a slab over its foot and a drain."""
         half, (start, _), (end, _) = self.width_m / 2, self.profile[0], self.profile[-1]
         cover_end, cover_low, cover_high = self.cover_end_m, self.cover_height_m, self.profile[-1][1]
         threshold = _strip(self.threshold_width_m / 2, [(0.0, 0.0), (start, 0.0)])
@@ -88,7 +88,7 @@ class RampSpec(Spec, kind=KIND):
         return Asset(tuple(parts))
 
     def _dado(self, name: str, face_m: float) -> list[Part]:
-        """The painted band at the foot of a side wall, and the stripe over it."""
+        """Make the painted band and the stripe at the foot of a ramp's side wall."""
         top, parts = self.dado_m, []
         if top:
             parts.append(make_part(f"{name}Band", _ribbon(face_m, self.profile, 0.0, top), "wall_band"))
@@ -98,14 +98,14 @@ class RampSpec(Spec, kind=KIND):
         return parts
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Its side walls."""
+        """Return the outlines of the ramp's side walls."""
         inner, outer = self.width_m / 2, self.width_m / 2 + self.wall_m
         near, far = -self.profile[0][0], -self.profile[-1][0]
         return rectangle(-outer, far, -inner, near), rectangle(inner, far, outer, near)
 
 
 def _strip(half_m: float, profile: Profile) -> list[Face]:
-    """The floor along a profile, seen from above."""
+    """Return the faces of a ramp's floor along a profile, facing up."""
     return [
         np.array([(-half_m, y0, -r0), (half_m, y0, -r0), (half_m, y1, -r1), (-half_m, y1, -r1)])
         for (r0, y0), (r1, y1) in pairwise(profile)
@@ -113,7 +113,7 @@ def _strip(half_m: float, profile: Profile) -> list[Face]:
 
 
 def _ribbon(x: float, profile: Profile, low_m: float, high_m: float) -> list[Face]:
-    """An upright ribbon at `x` that follows a profile and looks to the ramp's middle."""
+    """Return an upright ribbon at `x` that follows a ramp's profile and faces its middle."""
     faces = [
         np.array([(x, y0 + low_m, -r0), (x, y0 + high_m, -r0), (x, y1 + high_m, -r1), (x, y1 + low_m, -r1)])
         for (r0, y0), (r1, y1) in pairwise(profile)
@@ -122,7 +122,7 @@ def _ribbon(x: float, profile: Profile, low_m: float, high_m: float) -> list[Fac
 
 
 def _kerb(name: str, half_m: float, side: float, profile: Profile) -> Part:
-    """The kerb at the foot of a side wall, with chevrons along its inner edge."""
+    """Make the kerb at the foot of a ramp's side wall, with chevrons along its inner edge."""
     outer, inner = side * half_m, side * (half_m - _KERB_WIDTH_M)
     faces = _ribbon(inner, profile, 0.0, _KERB_HEIGHT_M)
     low, high = sorted((inner, outer))
@@ -143,7 +143,7 @@ def _kerb(name: str, half_m: float, side: float, profile: Profile) -> Part:
 
 
 def _grooved(profile: Profile) -> list[tuple[float, float]]:
-    """A profile with grooves across its slopes, for grip."""
+    """Return a ramp's profile with transverse grooves for grip in its slopes."""
     runs, heights = zip(*profile, strict=True)
     grooved = [profile[0]]
     half, edge = _GROOVE_WIDTH_M / 2, 0.004
@@ -159,7 +159,7 @@ def _grooved(profile: Profile) -> list[tuple[float, float]]:
 
 
 def _drain(half_m: float, start_m: float) -> list[Face]:
-    """The slats of the channel drain across the ramp's foot."""
+    """Return the slats of the channel drain across a ramp's foot."""
     faces: list[Face] = []
     for index in range(int(_DRAIN_M / _SLAT_M)):
         far = start_m + 0.1 + index * _SLAT_M

@@ -1,4 +1,4 @@
-"""What signs say in a country."""
+"""The texts, colours and pictograms of signs in each country."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -9,7 +9,7 @@ __all__ = ["SIGNAGE", "Signage", "Way"]
 
 
 class Way(StrEnum):
-    """What a sign over a vehicle door says to those who see it."""
+    """The message of a sign over a vehicle door."""
 
     IN = "in"
     NOT_IN = "not_in"
@@ -18,26 +18,26 @@ class Way(StrEnum):
 
     @property
     def is_open(self) -> bool:
-        """Whether they may drive on."""
+        """True if vehicles may pass the door."""
         return self in {Way.IN, Way.OUT}
 
 
 @dataclass(frozen=True)
 class Signage:
-    """The words, colours and numbers of a country.
+    """The words, colours and numbers on signs of a country.
 
     Attributes
     ----------
     enter, no_entry, exit, no_exit
-        Over vehicle doors.
+        Words over vehicle doors.
     exit_sign
-        On exit signs over aisles; empty where the pictogram alone says it.
+        Word on exit signs over aisles; empty if they have only the pictogram.
     has_runner
-        Whether these show who runs through a doorway.
+        True if exit signs show the running man.
     is_red
-        Whether their legend shines red on white, not white on green.
+        True if their legend is red on white, else white on green.
     hydrant, fire_number
-        On hydrant cabinets: what they are, and the number of the fire brigade.
+        Words on hydrant cabinets: their name, and the number of the fire brigade.
     """
 
     enter: str
@@ -51,7 +51,7 @@ class Signage:
     fire_number: str
 
     def of(self, way: Way) -> str:
-        """What is written over a door."""
+        """Return the words on the sign over a vehicle door."""
         return {Way.IN: self.enter, Way.NOT_IN: self.no_entry, Way.OUT: self.exit, Way.NOT_OUT: self.no_exit}[way]
 
 
@@ -112,7 +112,7 @@ SIGNAGE = {
         fire_number="911",
     ),
 }
-"""That of each country.
+"""Signage of each country.
 
 The pictogram is that of ISO 7010 (E001, E002) and GB 13495; red legends on white are usual for exit signs by NFPA 101.
 """

@@ -25,7 +25,7 @@ class SkySpec(Spec, kind=KIND):
     high_m: float
 
     def asset(self) -> Asset:
-        """What is seen from below: the shell stands on the side walls and closes the far end from `ground_m` on."""
+        """Make the daylight mesh seen from below: a shell on the side walls, its far end closed from `ground_m` up."""
         x, near, far = self.width_m / 2, -self.start_m, -self.end_m
         shell = box_faces((-x, self.low_m, far), (x, self.high_m, near), without="bn")
         faces = [face[::-1] for face in shell]

@@ -24,7 +24,7 @@ class SpeedBumpSpec(Spec, kind=KIND):
     height_m: float = SPEED_BUMP_HEIGHT_M
 
     def asset(self) -> Asset:
-        """A rubber bump 0.35 m wide."""
+        """Make the mesh of a rubber speed bump 0.35 m wide."""
         count = max(2, round(self.length_m / _SEGMENT_M))
         step = self.length_m / count
         angles = np.linspace(0.0, np.pi, 9)

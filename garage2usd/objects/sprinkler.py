@@ -21,9 +21,9 @@ class SprinklerSpec(Spec, kind=KIND):
     Attributes
     ----------
     drop_m
-        From the ceiling down to the pipe's middle.
+        Distance from the ceiling down to the pipe's axis.
     rods_at_m, heads_at_m
-        Places of its rods and of its heads along it, from its middle.
+        Places of the rods and of the sprinkler heads along the pipe, from its middle.
     """
 
     length_m: float
@@ -33,7 +33,7 @@ class SprinklerSpec(Spec, kind=KIND):
     heads_at_m: tuple[float, ...]
 
     def asset(self) -> Asset:
-        """A red pipe on rods with pendent heads."""
+        """Make the meshes of a sprinkler pipe: a red pipe on rods with pendent heads."""
         half = self.length_m / 2
         profile = [(-half, 0.0), (-half, self.radius_m), (half, self.radius_m), (half, 0.0)]
         pipe = moved(level_lathe_faces(profile, segments=12), (0.0, -self.drop_m, 0.0))

@@ -1,4 +1,4 @@
-"""The floor of stalls."""
+"""The coated floor of stalls."""
 
 from garage2usd.objects.kind import Kind, TilePart
 from garage2usd.objects.panel import PanelSpec
@@ -9,4 +9,4 @@ KIND = Kind("stall", number=2, label="parking_stall", cityscapes="parking", is_s
 
 
 class StallSpec(PanelSpec, kind=KIND):
-    """The floor of a stall."""
+    """The floor panel of a stall."""

@@ -1,4 +1,4 @@
-"""Numbers painted on the floor of stalls, before them, and on walls."""
+"""Stall numbers painted on stalls, lanes and walls."""
 
 from dataclasses import dataclass
 
@@ -21,26 +21,26 @@ _FRAME_LINE_M = 0.05
 
 @dataclass(frozen=True)
 class NumberSpec(Spec, kind=KIND):
-    """Characters painted on the floor, their tops to -Z; origin in their middle on the floor."""
+    """A stall number painted on the floor, its top to -Z; origin in its middle on the floor."""
 
     digits: str
     height_m: float
 
     def asset(self) -> Asset:
-        """The characters a few millimetres over the floor."""
+        """Make the mesh of a painted stall number a few millimetres over the floor."""
         shape = text_shape(self.digits, self.height_m)
         return Asset((flat_part("Paint", shape, "paint_number", height_m=PAINT_LIFT_M, collider=None),))
 
 
 @dataclass(frozen=True)
 class NumberFrameSpec(Spec, kind=KIND):
-    """A painted frame around a number on the floor; origin in its middle on the floor."""
+    """A painted frame around a stall number; origin in its middle on the floor."""
 
     width_m: float
     depth_m: float
 
     def asset(self) -> Asset:
-        """The frame a few millimetres over the floor."""
+        """Make the mesh of a stall number's frame a few millimetres over the floor."""
         x, z = self.width_m / 2, self.depth_m / 2
         inside = shapely.box(_FRAME_LINE_M - x, _FRAME_LINE_M - z, x - _FRAME_LINE_M, z - _FRAME_LINE_M)
         shape = shapely.difference(shapely.box(-x, -z, x, z), inside)
@@ -49,13 +49,13 @@ class NumberFrameSpec(Spec, kind=KIND):
 
 @dataclass(frozen=True)
 class WallNumberSpec(Spec, kind=KIND):
-    """Characters painted on a wall, looking to +Z; origin in their middle on the wall."""
+    """A stall number painted on a wall, facing +Z; origin in its middle on the wall."""
 
     digits: str
     height_m: float
 
     def asset(self) -> Asset:
-        """The characters, upright."""
+        """Make the mesh of an upright stall number on a wall."""
         shape = text_shape(self.digits, self.height_m)
         faces = list(upright_triangles(shape, middle_m=0.0, front_m=0.0))
         return Asset((make_part("Paint", faces, "paint_number", collider=None),))

@@ -1,4 +1,4 @@
-"""Rubber bars of black and yellow segments, as speed bumps and wheel stops are."""
+"""Black and yellow rubber bars, for speed bumps and wheel stops."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ __all__ = ["striped"]
 
 
 def striped(profile: list[tuple[float, float]], start: float, step: float, count: int) -> Asset:
-    """An extrusion along X of a profile (z, y) from its -Z foot over the top, in segments of two colours."""
+    """Make a black and yellow bar by extruding a profile (z, y) along X, from its -Z foot over the top."""
     black: list[Face] = []
     yellow: list[Face] = []
     for index in range(count):

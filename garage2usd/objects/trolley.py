@@ -1,4 +1,4 @@
-"""Shopping trolleys."""
+"""Rows of shopping trolleys."""
 
 from dataclasses import dataclass
 
@@ -14,30 +14,30 @@ __all__ = ["KIND", "TrolleySpec"]
 KIND = Kind("trolley", number=42, label="shopping_trolley", cityscapes="dynamic", group="Clutter")
 
 _NESTED_M = 0.27
-"""From one trolley of a row to the next."""
+"""Distance between consecutive trolleys of a nested row."""
 _LOW_M, _HIGH_M = 0.42, 0.90
 _WIRE_M = 0.0035
 
 
 @dataclass(frozen=True)
 class TrolleySpec(Spec, kind=KIND):
-    """Trolleys pushed into each other, their fronts to +Z; origin on the floor in the middle of the row.
+    """A row of nested shopping trolleys, fronts to +Z; origin on the floor in the middle of the row.
 
     Attributes
     ----------
     count
-        How many.
+        Number of trolleys.
     """
 
     count: int = 1
 
     @property
     def mass_kg(self) -> float:
-        """Mass of trolleys of 20 kg; assumption."""
+        """Mass of the shopping trolleys at 20 kg each; assumption."""
         return 20.0 * self.count
 
     def asset(self) -> Asset:
-        """Wire baskets on frames with four castors and a coloured handle each."""
+        """Make the meshes of shopping trolleys: wire baskets on frames with four castors and a coloured handle each."""
         wire: list[Face] = []
         wheels: list[Face] = []
         handles: list[Face] = []
@@ -58,7 +58,7 @@ class TrolleySpec(Spec, kind=KIND):
         )
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Baskets and handles."""
+        """Return the outline of the trolleys' baskets and handles."""
         depth = 0.49 + (self.count - 1) / 2 * _NESTED_M
         return (rectangle(-0.29, -depth, 0.29, depth),)
 
@@ -69,7 +69,7 @@ def _line(*points: tuple[float, float, float], radius_m: float = _WIRE_M) -> lis
 
 
 def _corner(share: float, side: float) -> tuple[float, float, float]:
-    """A corner of the basket at a share of its height: at the back where the side is negative along Z."""
+    """Return a corner of a trolley's basket at a share of its height, at the back if `side` is negative."""
     x = 0.19 + 0.06 * share
     z = 0.34 + 0.13 * share if side > 0 else -0.36 - 0.05 * share
     return x, _LOW_M + (_HIGH_M - _LOW_M) * share + (0.0 if side < 0 else -0.08 * share), z

@@ -16,23 +16,23 @@ __all__ = ["DADO_M", "DADO_STRIPE_M", "KIND", "WallPostSpec", "WallSpec", "dado_
 KIND = Kind("wall", number=4, label="wall", cityscapes="wall", group="Walls")
 
 DADO_M = 1.1
-"""Usual height of the painted band at the foot of walls, and of one repeat of its texture."""
+"""Usual height of the painted band at the foot of walls, and period of its texture."""
 DADO_STRIPE_M = 0.12
-"""Height of the stripe over it."""
+"""Height of the stripe over a wall's painted band."""
 
 
 @dataclass(frozen=True)
 class WallSpec(Spec, kind=KIND):
-    """A straight wall; origin at the middle of its inner face's foot, which looks to +Z.
+    """A straight outer wall; origin at the foot of its inner face, in the middle; that face looks to +Z.
 
     Attributes
     ----------
     length_m, height_m, thickness_m
-        Extent.
+        Extent of the wall.
     dado_m
-        Height of the painted band at its foot; 0 without any.
+        Height of the painted band at the wall's foot; 0 for none.
     has_stripe
-        Whether there is a stripe over that.
+        True if a stripe runs over the band.
     """
 
     length_m: float
@@ -42,7 +42,7 @@ class WallSpec(Spec, kind=KIND):
     has_stripe: bool = True
 
     def asset(self) -> Asset:
-        """A wall with a painted band and a stripe over it."""
+        """Make the meshes of a wall with its painted band and stripe."""
         half, top = self.length_m / 2, self.dado_m
 
         def front(low: float, high: float) -> list[Face]:
@@ -62,12 +62,12 @@ class WallSpec(Spec, kind=KIND):
         return Asset(tuple(parts))
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Its section."""
+        """Return the outline of the wall on the floor."""
         return (rectangle(-self.length_m / 2, -self.thickness_m, self.length_m / 2, 0.0),)
 
 
 def dado_part(name: str, faces: Sequence[Face], top_m: float, *, collider: Collider | None = None) -> Part:
-    """A painted band from the floor up, as high as one repeat of its texture."""
+    """Make the painted band of a wall from the floor up, as high as one period of its texture."""
 
     def stretched(face: NDArray[np.float64], normal: NDArray[np.float64]) -> NDArray[np.float64]:
         x, y, z = face.T
@@ -79,17 +79,17 @@ def dado_part(name: str, faces: Sequence[Face], top_m: float, *, collider: Colli
 
 @dataclass(frozen=True)
 class WallPostSpec(Spec, kind=KIND):
-    """The square piece that closes a convex corner of two walls; origin in the middle of its foot."""
+    """The square post at a convex corner of two walls; origin in the middle of its foot."""
 
     side_m: float
     height_m: float
 
     def asset(self) -> Asset:
-        """The post."""
+        """Make the mesh of a concrete wall post."""
         half = self.side_m / 2
         faces = box_faces((-half, 0, -half), (half, self.height_m, half))
         return Asset((make_part("Concrete", faces, "wall_concrete", collider=Collider.BOX),))
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Its section."""
+        """Return the outline of the wall post on the floor."""
         return (square(self.side_m),)

@@ -17,23 +17,23 @@ _WHEEL_M = 0.1
 
 @dataclass(frozen=True)
 class BinSpec(Spec, kind=KIND):
-    """A two-wheeled bin of 240 litres after EN 840-1; origin on the floor in its middle, its front to +Z.
+    """A two-wheeled waste bin of 240 litres after EN 840-1; origin on the floor in its middle, front to +Z.
 
     Attributes
     ----------
     colour
-        Of the lid, one of `BIN_COLOURS`.
+        Colour of the lid, one of `BIN_COLOURS`.
     """
 
     colour: str = "grey"
 
     @property
     def mass_kg(self) -> float:
-        """Mass half full; EN 840-1 leaves the empty bin to its maker. Assumption."""
+        """Mass of the half-full waste bin; assumption, as EN 840-1 leaves the empty mass to the maker."""
         return 25.0
 
     def asset(self) -> Asset:
-        """A tapered body with a lid, a handle over its back, and two wheels."""
+        """Make the meshes of a waste bin: a tapered body with a lid, a handle at its back, and two wheels."""
         body = loft_faces(
             [
                 rectangle_ring(0.215, 0.235, y=0.04, z=0.02),
@@ -73,5 +73,5 @@ class BinSpec(Spec, kind=KIND):
         )
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Its lid with the handle."""
+        """Return the outline of the waste bin's lid and handle."""
         return (rectangle(-0.3, -0.38, 0.3, 0.345),)

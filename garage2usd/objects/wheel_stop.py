@@ -1,4 +1,4 @@
-"""Wheel stops."""
+"""Wheel stops at the end of stalls."""
 
 from dataclasses import dataclass, replace
 
@@ -13,7 +13,7 @@ KIND = Kind("wheel_stop", number=13, label="wheel_stop", cityscapes="static", pa
 
 WHEEL_STOP_WIDTH_M, WHEEL_STOP_HEIGHT_M = 0.15, 0.10
 _SEGMENT_M = 0.33
-"""About how long its black and yellow pieces are, of which there are three at least."""
+"""Approximate length of a wheel stop's black and yellow segments, at least three."""
 
 
 @dataclass(frozen=True)
@@ -23,10 +23,10 @@ class WheelStopSpec(Spec, kind=KIND):
     length_m: float
     height_m: float = WHEEL_STOP_HEIGHT_M
     gap_m: float = 0.0
-    """In its middle, where it is a pair of blocks."""
+    """Gap in the middle of a wheel stop that is a pair of blocks, in metres."""
 
     def asset(self) -> Asset:
-        """A rubber bar 0.15 m wide, or two of them in line."""
+        """Make the mesh of a wheel stop: a rubber bar 0.15 m wide, or two in line."""
         z, y = WHEEL_STOP_WIDTH_M / 2, self.height_m
         profile = [(-z, 0.0), (-z, 0.03), (-z * 0.62, y - 0.01), (-z * 0.45, y), (z * 0.45, y), (z * 0.62, y - 0.01)]
         profile += [(z, 0.03), (z, 0.0)]
@@ -41,11 +41,11 @@ class WheelStopSpec(Spec, kind=KIND):
         return Asset(tuple(replace(part, name=f"{side}{part.name}") for side, bar in named for part in bar.parts))
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Its foot, or that of each block."""
+        """Return the outline of each block of the wheel stop."""
         z = WHEEL_STOP_WIDTH_M / 2
         return tuple(rectangle(start, -z, end, z) for start, end in self._spans())
 
     def _spans(self) -> tuple[tuple[float, float], ...]:
-        """From where to where each bar lies along X."""
+        """Return the start and end of each bar of the wheel stop along X."""
         end, inner = self.length_m / 2, self.gap_m / 2
         return ((-end, -inner), (inner, end)) if self.gap_m else ((-end, end),)

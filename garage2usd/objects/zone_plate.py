@@ -1,4 +1,4 @@
-"""Plates with the zone on columns and walls."""
+"""Zone plates on columns and walls."""
 
 import math
 import string
@@ -33,20 +33,20 @@ KIND = Kind(
 
 ZONE_PLATE_HEIGHT_M = 0.36
 _LIFT_M, _INK_M = 0.004, 0.007
-"""From what bears a plate to its front, and to what is written there."""
+"""Distance from the wall or column to a zone plate's front, and to its lettering."""
 _TEXT_SHARE = (0.86, 0.74)
-"""Of the width and the height of a field."""
+"""Share of a field's width and height that the lettering of a zone plate may fill."""
 _HUES = ("zone_blue", "zone_orange", "zone_green", "zone_red", "zone_violet", "zone_teal")
 _SHARE, _BENT_SHARE = 0.88, 0.6
-"""Width of a plate, of that of a column's side; of one around a round column, of its diameter."""
+"""Width of a zone plate as a share of a column's side, and of a bent plate as a share of a round column's diameter."""
 _YAWS_RAD = (0.0, math.pi / 2, math.pi, -math.pi / 2)
 _Faces = NDArray[np.float64]
 
 
 class Plate(NamedTuple):
-    """A plate: the zone on it, the middle (x, z) of its lower edge, where it looks, its width, and around what.
+    """A zone plate: its text, the middle (x, z) of its lower edge, its direction, its width and its bending radius.
 
-    That is the radius of the round column that it is bent around, if it is.
+    The bending radius is that of a round column; None for a flat plate.
     """
 
     text: str
@@ -58,34 +58,34 @@ class Plate(NamedTuple):
 
 @dataclass(frozen=True)
 class ZonePlateSpec(Spec, kind=KIND):
-    """A plate with the name of a zone, ``B12``, that looks to +Z; origin in the middle of its lower edge."""
+    """A plate with the name of a zone, ``B12``, facing +Z; origin in the middle of its lower edge."""
 
     text: str
     width_m: float
 
     def plates(self) -> tuple[Plate, ...]:
-        """The one plate."""
+        """Return the single zone plate."""
         return (Plate(self.text, (0.0, 0.0), 0.0, self.width_m),)
 
     def asset(self) -> Asset:
-        """The letter in white on the colour of its zone, and beside it the number in that colour on white."""
+        """Make the meshes of a zone plate: letter in white on the zone's colour, number in that colour on white."""
         return _asset(self.plates())
 
 
 @dataclass(frozen=True)
 class ColumnPlatesSpec(Spec, kind=KIND):
-    """The plates on a column; origin in its middle, at their lower edges.
+    """The zone plates on a column; origin on its axis, at their lower edges.
 
     Attributes
     ----------
     sides
-        The zones on the sides that look to +Z, +X, -Z and -X; empty where a side is bare.
+        Zones on the sides facing +Z, +X, -Z and -X; empty for a bare side.
     column_size_m
-        Side of the column, or of the square that holds it.
+        Side of the column's bounding square.
     sides_m
-        From the column's middle to each of these sides; empty where they are those of the square.
+        Distances from the column's axis to these sides; empty if they are those of the square.
     is_round
-        Whether the column is round, so that plates bend around it.
+        True if the column is round, so that plates bend around it.
     """
 
     sides: tuple[str, ...]
@@ -94,7 +94,7 @@ class ColumnPlatesSpec(Spec, kind=KIND):
     is_round: bool = False
 
     def plates(self) -> tuple[Plate, ...]:
-        """One on each side that is not bare."""
+        """Return the zone plates of a column, one on each side that is not bare."""
         front, right, back, left = self.sides_m or (self.column_size_m / 2,) * len(self.sides)
         middles = (0.0, front), (right, 0.0), (0.0, -back), (-left, 0.0)
         share, radius = (_BENT_SHARE, front) if self.is_round else (_SHARE, None)
@@ -107,12 +107,12 @@ class ColumnPlatesSpec(Spec, kind=KIND):
         )
 
     def asset(self) -> Asset:
-        """Its plates, each as `ZonePlateSpec` has it."""
+        """Make the meshes of a column's zone plates, each as in `ZonePlateSpec`."""
         return _asset(self.plates())
 
 
 def _asset(plates: Iterable[Plate]) -> Asset:
-    """The faces of plates, a part for each material."""
+    """Make the meshes of zone plates, one part per material."""
     faces: dict[str, list[Face]] = {}
     for plate in plates:
         cos, sin = round(math.cos(plate.yaw_rad)), round(math.sin(plate.yaw_rad))
@@ -125,9 +125,9 @@ def _asset(plates: Iterable[Plate]) -> Asset:
 
 @lru_cache(maxsize=1024)
 def _faces(text: str, width_m: float, radius_m: float | None) -> tuple[tuple[str, tuple[Face, ...]], ...]:
-    """Material and faces of each field of a plate that looks to +Z, and of what is written there.
+    """Return material and faces of each field of a zone plate facing +Z, and of its lettering.
 
-    They are kept, as a garage has the same plate on many columns.
+    They are cached, as a garage repeats a plate on many columns.
     """
     fields = ((material, [*triangles]) for material, triangles in _fields(text, width_m))
     if radius_m is not None:
@@ -136,7 +136,7 @@ def _faces(text: str, width_m: float, radius_m: float | None) -> tuple[tuple[str
 
 
 def _fields(text: str, width_m: float) -> Iterator[tuple[str, _Faces]]:
-    """Material and faces of the field with the letter and of that with the number, and of what is written there."""
+    """Return material and faces of a zone plate's letter field, of its number field and of their lettering."""
     hue = _HUES[string.ascii_uppercase.index(text[0]) % len(_HUES)]
     fields = ((text[0], -width_m / 2, 0.0, hue, "sign_white"), (text[1:], 0.0, width_m / 2, "sign_white", hue))
     for written, left, right, ground, ink in fields:
