@@ -1,1 +1,1 @@
-"""Sensors on a car or a column: rigs of them, what their lenses see, and how they are calibrated."""
+"""Sensors mounted on a car or a column: rigs of cameras and LiDARs, their lenses, calibration and recording formats."""

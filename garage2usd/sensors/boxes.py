@@ -1,4 +1,4 @@
-"""Boxes around objects, which stand as the objects do, and how much of an object is in sight."""
+"""Oriented bounding boxes of objects, and the share of an object in sight."""
 
 from collections.abc import Collection
 from dataclasses import dataclass
@@ -13,27 +13,27 @@ from garage2usd.sensors.rays.ray_scene import RayScene
 __all__ = ["ObjectBox", "object_boxes", "share_in_sight"]
 
 _FORWARD = {UsdGeom.Tokens.y: (0.0, 0.0, -1.0), UsdGeom.Tokens.z: (0.0, 1.0, 0.0)}
-"""Where objects look in their own axes, by the axis of their stage that is up."""
+"""Forward direction of objects in their own axes, by the up axis of their stage."""
 _UP = {UsdGeom.Tokens.y: (0.0, 1.0, 0.0), UsdGeom.Tokens.z: (0.0, 0.0, 1.0)}
 _SIGHT_RAYS = 256
 
 
 @dataclass(frozen=True, eq=False)
 class ObjectBox:
-    """A box around an object.
+    """An oriented bounding box of an object.
 
     Attributes
     ----------
     id, class_id
-        Of the object, as in the table of labels.
+        Ids of the object and its class, as in the table of labels.
     centre_m
-        In the stage's axes; float64, shape (3,).
+        Centre in the stage's axes; float64, shape (3,).
     axes
         Columns: the object's forward, left and up in the stage's axes; float64, shape (3, 3).
     size_m
-        Along these; float64, shape (3,).
+        Extent along `axes`; float64, shape (3,).
     surface_m
-        Points that are spread evenly over its surface; float64, shape (n, 3).
+        Points sampled evenly on the object's surface; float64, shape (n, 3).
     """
 
     id: int
@@ -45,14 +45,14 @@ class ObjectBox:
 
 
 def object_boxes(stage: Usd.Stage, scene: RayScene, class_ids: Collection[int]) -> list[ObjectBox]:
-    """The boxes of all objects of some classes, in the order of their ids.
+    """Compute the oriented bounding boxes of all objects of some classes, ordered by object id.
 
     Parameters
     ----------
     stage
         The stage.
     scene
-        Its solid surfaces.
+        Solid surfaces of the stage.
     class_ids
         Ids of the classes.
 
@@ -86,22 +86,21 @@ def object_boxes(stage: Usd.Stage, scene: RayScene, class_ids: Collection[int]) 
 
 
 def share_in_sight(scene: RayScene, box: ObjectBox, eyes_m: NDArray[np.float64]) -> float:
-    """Which share of an object is in line of sight, from the place that sees most of it.
+    """Estimate the share of an object in line of sight, from the sensor position that sees most of it.
 
     Parameters
     ----------
     scene
-        What stands in the way.
+        Surfaces that may hide the object.
     box
         The object.
     eyes_m
-        Places in the stage's axes; shape (n, 3).
+        Sensor positions in the stage's axes; shape (n, 3).
 
     Returns
     -------
     float
-        Of the directions to points of its surface, also of its far side, the share in which the object itself is what a
-        ray meets first.
+        Share of the rays to points of the object's surface, the far side included, that hit the object first.
     """
     ways = (box.surface_m[None] - eyes_m[:, None]).reshape(-1, 3)
     ways /= np.linalg.norm(ways, axis=1, keepdims=True)
@@ -111,7 +110,7 @@ def share_in_sight(scene: RayScene, box: ObjectBox, eyes_m: NDArray[np.float64])
 
 
 def _axes(forward: NDArray[np.float64], up: NDArray[np.float64]) -> NDArray[np.float64]:
-    """An orthonormal frame of forward, left and up."""
+    """Compute an orthonormal frame of forward, left and up."""
     up = up / np.linalg.norm(up)
     forward = forward - up * (forward @ up)
     forward /= np.linalg.norm(forward)

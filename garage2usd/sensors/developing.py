@@ -1,4 +1,4 @@
-"""Pictures as cameras take them: from linear light through the errors of lens and sensor to a picture's numbers."""
+"""Simulation of a camera's picture: from linear light through lens and sensor errors to pixel values."""
 
 import io
 from collections.abc import Mapping
@@ -19,25 +19,25 @@ __all__ = ["Developed", "develop", "exposure_scale", "sensed"]
 Floats = NDArray[np.float64]
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 _KNEE = 0.5
-"""Of white, from which on a sensor with headroom is compressed."""
+"""Share of white above which a sensor with headroom compresses light."""
 _STRAIGHT = 0.0031308
-"""Up to where sRGB's curve is a straight line."""
+"""Upper end of the linear segment of the sRGB curve."""
 _BISECTIONS = 48
 _VEIL = 0.25
-"""Of the light that dirt takes, how much it scatters over its place."""
+"""Share of the light blocked by dirt on the lens that is scattered over its area."""
 
 
 @dataclass(frozen=True, eq=False)
 class Developed:
-    """A picture that a camera took.
+    """A picture as developed by the camera simulation.
 
     Attributes
     ----------
     pixels
         uint8, shape (rows, columns, 3).
     facts
-        What the table of frames says of it: for each camera that serves the picture by its name the factor of
-        exposure, its stops, the sensor's gain, electrons a number and the factors of red, green and blue.
+        Entry of the table of frames. For each camera of the picture, by name: exposure factor and stops, gain of the
+        sensor, electrons per digital number, and factors of red, green and blue.
     """
 
     pixels: NDArray[np.uint8]
@@ -46,18 +46,19 @@ class Developed:
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """What one camera shows of a picture.
+    """The part of a picture that one camera contributes.
 
     Attributes
     ----------
     name
-        Of the camera.
+        Name of the camera.
     shown
-        Which pixels are its; bool, shape (rows, columns).
+        Mask of the camera's pixels; bool, shape (rows, columns).
     outwards
-        Angle from its axis at each of its pixels, as a share of the edge of its field; shape (n,).
+        Angle from the optical axis at each pixel, as a share of half the field of view; shape (n,).
     places
-        Where each of its pixels lies in its own picture, from the optical axis in widths of it; shape (n, 2).
+        Position of each pixel in the camera's own picture, relative to the optical axis and in widths of the picture;
+        shape (n, 2).
     """
 
     name: str
@@ -69,18 +70,18 @@ class _Part:
 def develop(
     light: NDArray[np.float32] | Floats, lens: Lens, effects: CameraEffects, *, camera: str, frame: str, seed: int
 ) -> Developed:
-    """Take a picture of light.
+    """Develop linear light into a camera's picture, with exposure, noise, lens errors and compression.
 
     Parameters
     ----------
     light
-        Linear, in Rec. 709's red, green and blue, at the pose in the middle of the exposure; shape (rows, columns, 3).
+        Linear light in Rec. 709 red, green and blue at the pose of mid-exposure; shape (rows, columns, 3).
     lens
-        That it came through, which says which pixels show anything.
+        Lens of the camera, which determines the exposed pixels.
     effects
-        What the camera does to it.
+        Imperfections of the camera.
     camera, frame
-        Names by which what is random is drawn: exposure, colour and dirt are a camera's own, noise is that of a frame.
+        Names that seed the random draws: exposure, colour and dirt for each camera, noise for each frame.
     seed
         0 or more.
     """
@@ -127,7 +128,7 @@ def develop(
 
 
 def exposure_scale(light: Floats, effects: CameraEffects) -> float:
-    """By what light, shape (n, 3), is multiplied so that its mean, white at most, is grey; 1 if exposure is fixed."""
+    """Compute the exposure factor that maps the mean of light, shape (n, 3), to grey; 1 if exposure is fixed."""
     most = float(2.0**effects.most_gain_ev)
     if effects.exposure == "fixed":
         return 1.0
@@ -147,18 +148,18 @@ def exposure_scale(light: Floats, effects: CameraEffects) -> float:
 def sensed(
     exposed: Floats, effects: CameraEffects, white_electrons: float | Floats, random: np.random.Generator
 ) -> Floats:
-    """What a sensor counts of light whose white is 1: Poisson's electrons, the noise of reading, whole numbers.
+    """Simulate an image sensor's values of light: Poisson shot noise, read noise and quantization.
 
     Parameters
     ----------
     exposed
-        Light; any shape.
+        Light whose white is 1; any shape.
     effects
-        The sensor.
+        Settings of the sensor.
     white_electrons
-        Electrons of white, one or for each value; where it is 0 nothing is counted.
+        Electrons of white, one number or one for each value; 0 for no noise.
     random
-        Of the noise.
+        Generator of the noise.
 
     Returns
     -------
@@ -199,7 +200,7 @@ def _part(name: str, lens: Lens, shown: NDArray[np.bool_], rays: Floats) -> _Par
 
 
 def _clean(places: Floats, smudges: int, random: np.random.Generator) -> Floats:
-    """Share of the light that dirt lets through at places, shape (n, 2), in widths of the picture."""
+    """Compute the share of light that dirt on the lens transmits at points, shape (n, 2), in widths of the picture."""
     clean = np.ones(len(places))
     for _ in range(smudges):
         middle = random.uniform(-0.5, 0.5, 2) * (1.0, 0.75)
@@ -213,7 +214,7 @@ def _clean(places: Floats, smudges: int, random: np.random.Generator) -> Floats:
 
 
 def _with_chromatic_error(light: Floats, lens: Lens, effects: CameraEffects) -> Floats:
-    """Red larger and blue smaller about the optical axis."""
+    """Apply lateral chromatic aberration: red is magnified and blue reduced about the optical axis."""
     if not effects.chromatic_error:
         return light
     from scipy.ndimage import map_coordinates  # noqa: PLC0415 - all who import this module would wait for it
@@ -228,7 +229,7 @@ def _with_chromatic_error(light: Floats, lens: Lens, effects: CameraEffects) -> 
 
 
 def _with_glare(exposed: Floats, lens: Lens, effects: CameraEffects) -> Floats:
-    """Light beyond white, spread around its place and mirrored about the optical axis."""
+    """Apply bloom and flare: light beyond white spreads around its source and is mirrored about the optical axis."""
     beyond = np.maximum(exposed - 1, 0)
     if not (effects.bloom or effects.flare) or not beyond.any():
         return exposed
@@ -252,7 +253,7 @@ def _with_glare(exposed: Floats, lens: Lens, effects: CameraEffects) -> Floats:
 
 
 def _toned(linear: Floats, effects: CameraEffects) -> Floats:
-    """From 0 to 1, of light whose white is 1."""
+    """Apply the camera's tone curve to linear light whose white is 1; values from 0 to 1."""
     value = np.clip(linear, 0, effects.headroom)
     if effects.headroom > 1:
         ratio = (effects.headroom - _KNEE) / (1 - _KNEE)
@@ -268,7 +269,7 @@ def _toned(linear: Floats, effects: CameraEffects) -> Floats:
 
 
 def _compressed(pixels: NDArray[np.uint8], quality: int) -> NDArray[np.uint8]:
-    """A picture as it is read from a JPEG."""
+    """Compress a picture as JPEG and decode it again."""
     file = io.BytesIO()
     Image.fromarray(pixels).save(file, "JPEG", quality=quality)
     with Image.open(file) as image:

@@ -1,4 +1,4 @@
-"""What moves while a camera exposes: motion blur, and the shear of a rolling shutter."""
+"""Motion blur and rolling shutter: the motion of a camera during its exposure."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,18 +13,18 @@ Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 _COMPLEX = np.array([1, 1j])
 _FARTHEST_M = 1e6
-"""Where what has no depth is thought to be."""
+"""Assumed depth of pixels without a surface."""
 _SHORT_S = 1e-5
 _ITERATIONS = 4
 _NEAR_PX = 0.75
-"""A source that comes as near to a pixel as this is shown there."""
+"""Distance in pixels below which a source is shown at a pixel."""
 _ELSEWHERE_PX = 1e6
 _SAME = 0.02
-"""By what share depths differ at most that are of one surface."""
+"""Relative difference in depth up to which pixels belong to one surface."""
 _MOST_TIMES = 128
-"""Longer ways, of what is a hand's breadth before the lens, have gaps between the times that are looked at."""
+"""Maximum number of sampled times; longer motion, of surfaces a hand's breadth before the lens, has gaps."""
 _WINDOWS = 0.25, 1.0
-"""Half sides of the squares whose nearest surfaces may come over a pixel, in ways of the fastest one."""
+"""Half sides of the search windows for the nearest surface that may cover a pixel, relative to the longest motion."""
 
 
 def exposed_in_motion(
@@ -35,28 +35,28 @@ def exposed_in_motion(
     twist: Twist,
     effects: CameraEffects,
 ) -> Floats:
-    """Light that a moving camera gathers, of the light that it meets in the middle of the exposure of its middle row.
+    """Compute the light that a moving camera gathers from a picture of the middle of its exposure.
 
-    Each pixel takes the mean over the times at which its row is open, of the place whose point is at the pixel then:
-    that of the nearest surface where there are several. What was hidden in the middle of the exposure is taken from
-    beside it, and what was outside of the picture from its edge.
+    Each pixel is the mean over the exposure of its row, at each time of the surface point that is projected to the
+    pixel then. The nearest surface wins. Surfaces hidden at mid-exposure are filled from neighbouring pixels, and areas
+    outside the picture from its edge.
 
     Parameters
     ----------
     light
-        Linear; shape (rows, columns, 3).
+        Linear light; shape (rows, columns, 3).
     depth_m
-        As recordings have it: along the axis for `Pinhole`, along the ray for others; infinite where there is nothing;
-        shape (rows, columns).
+        Depth as in recordings: along the axis for `Pinhole`, along the ray for other lenses; infinite where nothing is
+        hit; shape (rows, columns).
     moving
-        Which pixels show what moves by `twist`; the others show what stands before the camera; bool, shape (rows,
+        Mask of the pixels that move by `twist`; the others are at rest relative to the camera; bool, shape (rows,
         columns).
     lens
-        Not one of several eyes.
+        Lens of the camera; not an around view.
     twist
-        How the camera moves, in its axes.
+        Motion of the camera in its own axes.
     effects
-        Of which `exposure_s` and `readout_s` count.
+        Effects, of which `exposure_s` and `readout_s` are used.
     """
     from scipy.ndimage import map_coordinates  # noqa: PLC0415 - all who import this module would wait for it
 
@@ -77,9 +77,9 @@ def exposed_in_motion(
 
 
 class _Flow:
-    """Where the points that pixels show are a while later: steady and growing in time, as a parabola.
+    """The optical flow of a picture as a parabola in time for each pixel.
 
-    Places and ways are complex numbers, columns + rows * i.
+    Positions and displacements are complex numbers, columns + rows * i.
     """
 
     def __init__(
@@ -109,11 +109,11 @@ class _Flow:
         self._seeds = self._nearest(reach_s)
 
     def longest_px(self, seconds: float) -> float:
-        """Of the ways that points take in a time around the middle, the picture's diagonal at most."""
+        """Return the longest displacement within a time around mid-exposure, at most the picture's diagonal."""
         return float(min(np.abs(self._steady).max(initial=0.0) * seconds, np.linalg.norm(self._shape)))
 
     def sources(self, times_s: Floats) -> Floats:
-        """Which place each pixel shows at the time of its row, shape (rows,); shape (2, rows, columns)."""
+        """Find the source position of each pixel at the time of its row, shape (rows,); shape (2, rows, columns)."""
         times = np.repeat(times_s, self._shape[1])
         best = self._grid.copy()
         best_px, best_m = (np.full(best.shape, np.inf) for _ in range(2))
@@ -138,14 +138,14 @@ class _Flow:
         return places
 
     def _pixel(self, place: Complexes) -> NDArray[np.intp]:
-        """The number of the nearest pixel."""
+        """Return the index of the nearest pixel."""
         rows, columns = self._shape
         row = np.clip(np.rint(place.imag), 0, rows - 1)
         pixel: NDArray[np.intp] = (row * columns + np.clip(np.rint(place.real), 0, columns - 1)).astype(np.intp)
         return pixel
 
     def _nearest(self, reach_s: float) -> list[tuple[Complexes, Complexes]]:
-        """The flow of the nearest surface around each pixel, for windows from small to large."""
+        """Return the flow of the nearest surface around each pixel, for search windows from small to large."""
         from scipy.ndimage import minimum_filter  # noqa: PLC0415 - as above
 
         order = np.argsort(self._depth, kind="stable")
@@ -159,6 +159,6 @@ class _Flow:
 
 
 def _parabola(points_m: Floats, lens: Lens, twist: Twist, reach_s: float) -> tuple[Floats, Floats]:
-    """Pixels a second and a second squared, through where points are shown before, in and after the middle."""
+    """Fit the optical flow of points by velocity and acceleration, in pixels per second and second squared."""
     before, now, after = (lens.project(twist.seen_after(points_m, time)) for time in (-reach_s, 0.0, reach_s))
     return (after - before) / (2 * reach_s), (after + before - 2 * now) / (2 * reach_s**2)

@@ -1,4 +1,4 @@
-"""Slots: what one frame shows of each stall, the record that every format of slots is derived from."""
+"""Parking slots in camera frames: the visible part of each stall, the source of all slot formats."""
 
 import math
 from collections.abc import Callable
@@ -20,13 +20,13 @@ from garage2usd.sensors.rays.outline import outline_in_picture, polygons_of
 __all__ = ["CORNERS", "PLACES_PX", "Slot", "SlotFrame", "SlotRecord", "Slots", "Visibility", "read_slots"]
 
 CORNERS = ("entry_left", "entry_right", "rear_right", "rear_left")
-"""The corners of a slot in their order, left and right as a driver sees them who drives in forwards."""
+"""Corners of a slot in order; left and right as seen by a driver who enters forwards."""
 
 PLACES_PX = 3
-"""Decimals of corners in all files, to which they are rounded before it is told what their pixel shows."""
+"""Decimals of corner coordinates in files; corners are rounded before their visibility is tested."""
 
 _ON_FLOOR_M = 0.02
-"""How far over or under the floor a surface still counts as the floor: lines are painted a few millimetres over it."""
+"""Height difference up to which a surface counts as the floor; lines are painted a few millimetres over it."""
 _LEAST_AREA_PX = 1e-6
 _DEGREES = 3
 _GROUND_AXES = {UsdGeom.Tokens.y: (0, 2), UsdGeom.Tokens.z: (0, 1)}
@@ -37,7 +37,7 @@ _Floats = NDArray[np.floating[Any]]
 
 
 class Visibility(IntEnum):
-    """Of a corner, as COCO has it for keypoints."""
+    """Visibility of a slot's corner, as in COCO keypoints."""
 
     NOT_IN_PICTURE = 0
     OCCLUDED = 1
@@ -46,14 +46,14 @@ class Visibility(IntEnum):
 
 @dataclass(frozen=True, eq=False)
 class Slot:
-    """A stall in the axes of its stage.
+    """A parking slot: a stall in the axes of its stage.
 
     Attributes
     ----------
     stall
         The stall.
     corners_m
-        Its `CORNERS` on the floor, in the stage's axes and in metres; float64, shape (4, 3).
+        The slot's `CORNERS` on the floor, in the stage's axes and in metres; float64, shape (4, 3).
     """
 
     stall: Stall
@@ -61,7 +61,7 @@ class Slot:
 
     @property
     def facts(self) -> dict[str, object]:
-        """What files say of it beside its places."""
+        """Attributes of the slot for files, without its coordinates."""
         stall = self.stall
         return {
             "name": stall.name,
@@ -76,23 +76,23 @@ class Slot:
 
 @dataclass(frozen=True, eq=False)
 class SlotFrame:
-    """What is known of a picture in which slots are looked for.
+    """A picture in which parking slots are looked for: its projection and the points that it shows.
 
     Attributes
     ----------
     name
-        Of the frame.
+        Name of the frame.
     size_px
         Width and height.
     project
-        From points in the stage's axes and in metres, shape (n, 3), to (column, row) in pixels, float64, shape (n, 2),
-        where the pixel (i, j) covers [i, i + 1) x [j, j + 1); NaN for a point that the lens does not see.
+        Projection from points in the stage's axes and in metres, shape (n, 3), to (column, row) in pixels, float64,
+        shape (n, 2). Pixel (i, j) covers [i, i + 1) x [j, j + 1); points outside the field of view are NaN.
     seen_m
-        The point in the stage's axes that the ray through the middle of each pixel meets first; not finite where it
-        meets nothing; shape (rows, columns, 3).
+        First hit of the ray through the middle of each pixel, in the stage's axes; not finite without a hit; shape
+        (rows, columns, 3).
     shows_floor
-        Whether each pixel shows something of the floor's classes; bool, shape (rows, columns). None where that is not
-        known, and only the height of what is seen tells the floor.
+        Mask of pixels that show a class of the floor; bool, shape (rows, columns). None if unknown; the floor is then
+        found by height only.
     """
 
     name: str
@@ -102,29 +102,28 @@ class SlotFrame:
     shows_floor: NDArray[np.bool_] | None = None
 
     def floor_heights_m(self, up_axis: int) -> NDArray[np.floating[Any]]:
-        """Height of what each pixel shows, infinite where that is no floor; shape (rows, columns)."""
+        """Return the floor's height in each pixel, infinite where the pixel shows no floor; shape (rows, columns)."""
         heights = self.seen_m[..., up_axis]
         return heights if self.shows_floor is None else np.where(self.shows_floor, heights, np.inf)
 
 
 @dataclass(frozen=True, eq=False)
 class SlotRecord:
-    """A slot in a frame.
+    """A parking slot in a frame.
 
     Attributes
     ----------
     slot
         The slot.
     corners_px
-        (column, row) of its `CORNERS`, also of those beside the picture; NaN for what the lens does not see; float64,
-        shape (4, 2).
+        (column, row) of the slot's `CORNERS`, also outside the picture; NaN outside the field of view; float64, shape
+        (4, 2).
     visibility
-        Of each corner, a `Visibility`: 0 where it is not in the picture, 1 where something hides it, 2 where it is
-        seen.
+        `Visibility` of each corner: 0 outside the picture, 1 hidden, 2 visible.
     outline_px
-        Polygons, each of float64 and shape (n, 2), of its whole ground in the picture, whether or not it is hidden.
+        Polygons of the slot's whole ground in the picture, hidden or not; each float64, shape (n, 2).
     seen_px
-        How many pixels show its ground.
+        Number of pixels that show the slot's ground.
     """
 
     slot: Slot
@@ -135,20 +134,20 @@ class SlotRecord:
 
     @property
     def entry_px(self) -> Points:
-        """Its entry line, from left to right; float64, shape (2, 2)."""
+        """The slot's entry line in pixels, from left to right; float64, shape (2, 2)."""
         return self.corners_px[:2]
 
 
 @dataclass(frozen=True, eq=False)
 class Slots:
-    """The slots of a stage.
+    """The parking slots of a stage.
 
     Attributes
     ----------
     slots
-        In the stage's order.
+        Slots in the stage's order.
     ground_axes, up_axis
-        Which of the stage's axes lie on the ground, and which points upwards.
+        Indices of the stage's horizontal axes and of its up axis.
     """
 
     slots: tuple[Slot, ...]
@@ -156,13 +155,13 @@ class Slots:
     up_axis: int
 
     def seen_in(self, frame: SlotFrame) -> list[SlotRecord]:
-        """The slots that a frame shows something of: a corner, or a pixel of their ground.
+        """Find the parking slots visible in a frame: by a corner, or by a pixel of their ground.
 
         Notes
         -----
-        A corner is seen where the pixel that holds it shows the floor or its paint: a surface of such a class, not more
-        than 2 cm over or under the floor. Thus it is hidden by what the middle of that pixel shows, which is never a
-        mixture of two things; the foot of a wall and the edge of a wheel stop are no floor.
+        A corner is visible if its pixel shows the floor or its paint: a surface of such a class within 2 cm of the
+        floor's height. The middle of the pixel decides, so that a pixel never mixes two objects. The foot of a wall and
+        the edge of a wheel stop are not floor.
         """
         if not self.slots:
             return []
@@ -183,7 +182,7 @@ class Slots:
         return records
 
     def _seen_pixels(self, slot: Slot, seen_m: _Floats, floor_m: _Floats, outline: shapely.Geometry) -> int:
-        """How many pixels show the ground of a slot."""
+        """Count the pixels that show the ground of a parking slot."""
         left, top, right, bottom = outline.bounds
         rows, columns = slice(math.floor(top), math.ceil(bottom)), slice(math.floor(left), math.ceil(right))
         on_floor = np.abs(floor_m[rows, columns] - slot.corners_m[0, self.up_axis]) <= _ON_FLOOR_M
@@ -192,12 +191,12 @@ class Slots:
 
 
 def read_slots(stage: Usd.Stage) -> Slots:
-    """Read the slots of a stage from its lane graph, whose outlines it has in every form.
+    """Read the parking slots of a stage from its lane graph, which holds the stalls' outlines.
 
     Raises
     ------
     StageError
-        If it has none.
+        If the stage has no lane graph.
     """
     lanes = read_lanes(stage)
     if not lanes.stalls:
@@ -216,7 +215,7 @@ def _slot(stall: Stall, access: LaneNode, turn: Points) -> Slot:
 
 
 def _visibility(floor_m: _Floats, corners_px: Points, heights_m: Points) -> NDArray[np.int64]:
-    """A `Visibility` for each corner of slots, shape (slots, 4), by the floor's height that each pixel shows."""
+    """Return the `Visibility` of each slot corner, shape (slots, 4), from the floor height that each pixel shows."""
     inside = _in_picture(corners_px, floor_m.shape[::-1])
     columns, rows = np.where(inside[..., None], np.floor(np.nan_to_num(corners_px)), 0).astype(np.int64).T
     on_floor = np.abs(floor_m[rows.T, columns.T] - heights_m) <= _ON_FLOOR_M
@@ -225,6 +224,6 @@ def _visibility(floor_m: _Floats, corners_px: Points, heights_m: Points) -> NDAr
 
 
 def _in_picture(places_px: Points, size_px: tuple[int, ...]) -> NDArray[np.bool_]:
-    """Whether each of some places, shape (..., 2), lies in a pixel of a picture; NaN does not."""
+    """Test if pixel coordinates, shape (..., 2), lie in the picture; False for NaN."""
     inside: NDArray[np.bool_] = ((places_px >= 0) & (places_px < np.array(size_px))).all(axis=-1)
     return inside

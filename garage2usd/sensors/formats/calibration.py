@@ -1,4 +1,4 @@
-"""Calibration files of cameras: WoodScape's JSON, and ROS' CameraInfo as YAML."""
+"""Calibration files of cameras: WoodScape's JSON and ROS's CameraInfo as YAML."""
 
 import json
 from pathlib import Path
@@ -9,13 +9,13 @@ from garage2usd.sensors.rig.camera import Camera
 __all__ = ["camera_info", "woodscape_calibration", "write_calibration"]
 
 _FROM_FIRST_MIDDLE = 0.5
-"""OpenCV, ROS and WoodScape count pixels from the middle of the first one, garage2usd from its corner."""
+"""Offset between pixel origins: OpenCV, ROS and WoodScape use the first pixel's middle, garage2usd its corner."""
 
 
 def write_calibration(camera: Camera, folder: Path) -> Path:
-    """Write the file of a camera, named after it: ``.json`` as WoodScape has it, or ``.yaml`` as ROS has it.
+    """Write a camera's calibration file, named after the camera: ``.json`` for WoodScape, ``.yaml`` for ROS.
 
-    WoodScape's polynomial is no model of ROS, and only it is one of WoodScape's files.
+    Lenses of the WoodScape model are written as JSON, all others as YAML.
     """
     lens = camera.lens
     if isinstance(lens, WoodScape):
@@ -30,9 +30,9 @@ def write_calibration(camera: Camera, folder: Path) -> Path:
 
 
 def woodscape_calibration(camera: Camera, lens: WoodScape) -> dict[str, object]:
-    """The contents of a WoodScape calibration file: from the camera to the vehicle, ISO 8855, rear axle on the ground.
+    """Return the contents of a WoodScape calibration file: camera to vehicle (ISO 8855), rear axle on the ground.
 
-    For a camera on a column or in the world, to the frame of its mount.
+    For a camera mounted on a column or in the world, the extrinsics lead to the frame of the mount.
     """
     from scipy.spatial.transform import Rotation  # noqa: PLC0415 - all who import this module would wait for it
 
@@ -62,14 +62,14 @@ def woodscape_calibration(camera: Camera, lens: WoodScape) -> dict[str, object]:
 
 
 def camera_info(name: str, lens: Lens) -> str:
-    """The text of a ROS calibration file, as camera_info_manager reads it.
+    """Format a camera's ROS calibration file, as camera_info_manager reads it.
 
     Parameters
     ----------
     name
-        Of the camera.
+        Name of the camera.
     lens
-        A pinhole (``plumb_bob`` without distortion) or Kannala and Brandt's (``equidistant``).
+        Lens of the camera: a pinhole (``plumb_bob`` without distortion) or Kannala and Brandt's (``equidistant``).
 
     Raises
     ------

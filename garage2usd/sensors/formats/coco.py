@@ -1,4 +1,4 @@
-"""Slots as keypoints, and all that a picture shows as panoptic segments, in the formats of COCO.
+"""Parking slots as COCO keypoints, and pictures as COCO panoptic segments.
 
 Lin et al., *Microsoft COCO: Common Objects in Context* (2014); Kirillov et al., *Panoptic Segmentation* (2019); the
 data formats of cocodataset.org.
@@ -37,7 +37,7 @@ STUFF = frozenset(
         "wall",
     }
 )
-"""Classes of which a picture has one segment each; all others have one for each object."""
+"""Semantic classes with one panoptic segment a picture; objects of all other classes have one segment each."""
 
 _LEAST_AREA_PX = 16.0
 _SLOT, _KEPT_FREE = 1, 2
@@ -55,12 +55,12 @@ _CATEGORIES = [
 
 @dataclass(frozen=True)
 class CocoImage:
-    """A picture of a data set.
+    """A picture of a COCO data set.
 
     Attributes
     ----------
     file_name
-        As the data set names it.
+        Name of the file within the data set.
     size_px
         Width and height.
     """
@@ -69,29 +69,29 @@ class CocoImage:
     size_px: tuple[int, int]
 
     def entry(self, number: int) -> dict[str, Any]:
-        """What COCO says of it."""
+        """Return the picture's record in the COCO list of images."""
         width, height = self.size_px
         return {"id": number, "file_name": self.file_name, "width": width, "height": height}
 
 
 def coco_keypoints(frames: Iterable[tuple[CocoImage, Iterable[SlotRecord]]], *, description: str) -> dict[str, Any]:
-    """Slots as objects with four keypoints.
+    """Return parking slots as COCO objects with four keypoints.
 
     Parameters
     ----------
     frames
-        Pictures, and the slots that each shows.
+        Pictures, each with its visible slots.
     description
-        Of the data set.
+        Description of the data set.
 
     Notes
     -----
-    The category ``parking_slot`` takes cars, ``kept_free`` is hatched or otherwise kept free. `segmentation`, `bbox`
-    and `area` are of the whole ground as far as it lies in the picture, hidden or not. Coordinates count from the
-    picture's left and upper edge, so that the middle of the first pixel is (0.5, 0.5). `attributes` is no part of COCO:
-    name, number, use, type, angle, whether it is occupied, and how many pixels show its ground. Slots of which fewer
-    than 16 square pixels of ground lie in the picture are left out, as masks that COCO draws of such slivers may be
-    empty.
+    Slots of the category ``parking_slot`` take cars; those of ``kept_free`` are hatched or otherwise kept free.
+    `segmentation`, `bbox` and `area` cover the whole ground of the slot within the picture, hidden or not. Coordinates
+    count from the picture's left and upper edge, so that the middle of the first pixel is (0.5, 0.5). The extension
+    `attributes` holds name, number, use, type, angle, occupancy, and the number of pixels that show the slot's ground.
+    Slots with fewer than 16 square pixels of ground in the picture are omitted, since COCO's masks of such slivers may
+    be empty.
     """
     images: list[dict[str, Any]] = []
     annotations: list[dict[str, Any]] = []
@@ -113,16 +113,16 @@ def coco_keypoints(frames: Iterable[tuple[CocoImage, Iterable[SlotRecord]]], *, 
 def coco_panoptic(
     pictures: Iterable[tuple[CocoImage, str, list[dict[str, Any]]]], labels: Labels, *, description: str
 ) -> dict[str, Any]:
-    """The panoptic segments of pictures.
+    """Return the panoptic segments of pictures in COCO's format.
 
     Parameters
     ----------
     pictures
-        Each picture, name of its PNG of segments, and the segments by `panoptic_segments`.
+        Pictures, each with the name of its PNG of segments and its segments from `panoptic_segments`.
     labels
-        What the objects are; its classes are the categories, `STUFF` and things.
+        Table of labels, whose classes are the categories, `STUFF` and things.
     description
-        Of the data set.
+        Description of the data set.
     """
     images, annotations = [], []
     for number, (image, file_name, segments) in enumerate(pictures, 1):
@@ -147,20 +147,20 @@ def coco_panoptic(
 
 
 def panoptic_segments(instance: NDArray[np.int32], labels: Labels) -> tuple[NDArray[np.int32], list[dict[str, Any]]]:
-    """Segments of a picture of instances.
+    """Compute the panoptic segments of a picture of instances.
 
     Parameters
     ----------
     instance
         Id of the object that each pixel shows, 0 for none; shape (rows, columns).
     labels
-        What the objects are.
+        Table of labels of the stage.
 
     Returns
     -------
     tuple
-        Id of each pixel's segment, as `instance`, 0 where nothing labelled is; and the segments as COCO has them, by
-        their ids. An object's segment has the object's id, that of a class of `STUFF` the least id of its objects here.
+        Segment id of each pixel, 0 where nothing is labelled, and COCO's records of the segments ordered by id. A
+        thing's segment has the id of its object; a segment of `STUFF` has the least id of its objects in the picture.
     """
     ids, which = np.unique(instance, return_inverse=True)
     first_of: dict[int, int] = {}

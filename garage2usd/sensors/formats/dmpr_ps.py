@@ -1,4 +1,4 @@
-"""Slots as the labels of DMPR-PS, by which marking points in bird's-eye pictures are learnt.
+"""Parking slots in the label format of DMPR-PS, for learning marking points in bird's-eye pictures.
 
 Huang et al., *DMPR-PS: A novel approach for parking-slot detection using directional marking-point regression* (2019),
 in the JSON form of its labels of the data set ps2.0 (Zhang et al., *Vision-based parking-slot detection: a DCNN-based
@@ -17,10 +17,10 @@ from garage2usd.sensors.slots import SlotRecord, Slots, Visibility
 __all__ = ["dmpr_ps"]
 
 _MATLAB = 0.5
-"""Coordinates of ps2.0 are MATLAB's: the middle of the first pixel is (1, 1)."""
+"""Offset of MATLAB's pixel coordinates in ps2.0, where the middle of the first pixel is (1, 1)."""
 _ARM_PX = 50.0
 _SAME_M = 0.05
-"""Marks of two stalls that lie nearer to each other are one."""
+"""Distance in metres below which the marking points of two stalls are merged."""
 _T, _L = 0, 1
 _RIGHT_ANGLED, _ACUTE, _OBTUSE = 1, 2, 3
 _QUARTER_DEG = 90.0
@@ -28,14 +28,14 @@ _PLACES = 3
 
 
 def dmpr_ps(records: Sequence[SlotRecord], slots: Slots) -> dict[str, Any]:
-    """The labels of one bird's-eye picture.
+    """Return the DMPR-PS labels of one bird's-eye picture.
 
     Parameters
     ----------
     records
-        What the picture shows.
+        Slots visible in the picture.
     slots
-        All slots of the stage, whose neighbours tell the shapes of marks.
+        All slots of the stage; neighbouring slots determine the shapes of marks.
 
     Returns
     -------
@@ -46,11 +46,12 @@ def dmpr_ps(records: Sequence[SlotRecord], slots: Slots) -> dict[str, Any]:
 
     Notes
     -----
-    Slots are those that take cars, have both corners of their entry in the picture, and one of them seen. Their first
-    mark is at the entry's left corner, so that the slot is on the left of the way from the first to the second mark. A
-    mark where two stalls meet side by side is a T and points into the slots; where a row ends it is an L, from whose
-    direction the other arm is a quarter turn clockwise in the picture: into the slot at the left corner, along the
-    entry at the right one. The lines of a garage leave the entry open, so that the arm across the entry is not painted.
+    A slot is labelled if it takes cars, both corners of its entry lie in the picture, and at least one of them is
+    visible. The first mark is at the entry's left corner, so that the slot lies to the left of the direction from the
+    first to the second mark. A mark between two adjacent stalls is a T and points into the slots. A mark at the end of
+    a row is an L, whose second arm is a quarter turn clockwise in the picture: the direction points into the slot at
+    the left corner and along the entry at the right one. Stall lines leave the entry open, so the arm across the entry
+    is not painted.
     """
     marks: list[list[float]] = []
     numbers: dict[tuple[int, int], int] = {}
@@ -58,7 +59,7 @@ def dmpr_ps(records: Sequence[SlotRecord], slots: Slots) -> dict[str, Any]:
     corners_m = np.stack([slot.corners_m[:2][:, list(slots.ground_axes)] for slot in slots.slots])
 
     def number_of(record: SlotRecord, corner: int) -> int:
-        """Number of the mark at a corner of a slot's entry, which is added if it is not there."""
+        """Return the number of the mark at a corner of a slot's entry, adding the mark if it is new."""
         place = record.slot.corners_m[corner, list(slots.ground_axes)]
         near = np.linalg.norm(corners_m - place, axis=2) < _SAME_M
         stall, end = (int(first[0]) for first in np.nonzero(near))
@@ -83,7 +84,7 @@ def dmpr_ps(records: Sequence[SlotRecord], slots: Slots) -> dict[str, Any]:
 
 
 def _meets_neighbour(near: NDArray[np.bool_]) -> bool:
-    """Whether at a mark the left corner of one entry and the right corner of another meet; `near` has shape (n, 2)."""
+    """Test if the left corner of one entry meets the right corner of another at a mark; `near` has shape (n, 2)."""
     left, right = near.any(axis=0).tolist()
     return bool(left and right)
 

@@ -1,4 +1,4 @@
-"""nuScenes: a recording as the tables of its schema, with boxes of cars, and a class for each point."""
+"""nuScenes: a recording as the tables of its schema, with boxes of objects and lidarseg classes of points."""
 
 import json
 import shutil
@@ -29,46 +29,45 @@ from garage2usd.sensors.rig.mount import Sensor
 __all__ = ["NUSCENES_VERSION", "write_nuscenes"]
 
 NUSCENES_VERSION = "v1.0-garage2usd"
-"""Name of the folder of the tables, which nuscenes-devkit calls the version."""
+"""Name of the folder of tables, which nuscenes-devkit calls the version."""
 
 _MICROSECONDS = 1e6
 _DATE = "2000-01-01"
-"""Stands for the day of the recording, which would make two files of the same drive differ."""
+"""Constant date of every recording, so that files are reproducible."""
 
 
 def write_nuscenes(
     recording: Recording, folder: Path, *, stage: Usd.Stage, labels: Labels, scene: RayScene
 ) -> tuple[Path, ...]:
-    """Write a recording as nuScenes has it.
+    """Write a recording in the nuScenes format.
 
     Parameters
     ----------
     recording
-        Pictures of pinhole cameras and points of LiDARs, as ``npz``; what other cameras recorded is left out, as the
-        tables know no other lens.
+        Pictures of pinhole cameras and points of LiDARs, as ``npz``. Other cameras are omitted, since nuScenes supports
+        pinhole lenses only.
     folder
-        Where the folders ``samples``, ``lidarseg``, ``maps`` and that of the tables go; it is there.
+        Existing folder in which ``samples``, ``lidarseg``, ``maps`` and the folder of tables are written.
     stage, labels, scene
-        The stage that was recorded, what its objects are, and its solid surfaces.
+        The recorded stage, its table of labels, and its solid surfaces.
 
     Returns
     -------
     tuple of Path
-        What was made in the folder, the tables last.
+        Paths written in the folder, the tables last.
 
     Raises
     ------
     ConfigError
-        If no sensor recorded what the tables can hold, or sensors are mounted on something else than the vehicle.
+        If no sensor's recording fits the tables, or a sensor is not mounted on the vehicle.
 
     Notes
     -----
-    Each place of the drive is a sample, all of whose data are key frames. The global frame is the stage turned so that
-    z is up, and moved so that all of it has positive coordinates, as nuScenes' maps have; the record of the map says
-    how (``stage_to_global``). Boxes go around what `nuscenes_classes.BOXED` names of which a point was measured or
-    anything is in line of sight of a sensor; they have a margin of a centimetre, so that rounding puts no point
-    outside. The visibility is the share of an object's directions in which nothing stands before it, whatever the
-    sensor's field of view.
+    Each pose of the drive is a sample, all of whose data are key frames. The global frame is the stage with z up,
+    translated to positive coordinates as in nuScenes' maps; the map's record holds the transform (``stage_to_global``).
+    Objects of `nuscenes_classes.BOXED` have a box if a point was measured on them or any part is in line of sight of a
+    sensor. Boxes have a margin of a centimetre against rounding. The visibility is the share of an object's directions
+    in free line of sight, regardless of the sensor's field of view.
     """
     shots = [shot for shot in recording.shots if _is_told(shot)]
     if not shots:
@@ -107,7 +106,7 @@ def _pose(shot: Shot) -> int:
 
 
 def _channels(sensors: Sequence[Sensor]) -> dict[str, str]:
-    """The channel of each sensor: its name in capitals after that of its modality, as LIDAR_TOP."""
+    """Name the nuScenes channel of each sensor: its modality and its name in capitals, as LIDAR_TOP."""
     found = {}
     for sensor in sensors:
         prefix = "LIDAR" if isinstance(sensor, Lidar) else "CAM"
@@ -122,7 +121,7 @@ def _channels(sensors: Sequence[Sensor]) -> dict[str, str]:
 def _add_map(
     tables: Tables, world: GlobalFrame, scene: RayScene, labels: Labels, folder: Path, recording: Recording
 ) -> None:
-    """The log, and the mask of the ground that is driven on or parked on: no columns and walls."""
+    """Add a recording's log and map: a mask of the ground for driving and parking, without columns and walls."""
     log = tables.add(
         "log",
         recording.stage.name,
@@ -202,7 +201,7 @@ def _add_data(
     world: GlobalFrame,
     labels: Labels,
 ) -> dict[int, list[PointCloud]]:
-    """Copy what was recorded, and give back the points of each pose."""
+    """Copy the recorded sensor data, and return the point clouds of each pose."""
     lidarseg = categories_of_classes(labels)
     clouds: dict[int, list[PointCloud]] = defaultdict(list)
     last: dict[str, Record] = {}
@@ -254,6 +253,6 @@ def _add_data(
 
 
 def _write_points(cloud: PointCloud, path: Path) -> None:
-    """Rows of x, y, z, intensity to 255 and ring."""
+    """Write a point cloud in nuScenes' binary format: rows of x, y, z, intensity up to 255, and ring."""
     rows = np.column_stack([cloud.points_m, cloud.intensity * 255, cloud.ring])
     path.write_bytes(rows.astype("<f4").tobytes())

@@ -1,4 +1,4 @@
-"""The boxes of a recording in nuScenes' tables."""
+"""Object boxes (annotations) of a recording in nuScenes' tables."""
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
@@ -18,9 +18,9 @@ from garage2usd.sensors.rays.ray_scene import RayScene
 __all__ = ["PARKED", "VISIBILITY", "add_boxes"]
 
 PARKED = "vehicle.parked"
-"""What cars are said to be: an attribute."""
+"""nuScenes attribute of parked cars."""
 VISIBILITY = (("1", "v0-40", 0.0), ("2", "v40-60", 0.4), ("3", "v60-80", 0.6), ("4", "v80-100", 0.8))
-"""Token and level of each visibility, and the least share in sight that it stands for."""
+"""Token, level and least share in sight of each nuScenes visibility."""
 _BOX_MARGIN_M = 0.01
 
 
@@ -33,20 +33,20 @@ def add_boxes(
     labels: Labels,
     scene: RayScene,
 ) -> None:
-    """Add the boxes of each pose, and the objects that they are of.
+    """Add the annotations of each pose and their instances to nuScenes' tables.
 
     Parameters
     ----------
     tables
-        What they are added to.
+        The tables to fill.
     by_pose
-        What was recorded at each pose.
+        The shots of each pose.
     boxes
-        Of all objects that may have one.
+        Boxes of all objects that may be annotated.
     clouds
-        The points of each pose by its number.
+        Point clouds of each pose, by its index.
     world, labels, scene
-        The global frame, what the objects are, and what stands in the way.
+        The global frame, the table of labels, and the surfaces that may hide objects.
     """
     chains: dict[int, list[Record]] = defaultdict(list)
     by_id = {box.id: box for box in boxes}

@@ -1,4 +1,4 @@
-"""The categories of nuScenes, and which of them the classes of a stage are."""
+"""nuScenes categories of a stage's semantic classes."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,7 +43,7 @@ CATEGORIES = (
     "static.vegetation",
     "vehicle.ego",
 )
-"""Of nuScenes-lidarseg; the place in the list is what files of classes hold."""
+"""Categories of nuScenes-lidarseg; the index in the list is the value in its files."""
 BOXED = {
     "car": "vehicle.car",
     "van": "vehicle.car",
@@ -60,18 +60,18 @@ BOXED = {
     "motorbike": "vehicle.motorcycle",
     "person": "human.pedestrian.adult",
 }
-"""Classes whose objects have boxes."""
+"""Semantic classes of objects with nuScenes boxes, and their categories."""
 _PARTS = {"number_plate": "vehicle.car"}
-"""Classes of what belongs to such an object."""
+"""Semantic classes of parts of boxed objects, and the categories of those objects."""
 FLAT = frozenset(entry.label for entry in CLASSES if entry.cityscapes in {"road", "parking"})
-"""Classes of the ground and what is painted on it."""
+"""Semantic classes of the ground and its paint."""
 STANDING = frozenset({"wall", "column", "obstacle", "vehicle_door"})
-"""Classes of what stands on the ground for good."""
+"""Semantic classes of fixed objects that stand on the ground."""
 _KNOWN = frozenset(entry.label for entry in CLASSES)
 
 
 def categories_of_classes(labels: Labels) -> NDArray[np.uint8]:
-    """Number of nuScenes-lidarseg's category by the id of a class."""
+    """Return the nuScenes-lidarseg category index of each semantic class, indexed by class id."""
     table = np.full(256, CATEGORIES.index(_NOISE), dtype=np.uint8)
     for number, entry in labels.classes.items():
         name = (BOXED | _PARTS).get(entry.name) or (_DRIVEABLE if entry.name in FLAT else _MANMADE)

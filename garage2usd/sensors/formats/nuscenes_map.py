@@ -1,4 +1,4 @@
-"""The global frame of nuScenes, and its map of where cars can be."""
+"""The global frame of nuScenes, and its map mask of the drivable ground."""
 
 import math
 from collections.abc import Collection
@@ -12,10 +12,10 @@ from garage2usd.sensors.rays.ray_scene import RayScene
 __all__ = ["GlobalFrame"]
 
 _MAP_CELL_M = 0.1
-"""What nuscenes-devkit expects of masks."""
+"""Cell size of map masks in nuscenes-devkit."""
 _MAP_MARGIN_M = 5.0
 _KNEE_M = 0.5
-"""Over the ground, where it is looked for what stands on it."""
+"""Height over the ground at which the map mask looks for fixed objects."""
 _Z_UP = {
     UsdGeom.Tokens.y: np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),
     UsdGeom.Tokens.z: np.eye(3),
@@ -23,7 +23,7 @@ _Z_UP = {
 
 
 class GlobalFrame:
-    """From the stage to nuScenes' global frame."""
+    """The transform from the stage to nuScenes' global frame."""
 
     def __init__(self, stage: Usd.Stage, scene: RayScene) -> None:
         turn = _Z_UP[UsdGeom.GetStageUpAxis(stage)]
@@ -36,24 +36,24 @@ class GlobalFrame:
         self.lowest_m = low[2]
 
     def to_stage(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Places of the global frame in the stage's."""
+        """Transform points from nuScenes' global frame to the stage's."""
         placed: NDArray[np.float64] = (points_m - self.matrix[:3, 3]) @ self.matrix[:3, :3]
         return placed
 
     def mask(self, scene: RayScene, ground: Collection[int], standing: Collection[int]) -> NDArray[np.uint8]:
-        """The map's mask: 255 where there is ground and nothing that is fixed stands on it, whatever is parked there.
+        """Rasterize the nuScenes map mask: 255 on ground without fixed objects, parked cars ignored.
 
         Parameters
         ----------
         scene
             The stage's surfaces.
         ground, standing
-            Ids of the classes of the ground, and of what stands on it for good, whose meshes are closed.
+            Class ids of the ground, and of fixed objects on it, whose meshes are closed.
 
         Returns
         -------
         numpy.ndarray
-            uint8, rows from the north.
+            Mask; uint8, rows from the north.
         """
         columns, rows = (math.ceil(side / _MAP_CELL_M) for side in self.size_m.tolist())
         across, down = np.meshgrid(np.arange(columns), np.arange(rows))

@@ -1,4 +1,4 @@
-"""Point clouds as files of others: PCD, KITTI's ``.bin``, NumPy's ``.npz``."""
+"""Point cloud files: PCD, KITTI's ``.bin`` and NumPy's ``.npz``."""
 
 from enum import StrEnum
 from pathlib import Path
@@ -13,12 +13,12 @@ __all__ = ["POINT_ROW", "CloudFormat", "point_rows", "read_npz", "write_cloud"]
 
 
 class CloudFormat(StrEnum):
-    """What a point cloud is written as."""
+    """File formats of point clouds."""
 
     PCD = "pcd"
     """Binary PCD of the Point Cloud Library: x, y, z, intensity, instance, class, ring."""
     KITTI = "bin"
-    """Rows of x, y, z, intensity, as KITTI has them; it has no place for instances and classes."""
+    """Rows of x, y, z, intensity, as in KITTI; without instances and classes."""
     NPZ = "npz"
     """The arrays of a `PointCloud` by their names."""
 
@@ -34,19 +34,19 @@ POINT_ROW = np.dtype(
         ("ring", "<u2"),
     ]
 )
-"""A point with all that is known of it, without gaps."""
+"""Record of a point with all its attributes, without padding."""
 _ARRAYS = ("points_m", "intensity", "instance", "class_id", "ring", "beam")
 
 
 def write_cloud(cloud: PointCloud, path: Path, kind: CloudFormat) -> None:
-    """Write a point cloud, in the sensor's axes: x forward, y left, z up, in metres.
+    """Write a point cloud to a file, in the sensor's axes: x forward, y left, z up, in metres.
 
     Parameters
     ----------
     cloud
         The points.
     path
-        The file; its folder is there.
+        The file, in an existing folder.
     kind
         Its format.
     """
@@ -54,13 +54,13 @@ def write_cloud(cloud: PointCloud, path: Path, kind: CloudFormat) -> None:
 
 
 def read_npz(path: Path) -> PointCloud:
-    """Read again what was written as `CloudFormat.NPZ`."""
+    """Read a point cloud that was written as `CloudFormat.NPZ`."""
     with np.load(path) as arrays:
         return PointCloud(**{name: arrays[name] for name in _ARRAYS})
 
 
 def point_rows(cloud: PointCloud) -> NDArray[np.void]:
-    """The points as rows of `POINT_ROW`, shape (n,)."""
+    """Return a point cloud as rows of `POINT_ROW`, shape (n,)."""
     rows = np.empty(len(cloud), dtype=POINT_ROW)
     for axis, name in enumerate("xyz"):
         rows[name] = cloud.points_m[:, axis]

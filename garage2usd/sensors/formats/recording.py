@@ -1,4 +1,4 @@
-"""What the sensors of a rig recorded on a drive, as the formats of sequences need it."""
+"""Recordings: the files of a rig's sensors along a drive, as input of the sequence formats."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,23 +14,23 @@ __all__ = ["Recording", "Shot"]
 
 @dataclass(frozen=True, eq=False)
 class Shot:
-    """What one sensor recorded at one time.
+    """The files of one sensor at one time of a recording.
 
     Attributes
     ----------
     name
-        Of its files.
+        Base name of the files.
     sensor
         The sensor of the rig.
     pose
-        Number of the place on the drive; all shots of a place have the same time and the same vehicle.
+        Index of the pose on the drive; all shots of a pose share time and vehicle.
     time_s
-        Since the drive began.
+        Time since the start of the drive.
     mount_to_world
-        From the axes of what the sensor is mounted on (x forward, y left, z up) to the stage's, in metres, for column
+        Transform from the axes of the sensor's mount (x forward, y left, z up) to the stage's, in metres, for column
         vectors; float64, shape (4, 4).
     files
-        The files by their kind: ``colour`` for a picture, ``pcd``, ``bin`` and ``npz`` for points.
+        Files by kind: ``colour`` for a picture, ``pcd``, ``bin`` and ``npz`` for points.
     """
 
     name: str
@@ -43,7 +43,7 @@ class Shot:
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """A drive.
+    """A recording of a drive by a rig.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class Recording:
     stage
         File of the stage.
     shots
-        In the order of their times.
+        Shots in order of time.
     """
 
     rig: str

@@ -1,4 +1,4 @@
-"""A recording as a ROS 2 bag: pictures with their calibration, points, and where the vehicle and its sensors were."""
+"""ROS 2 bags of recordings: pictures with calibration, point clouds, and transforms of vehicle and sensors."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
@@ -27,7 +27,7 @@ __all__ = ["write_ros_bag"]
 
 _MAP, _VEHICLE = "map", "base_link"
 _BEGINS_S = 946_684_800
-"""The first of January 2000: a stamp of 0 would ask tf2 for what is newest."""
+"""First stamp, 1 January 2000; tf2 would take a stamp of 0 for the latest transform."""
 _NANOSECONDS = 1_000_000_000
 _KEPT = Qos(
     QosHistory.KEEP_LAST,
@@ -40,36 +40,36 @@ _KEPT = Qos(
     QosTime(0, 0),
     avoid_ros_namespace_conventions=False,
 )
-"""As /tf_static has it: who comes later gets the last message too."""
+"""Quality of service of /tf_static: late subscribers receive the last message too."""
 _TYPE_OF = {"f": {4: 7}, "u": {1: 2, 2: 4, 4: 6}}
-"""Of sensor_msgs/PointField, by NumPy's kind and size."""
+"""Data types of sensor_msgs/PointField, by NumPy kind and item size."""
 _NO_MODEL: Mapping[str, Any] = {"distortion_model": "", "d": np.zeros(0), "k": np.zeros(9), "p": np.zeros(12)}
 
 
 def write_ros_bag(recording: Recording, folder: Path, *, stage_to_map: NDArray[np.float64]) -> None:
-    """Write a recording as a bag in MCAP.
+    """Write a recording as a ROS 2 bag in MCAP.
 
     Parameters
     ----------
     recording
-        Pictures in PNG, and points as ``npz``.
+        Recording with pictures in PNG and points as ``npz``.
     folder
-        The bag, which is not there yet.
+        Folder of the new bag.
     stage_to_map
-        From the stage's axes in metres to the frame ``map``, whose z is up; shape (4, 4).
+        Transform from the stage's axes in metres to the frame ``map``, whose z is up; shape (4, 4).
 
     Raises
     ------
     ConfigError
-        If nothing was recorded that a bag holds, or the topics of two sensors have the same name.
+        If the recording has no data for a bag, or two sensors have topics of the same name.
 
     Notes
     -----
-    Each camera has ``/NAME/image_raw/compressed`` (PNG) and ``/NAME/camera_info``, each LiDAR ``/NAME/points``;
-    ``/tf`` says where ``base_link``, the middle of the rear axle on the ground, is on the ``map``, ``/tf_static`` where
-    the sensors are on it, or on the map if they are not on the vehicle. Cameras have optical frames (REP 103). Stamps
-    count from the first of January 2000. WoodScape's polynomial is no model of ROS: K is zero then, which stands for an
-    uncalibrated camera.
+    Each camera has ``/NAME/image_raw/compressed`` (PNG) and ``/NAME/camera_info``, each LiDAR ``/NAME/points``; ``/tf``
+    holds the pose of ``base_link``, the middle of the rear axle on the ground, in the frame ``map``. ``/tf_static``
+    holds the poses of the sensors on ``base_link``, or on the map if they are not mounted on the vehicle. Cameras have
+    optical frames (REP 103). Stamps start at 1 January 2000. ROS has no model for WoodScape's polynomial: K is zero
+    then, which marks an uncalibrated camera.
     """
     shots = [shot for shot in recording.shots if shot.files.keys() & {"colour", "npz"}]
     if not shots:
@@ -85,7 +85,7 @@ def write_ros_bag(recording: Recording, folder: Path, *, stage_to_map: NDArray[n
 
 
 def _names(sensors: Sequence[Sensor]) -> dict[str, str]:
-    """The name of each sensor in ROS, which knows no hyphens."""
+    """Return the ROS name of each sensor, without hyphens."""
     found = {sensor.name: sensor.name.replace("-", "_") for sensor in sensors}
     for name, own in found.items():
         if list(found.values()).count(own) > 1:
@@ -94,7 +94,7 @@ def _names(sensors: Sequence[Sensor]) -> dict[str, str]:
 
 
 class _Bag:
-    """Messages and the connections that they need."""
+    """Messages of a ROS bag with their connections."""
 
     def __init__(self, writer: Writer, names: Mapping[str, str]) -> None:
         self._writer, self._names = writer, names
@@ -102,7 +102,7 @@ class _Bag:
         self._connections: dict[str, Any] = {}
 
     def add_sensors(self, shots: Sequence[Shot], stage_to_map: NDArray[np.float64]) -> None:
-        """Say once where the sensors are."""
+        """Add the static transforms of the sensors to the bag."""
         transforms = []
         for shot in {shot.sensor.name: shot for shot in shots}.values():
             place, parent = shot.sensor.sensor_to_vehicle, _VEHICLE
@@ -112,13 +112,13 @@ class _Bag:
         self._write("/tf_static", self._make("tf2_msgs/msg/TFMessage", transforms=transforms), shots[0], [_KEPT])
 
     def add_vehicle(self, shots: Sequence[Shot], stage_to_map: NDArray[np.float64]) -> None:
-        """Say where the vehicle is."""
+        """Add the vehicle's transforms to the bag."""
         if shots:
             place = self._transform(shots[0], _MAP, _VEHICLE, stage_to_map @ shots[0].mount_to_world)
             self._write("/tf", self._make("tf2_msgs/msg/TFMessage", transforms=[place]), shots[0])
 
     def add_shot(self, shot: Shot) -> None:
-        """Add what a sensor recorded."""
+        """Add a sensor's shot to the bag."""
         name = self._names[shot.sensor.name]
         if isinstance(shot.sensor, Camera) and "colour" in shot.files:
             data = np.frombuffer(shot.files["colour"].read_bytes(), dtype=np.uint8)
@@ -198,13 +198,13 @@ def _stamp(shot: Shot) -> int:
 
 
 def _fields() -> Iterator[tuple[str, int, int]]:
-    """Name, offset and type of each field of a point."""
+    """Yield name, offset and type of each field of a point."""
     for name, (dtype, offset, *_) in (POINT_ROW.fields or {}).items():
         yield name, offset, _TYPE_OF[dtype.kind][dtype.itemsize]
 
 
 def _model(camera: Camera) -> Mapping[str, Any]:
-    """The model of the lens, the middle of the first pixel being the origin."""
+    """Return the lens model of a camera as ROS parameters, with the origin in the first pixel's middle."""
     lens = camera.lens
     if isinstance(lens, Pinhole):
         name, coefficients = "plumb_bob", np.zeros(5)

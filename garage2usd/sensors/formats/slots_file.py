@@ -1,4 +1,4 @@
-"""``slots.json``: the slots of a stage, and what each frame of a recording shows of them."""
+"""The file ``slots.json``: the parking slots of a stage, and their visibility in each frame of a recording."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -27,14 +27,14 @@ _CONVENTIONS = {
 
 
 def slots_document(slots: Slots, frames: Mapping[str, Sequence[SlotRecord]], *, stage: str) -> dict[str, Any]:
-    """The slots of a stage and of its frames as a JSON object.
+    """Return the parking slots of a stage and of its frames as a JSON object.
 
     Parameters
     ----------
     slots
         All slots of the stage.
     frames
-        What each frame shows, by its name.
+        Visible slots of each frame, by frame name.
     stage
         Name of the stage's file.
     """
@@ -71,6 +71,6 @@ def slots_document(slots: Slots, frames: Mapping[str, Sequence[SlotRecord]], *, 
 
 
 def rounded(values: NDArray[np.float64], places: int) -> list[list[float | None]]:
-    """Rows of numbers for a file; None for what is not finite."""
+    """Round rows of numbers for a JSON file; None for values that are not finite."""
     rows = (np.round(values, places) + 0.0).tolist()
     return [[number if np.isfinite(number) else None for number in row] for row in rows]

@@ -1,4 +1,4 @@
-"""Bird's-eye views: the ground around a vehicle from straight above, each pixel the same length wide and high."""
+"""Bird's-eye views: orthographic pictures of the ground around a vehicle, seen from straight above."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -29,12 +29,12 @@ FLOOR_CLASSES = frozenset(
         "stall_symbol",
     }
 )
-"""Classes of the floor, and of what is painted or spilt on it."""
+"""Semantic classes of the floor, its paint and its stains."""
 FREE_CLASSES = FLOOR_CLASSES | {"ramp", "speed_bump"}
-"""Classes of what a car drives on."""
+"""Semantic classes that a car can drive on."""
 
 _HEIGHT_M = 20.0
-"""Of the camera over the ground that the vehicle stands on; what hangs overhead is looked through."""
+"""Height of the bird's-eye camera over the vehicle's ground; objects overhead are transparent."""
 _Side = Annotated[int, Field(ge=16, le=8192)]
 _Metres = Annotated[float, Field(ge=-1000.0, le=1000.0)]
 
@@ -43,7 +43,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class Orthographic(Lens):
-    """A lens whose rays are parallel: u = X / metres_per_px + cx.
+    """An orthographic lens, whose rays are parallel: u = X / metres_per_px + cx.
 
     Attributes
     ----------
@@ -54,21 +54,21 @@ class Orthographic(Lens):
     metres_per_px: float
 
     def project(self, points: ArrayLike) -> Floats:
-        """See `Lens.project`; points are in metres."""
+        """Project points in metres orthographically to pixels; see `Lens.project`."""
         pixels: Floats = np.asarray(points, dtype=np.float64)[:, :2] / self.metres_per_px + self.centre_px
         return pixels
 
     def rays(self, pixels: ArrayLike) -> Floats:
-        """See `Lens.rays`; they start where Z is 0 and the place is shown, see `starts`."""
+        """Return the parallel rays of pixels, which start at Z = 0; see `Lens.rays` and `starts`."""
         return np.tile([0.0, 0.0, 1.0], (len(np.asarray(pixels)), 1))
 
     def starts(self, pixels: ArrayLike) -> Floats:
-        """See `Lens.starts`."""
+        """Return the starting points of the parallel rays of pixels at Z = 0; see `Lens.starts`."""
         flat = (np.asarray(pixels, dtype=np.float64) - self.centre_px) * self.metres_per_px
         return np.concatenate([flat, np.zeros((len(flat), 1))], axis=1)
 
     def parameters(self) -> Mapping[str, object]:
-        """See `Lens.parameters`."""
+        """Return the model and parameters of the orthographic lens; see `Lens.parameters`."""
         return {
             "model": "orthographic",
             "metres_per_px": self.metres_per_px,
@@ -76,12 +76,12 @@ class Orthographic(Lens):
         }
 
     def resized(self, size_px: tuple[int, int]) -> Self:
-        """See `Lens.resized`; pixels stay square, so that both sides change alike.
+        """Resize the picture, both sides by the same factor so that pixels stay square; see `Lens.resized`.
 
         Raises
         ------
         ValueError
-            If they do not.
+            If pixels would not stay square.
         """
         across, down = self._ratios(size_px)
         if across != down:
@@ -93,7 +93,7 @@ class Orthographic(Lens):
 
 
 class BirdsEye(Settings):
-    """Bird's-eye views of a recording: forwards is up, and the ego vehicle is not drawn."""
+    """Settings of a recording's bird's-eye views: forwards is up, and the ego vehicle is not drawn."""
 
     metres_per_px: float = Field(0.02, ge=0.001, le=1.0)
     """Width and height of a pixel."""
@@ -102,29 +102,29 @@ class BirdsEye(Settings):
     centre_m: tuple[_Metres, _Metres] = (1.4, 0.0)
     """(x, y) of the picture's middle in the vehicle's frame: forward and to the left of the middle of the rear axle."""
     cars: bool = True
-    """Whether parked cars are drawn; free space is without their ground either way."""
+    """True if parked cars are drawn; free space excludes the ground under them either way."""
 
     @property
     def lens(self) -> Orthographic:
-        """What it sees."""
+        """The orthographic lens of the bird's-eye view."""
         width, height = self.size_px
         return Orthographic(size_px=self.size_px, centre_px=(width / 2, height / 2), metres_per_px=self.metres_per_px)
 
     def sensor_to_vehicle(self) -> Floats:
-        """From camera axes (+X right, +Y down in the picture, +Z forward) to the vehicle's; float64, shape (4, 4)."""
+        """Return the transform from camera axes (+X right, +Y down, +Z forward) to the vehicle's; shape (4, 4)."""
         matrix = np.eye(4)
         matrix[:3, :3] = [[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]]
         matrix[:3, 3] = (*self.centre_m, _HEIGHT_M)
         return matrix
 
     def places(self, points_m: ArrayLike) -> Floats:
-        """(column, row) of points (x, y) in the vehicle's frame, shape (n, 2); float64, shape (n, 2)."""
+        """Project points (x, y) in the vehicle's frame, shape (n, 2), to (column, row); float64, shape (n, 2)."""
         ahead, left = (np.asarray(points_m, dtype=np.float64) - self.centre_m).T / self.metres_per_px
         width, height = self.size_px
         return np.stack([width / 2 - left, height / 2 - ahead], axis=1)
 
     def ground_mask(self, outlines_m: Sequence[ArrayLike]) -> NDArray[np.bool_]:
-        """Which pixels' middles lie in any of some grounds, such as that of the ego vehicle.
+        """Mask the pixels whose middles lie in any of several ground polygons, such as the ego vehicle's footprint.
 
         Parameters
         ----------
@@ -147,14 +147,14 @@ class BirdsEye(Settings):
 
 
 def free_space(classes: NDArray[np.uint8], names: Mapping[int, str]) -> NDArray[np.bool_]:
-    """Which pixels of a bird's-eye view show what a car can drive on, or something else of its class.
+    """Classify which pixels of a bird's-eye view show ground that a car can drive on.
 
-    A ramp is its walls and kerbs as well; `garage2usd.sensors.rays.driven_surface` tells its floor from them.
+    The class of ramps includes their walls and kerbs; `garage2usd.sensors.rays.driven_surface` separates the floor.
 
     Parameters
     ----------
     classes
-        Id of the class that each pixel shows; shape (rows, columns).
+        Semantic class id of each pixel; shape (rows, columns).
     names
         Name of each class by its id.
     """

@@ -1,4 +1,4 @@
-"""The surface that cars drive on: the floor and the floors of ramps, as far as a car finds room over them."""
+"""The drivable surface of a garage: the floor and the floors of ramps with enough headroom for a car."""
 
 from collections.abc import Collection
 
@@ -15,22 +15,22 @@ from garage2usd.sensors.rig.poses import y_up_to_stage
 __all__ = ["DrivenSurface"]
 
 _STEP_M = 0.08
-"""How far over the floor a car still drives on what is there: over a speed bump, and not over a kerb."""
+"""Height over the floor up to which a car drives over an obstacle: a speed bump, not a kerb."""
 _ROUNDING_M = 0.01
-"""What may lack of the height of a car, as the slab over a ramp comes down to it."""
+"""Tolerance of the headroom over a ramp, where the slab comes down to the height of the car."""
 
 
 class DrivenSurface:
-    """The surface of a garage that cars drive on.
+    """The drivable surface of a garage.
 
     Parameters
     ----------
     garage
         The garage, read from a stage.
     labels
-        What its objects are.
+        Table of labels of the stage.
     without
-        Paths of objects that are left out with all below them.
+        Paths of prims that are ignored, with all their descendants.
     """
 
     def __init__(self, garage: BuiltGarage, labels: Labels, *, without: Collection[str] = ()) -> None:
@@ -41,12 +41,12 @@ class DrivenSurface:
         self._to_stage = y_up_to_stage(garage.stage)
 
     def is_free(self, points_m: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Whether a car can drive at each of some points: they are of the surface, and nothing is in a car's height.
+        """Test if a car can drive at each point: on the drivable surface, with free headroom above.
 
         Parameters
         ----------
         points_m
-            In the stage's axes, in metres; what is not finite is not free; shape (n, 3).
+            Points in the stage's axes, in metres; shape (n, 3). Points that are not finite are not free.
 
         Returns
         -------

@@ -1,4 +1,4 @@
-"""Lenses: where in a picture a camera shows a point, and along which ray a place in the picture looks.
+"""Camera lenses: projection of points to pixels, and rays of pixels.
 
 Camera axes are OpenCV's: +X to the right, +Y down, +Z along the optical axis. Pixel (column, row) covers
 [column, column + 1) and its middle is column + 0.5; OpenCV and WoodScape count from the middle of the first pixel, so
@@ -23,14 +23,14 @@ _ON_AXIS = 1e-300
 
 @dataclass(frozen=True, kw_only=True)
 class Lens(ABC):
-    """What a camera sees, without its place.
+    """The projection of a camera, without its pose.
 
     Attributes
     ----------
     size_px
         Width and height of the picture.
     centre_px
-        Where the optical axis meets the picture, from its left and its upper edge.
+        Principal point, where the optical axis meets the picture, from its left and upper edge.
     """
 
     size_px: tuple[int, int]
@@ -38,23 +38,23 @@ class Lens(ABC):
 
     @abstractmethod
     def project(self, points: ArrayLike) -> Floats:
-        """Where points are shown.
+        """Project points in camera axes to pixels.
 
         Parameters
         ----------
         points
-            In camera axes, of any unit; shape (n, 3).
+            Points in camera axes, in any unit; shape (n, 3).
 
         Returns
         -------
         ndarray
-            (column, row), float64, shape (n, 2); NaN for what the lens does not see. What it sees may still lie
-            outside of the picture: see `within`.
+            (column, row), float64, shape (n, 2); NaN for points outside the lens's field of view. Projected points may
+            still lie outside the picture, see `within`.
         """
 
     @abstractmethod
     def rays(self, pixels: ArrayLike) -> Floats:
-        """The directions that places of the picture look to.
+        """Return the directions of the rays of pixels.
 
         Parameters
         ----------
@@ -64,31 +64,31 @@ class Lens(ABC):
         Returns
         -------
         ndarray
-            Of length 1, in camera axes, float64, shape (n, 3); NaN where the lens sees nothing.
+            Unit vectors in camera axes, float64, shape (n, 3); NaN outside the lens's field of view.
         """
 
     def starts(self, pixels: ArrayLike) -> Floats:
-        """Where the rays of places, shape (n, 2), start, in camera axes and metres; float64, shape (n, 3).
+        """Return the starting points of the rays of pixels, shape (n, 2), in camera axes and metres; shape (n, 3).
 
-        At the camera, but for lenses that say otherwise.
+        Rays start at the camera, except in lenses that override this method.
         """
         return np.zeros((len(np.asarray(pixels)), 3))
 
     @abstractmethod
     def parameters(self) -> Mapping[str, object]:
-        """Its model and all of its parameters as plain values, under the names of its attributes."""
+        """Return the lens model and all its parameters as plain values, keyed by attribute name."""
 
     @abstractmethod
     def resized(self, size_px: tuple[int, int]) -> Self:
-        """The same lens before a picture of another size, whose edges lie where they did."""
+        """Return the lens for a picture of another size with the same edges."""
 
     def middles(self) -> Floats:
-        """The middles of all pixels, row by row; float64, shape (height * width, 2)."""
+        """Return the middles of all pixels, row by row; float64, shape (height * width, 2)."""
         rows, columns = np.mgrid[: self.size_px[1], : self.size_px[0]]
         return np.stack([columns.ravel() + 0.5, rows.ravel() + 0.5], axis=1)
 
     def within(self, pixels: ArrayLike) -> NDArray[np.bool_]:
-        """Which places, shape (n, 2), lie in the picture; False for NaN."""
+        """Test which pixel coordinates, shape (n, 2), lie in the picture; False for NaN."""
         places = np.asarray(pixels, dtype=np.float64)
         inside: NDArray[np.bool_] = ((places >= 0) & (places < self.size_px)).all(axis=1)
         return inside
@@ -99,7 +99,7 @@ class Lens(ABC):
 
 @dataclass(frozen=True, kw_only=True)
 class Pinhole(Lens):
-    """A lens without distortion: u = fx * X / Z + cx.
+    """A pinhole lens, without distortion: u = fx * X / Z + cx.
 
     Attributes
     ----------
@@ -110,25 +110,25 @@ class Pinhole(Lens):
     focal_px: tuple[float, float]
 
     def project(self, points: ArrayLike) -> Floats:
-        """See `Lens.project`; what is not before the camera is not seen."""
+        """Project points to pixels; NaN for points that are not in front of the camera. See `Lens.project`."""
         points = np.asarray(points, dtype=np.float64)
         depth = np.where(points[:, 2] > 0, points[:, 2], np.nan)[:, None]
         pixels: Floats = points[:, :2] / depth * self.focal_px + self.centre_px
         return pixels
 
     def rays(self, pixels: ArrayLike) -> Floats:
-        """See `Lens.rays`."""
+        """Return the directions of the rays of pixels through the pinhole; see `Lens.rays`."""
         flat = (np.asarray(pixels, dtype=np.float64) - self.centre_px) / self.focal_px
         rays = np.concatenate([flat, np.ones((len(flat), 1))], axis=1)
         unit: Floats = rays / np.linalg.norm(rays, axis=1, keepdims=True)
         return unit
 
     def parameters(self) -> Mapping[str, object]:
-        """See `Lens.parameters`."""
+        """Return the parameters of the pinhole; see `Lens.parameters`."""
         return {"model": "pinhole", "focal_px": list(self.focal_px), "centre_px": list(self.centre_px)}
 
     def resized(self, size_px: tuple[int, int]) -> Self:
-        """See `Lens.resized`."""
+        """Scale the pinhole's focal lengths and principal point to another size; see `Lens.resized`."""
         ratios = self._ratios(size_px)
         return replace(
             self, size_px=size_px, centre_px=_times(self.centre_px, ratios), focal_px=_times(self.focal_px, ratios)
@@ -137,10 +137,10 @@ class Pinhole(Lens):
 
 @dataclass(frozen=True, kw_only=True)
 class Fisheye(Lens):
-    """A lens whose picture of a point depends on the angle theta between its ray and the optical axis.
+    """A fisheye lens: the radius of a point in the picture is a polynomial of the angle theta from the optical axis.
 
-    The point is shown r(theta) away from `centre_px`, in the direction of (X, Y), and stretched by `stretch` along
-    columns and rows. r is a polynomial that grows up to `max_angle_rad`; nothing beyond that is seen.
+    A point is shown at a distance r(theta) from `centre_px` in the direction of (X, Y), scaled by `stretch` along
+    columns and rows. The polynomial r increases up to `max_angle_rad`, the edge of the field of view.
 
     Attributes
     ----------
@@ -153,15 +153,15 @@ class Fisheye(Lens):
     @property
     @abstractmethod
     def radius(self) -> RadiusPolynomial:
-        """r(theta)."""
+        """The radius r(theta) as a polynomial."""
 
     @property
     @abstractmethod
     def stretch(self) -> tuple[float, float]:
-        """Pixels for each unit of r, along columns and rows."""
+        """Pixels per unit of r along columns and rows."""
 
     def project(self, points: ArrayLike) -> Floats:
-        """See `Lens.project`."""
+        """Project points to pixels of the fisheye; see `Lens.project`."""
         points = np.asarray(points, dtype=np.float64)
         across = np.hypot(points[:, 0], points[:, 1])
         angle = np.arctan2(across, points[:, 2])
@@ -172,7 +172,7 @@ class Fisheye(Lens):
         return pixels
 
     def rays(self, pixels: ArrayLike) -> Floats:
-        """See `Lens.rays`."""
+        """Return the directions of the rays of pixels through the fisheye; see `Lens.rays`."""
         flat = (np.asarray(pixels, dtype=np.float64) - self.centre_px) / self.stretch
         radius = np.hypot(flat[:, 0], flat[:, 1])
         angle = self.radius.angles_rad(radius, most_rad=self.max_angle_rad)
@@ -182,11 +182,11 @@ class Fisheye(Lens):
 
 @dataclass(frozen=True, kw_only=True)
 class KannalaBrandt(Fisheye):
-    """OpenCV's fisheye: r = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8).
+    """OpenCV's fisheye lens: r = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8).
 
     Kannala and Brandt, *A Generic Camera Model and Calibration Method for Conventional, Wide-Angle, and Fish-Eye
-    Lenses* (2006), radially symmetric, as `cv2.fisheye` and ROS ("equidistant") have it; seen beyond 90 degrees from
-    the axis too, where OpenCV's own projection ends.
+    Lenses* (2006), radially symmetric, as in `cv2.fisheye` and ROS ("equidistant"). The field of view may extend beyond
+    90 degrees from the axis, where OpenCV's projection ends.
 
     Attributes
     ----------
@@ -201,17 +201,17 @@ class KannalaBrandt(Fisheye):
 
     @property
     def radius(self) -> RadiusPolynomial:
-        """See `Fisheye.radius`."""
+        """The odd polynomial of Kannala and Brandt; see `Fisheye.radius`."""
         k1, k2, k3, k4 = self.coefficients
         return RadiusPolynomial((0.0, 1.0, 0.0, k1, 0.0, k2, 0.0, k3, 0.0, k4))
 
     @property
     def stretch(self) -> tuple[float, float]:
-        """See `Fisheye.stretch`."""
+        """Focal lengths (fx, fy); see `Fisheye.stretch`."""
         return self.focal_px
 
     def parameters(self) -> Mapping[str, object]:
-        """See `Lens.parameters`."""
+        """Return the parameters of the Kannala-Brandt lens; see `Lens.parameters`."""
         return {
             "model": "kannala_brandt",
             "focal_px": list(self.focal_px),
@@ -221,7 +221,7 @@ class KannalaBrandt(Fisheye):
         }
 
     def resized(self, size_px: tuple[int, int]) -> Self:
-        """See `Lens.resized`."""
+        """Scale the focal lengths and principal point of the fisheye to another size; see `Lens.resized`."""
         ratios = self._ratios(size_px)
         return replace(
             self, size_px=size_px, centre_px=_times(self.centre_px, ratios), focal_px=_times(self.focal_px, ratios)
@@ -230,7 +230,7 @@ class KannalaBrandt(Fisheye):
 
 @dataclass(frozen=True, kw_only=True)
 class WoodScape(Fisheye):
-    """WoodScape's fisheye: r = k1 theta + k2 theta^2 + k3 theta^3 + k4 theta^4, in pixels.
+    """WoodScape's fisheye lens: r = k1 theta + k2 theta^2 + k3 theta^3 + k4 theta^4, in pixels.
 
     Yogamani et al., *WoodScape: A multi-task, multi-camera fisheye dataset for autonomous driving* (2019), and the
     `radial_poly` of its calibration files.
@@ -240,7 +240,7 @@ class WoodScape(Fisheye):
     coefficients_px
         (k1, k2, k3, k4).
     aspect_ratio
-        By which rows are stretched.
+        Factor by which rows are stretched.
     """
 
     coefficients_px: tuple[float, float, float, float]
@@ -248,16 +248,16 @@ class WoodScape(Fisheye):
 
     @property
     def radius(self) -> RadiusPolynomial:
-        """See `Fisheye.radius`."""
+        """The polynomial of degree four of WoodScape; see `Fisheye.radius`."""
         return RadiusPolynomial((0.0, *self.coefficients_px))
 
     @property
     def stretch(self) -> tuple[float, float]:
-        """See `Fisheye.stretch`."""
+        """The aspect ratio as factors of columns and rows; see `Fisheye.stretch`."""
         return 1.0, self.aspect_ratio
 
     def parameters(self) -> Mapping[str, object]:
-        """See `Lens.parameters`."""
+        """Return the parameters of the WoodScape lens; see `Lens.parameters`."""
         return {
             "model": "woodscape",
             "coefficients_px": list(self.coefficients_px),
@@ -267,7 +267,7 @@ class WoodScape(Fisheye):
         }
 
     def resized(self, size_px: tuple[int, int]) -> Self:
-        """See `Lens.resized`."""
+        """Scale the polynomial and principal point of the fisheye to another size; see `Lens.resized`."""
         wider, higher = self._ratios(size_px)
         k1, k2, k3, k4 = self.coefficients_px
         return replace(

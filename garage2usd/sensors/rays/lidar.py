@@ -1,4 +1,4 @@
-"""LiDAR: where the rays of a sweep go, and the points that come back."""
+"""LiDAR simulation: the rays of a sweep, and the point cloud of their returns."""
 
 import math
 import zlib
@@ -27,19 +27,19 @@ __all__ = [
 ]
 
 _PRISM_RPM = 7294.0, -4664.0
-"""Of the two prisms of a Livox Mid-40."""
+"""Speeds of the two rotating prisms of a Livox Mid-40."""
 
 
 @dataclass(frozen=True, eq=False)
 class Beams:
-    """The rays of a sweep in the order in which they are sent.
+    """The rays of a LiDAR sweep in firing order.
 
     Attributes
     ----------
     directions
-        Unit vectors in the sensor's axes, which are ISO 8855's: x forward, y left, z up; float64, shape (n, 3).
+        Unit vectors in the sensor's axes (ISO 8855: x forward, y left, z up); float64, shape (n, 3).
     ring
-        Number of the laser or row, from 0 at the top; uint16, shape (n,).
+        Index of the laser or row, from 0 at the top; uint16, shape (n,).
     """
 
     directions: NDArray[np.float64]
@@ -49,22 +49,22 @@ class Beams:
 def measure(
     scene: RayScene | MovedScene, sensor: Lidar, sensor_to_world: NDArray[np.float64], *, seed: int = 0, sweep: int = 0
 ) -> PointCloud:
-    """What a LiDAR of a rig measures in one sweep.
+    """Simulate one sweep of a rig's LiDAR.
 
     Parameters
     ----------
     scene
-        What its rays meet.
+        Surfaces that the rays may hit.
     sensor
-        The LiDAR; its name has a part in drawing the noise, so that each has its own.
+        The LiDAR; its name is part of the noise's seed, so that each LiDAR has noise of its own.
     sensor_to_world
-        From its axes to the stage's, in metres, for column vectors; shape (4, 4).
+        Transform from the LiDAR's axes to the stage's, in metres, for column vectors; shape (4, 4).
     seed, sweep
-        What the noise is drawn by; the number of the sweep turns rosettes on as well.
+        Seed of the noise and number of the sweep; rosettes advance with the sweep as well.
 
     Notes
     -----
-    See `scan` for how.
+    See `scan` for the method.
     """
     return scan(
         scene,
@@ -79,12 +79,12 @@ def measure(
 
 
 def beams_of(sensor: Lidar, sweep: int = 0) -> Beams:
-    """The rays of a sweep of a LiDAR.
+    """Return the rays of one sweep of a LiDAR.
 
     Raises
     ------
     TypeError
-        If it is of no kind that has rays.
+        If the sensor is of an unknown kind of LiDAR.
     """
     match sensor:
         case SpinningLidar():
@@ -103,14 +103,14 @@ def beams_of(sensor: Lidar, sweep: int = 0) -> Beams:
 
 
 def spinning_beams(elevations_deg: Sequence[float], azimuth_steps: int) -> Beams:
-    """The rays of lasers above each other that turn around z, from straight ahead to the left.
+    """Return the rays of a spinning LiDAR: stacked lasers that turn about z, from straight ahead to the left.
 
     Parameters
     ----------
     elevations_deg
-        Of each laser over the horizon; rings are numbered from the highest one.
+        Elevation of each laser over the horizon; rings are numbered from the highest one.
     azimuth_steps
-        In a turn; all lasers fire at each of them.
+        Steps per revolution; all lasers fire at each step.
     """
     elevations = np.radians(np.sort(np.asarray(elevations_deg, dtype=np.float64))[::-1])
     azimuths = np.arange(azimuth_steps) * (2 * math.pi / azimuth_steps)
@@ -120,7 +120,7 @@ def spinning_beams(elevations_deg: Sequence[float], azimuth_steps: int) -> Beams
 
 
 def raster_beams(horizontal_deg: float, vertical_deg: float, columns: int, rows: int) -> Beams:
-    """Rays through the middles of the cells of a field of view, equal in angle, row by row from the top left."""
+    """Return the rays of a solid-state LiDAR: a raster of equal angles, row by row from the top left."""
     azimuths = math.radians(horizontal_deg) * (0.5 - (np.arange(columns) + 0.5) / columns)
     elevations = math.radians(vertical_deg) * (0.5 - (np.arange(rows) + 0.5) / rows)
     elevation, azimuth = (grid.ravel() for grid in np.meshgrid(elevations, azimuths, indexing="ij"))
@@ -128,20 +128,20 @@ def raster_beams(horizontal_deg: float, vertical_deg: float, columns: int, rows:
 
 
 def rosette_beams(horizontal_deg: float, vertical_deg: float, count: int, *, begins_s: float, lasts_s: float) -> Beams:
-    """Rays that two turning prisms deflect, as a Livox Mid-40's: a rosette that no sweep repeats.
+    """Return the rays of a LiDAR with two rotating prisms, as in a Livox Mid-40: a rosette that no sweep repeats.
 
     Parameters
     ----------
     horizontal_deg, vertical_deg
         Field of view, which the rosette fills as an ellipse.
     count
-        Of rays, at equal times.
+        Number of rays, equally spaced in time.
     begins_s, lasts_s
-        When the sweep begins after the prisms stood side by side, and how long it takes.
+        Start of the sweep since the prisms were aligned, and duration of the sweep.
 
     Notes
     -----
-    Each prism deflects by a quarter of the field of view into the direction that it has turned to; small deflections
+    Each prism deflects the ray by a quarter of the field of view in the direction of its rotation; small deflections
     add up.
     """
     times = begins_s + lasts_s * np.arange(count) / count
@@ -162,27 +162,27 @@ def scan(
     sensor: str = "",
     sweep: int = 0,
 ) -> PointCloud:
-    """Send the rays of a sweep and collect what comes back.
+    """Cast the rays of a LiDAR sweep and collect their returns as a point cloud.
 
     Parameters
     ----------
     scene
-        What they meet.
+        Surfaces that the rays may hit.
     beams
         The rays.
     sensor_to_world
-        From the sensor's axes to the stage's, in metres, for column vectors; shape (4, 4).
+        Transform from the sensor's axes to the stage's, in metres, for column vectors; shape (4, 4).
     range_m
-        Least and greatest range of a return; nothing comes back from what is nearer or farther.
+        Least and greatest range of a return.
     range_noise_m
         Standard deviation of the range, normally distributed.
     seed, sensor, sweep
-        What the noise is drawn by; a ray's does not depend on what other rays meet.
+        Seed, sensor name and sweep number that determine the noise; the noise of a ray is independent of the other
+        rays' hits.
 
     Notes
     -----
-    All rays are sent from the same place, as if the car stood while the sensor turns: what drivers of sensors deliver
-    after they have compensated for the car's motion.
+    All rays start at the same place, as in a sweep whose driver has compensated for the ego motion.
     """
     turn = sensor_to_world[:3, :3]
     hits = scene.cast(sensor_to_world[:3, 3], beams.directions @ turn.T)

@@ -1,4 +1,4 @@
-"""A scene with something in it that stands elsewhere in each sweep, as the car that a LiDAR on a column watches."""
+"""A ray scene with one moving object, such as the car that a column-mounted LiDAR watches."""
 
 from dataclasses import dataclass, replace
 from typing import Any, Self
@@ -14,20 +14,21 @@ __all__ = ["MovedScene", "joined"]
 
 @dataclass(frozen=True, eq=False)
 class MovedScene:
-    """A scene and a thing, whose triangles have the numbers after the scene's.
+    """A static ray scene and a moving object, whose triangles are numbered after the scene's.
 
     Attributes
     ----------
     scene
-        What stands still.
+        The static surfaces.
     thing
-        What moves, as it stands in its own stage.
+        The moving object in the axes of its own stage.
     place
-        From there to where it is, in the stage's axes, in metres, for column vectors; rigid, float64, shape (4, 4).
+        Rigid transform from the object's stage to the scene's axes, in metres, for column vectors; float64, shape (4,
+        4).
     instance, class_id, surface
-        Of all triangles, as `RayScene` has them.
+        Attributes of all triangles, as in `RayScene`.
     surfaces
-        What they look like.
+        Looks of all surfaces.
     """
 
     scene: RayScene
@@ -39,11 +40,11 @@ class MovedScene:
     surfaces: tuple[SurfaceLook, ...]
 
     def at(self, place: NDArray[np.float64]) -> Self:
-        """The same with the thing elsewhere."""
+        """Return the ray scene with the moving object at another pose."""
         return replace(self, place=place)
 
     def cast(self, origins_m: NDArray[Any], directions: NDArray[Any]) -> RayHits:
-        """Find what each ray meets first; see `RayScene.cast`."""
+        """Find the first hit of each ray; see `RayScene.cast`."""
         here, turn = self.scene.cast(origins_m, directions), self.place[:3, :3]
         there = self.thing.cast((np.asarray(origins_m) - self.place[:3, 3]) @ turn, np.asarray(directions) @ turn)
         is_there = there.range_m < here.range_m
@@ -55,7 +56,7 @@ class MovedScene:
 
 
 def joined(scene: RayScene, thing: RayScene) -> MovedScene:
-    """A scene with a thing that is not moved yet."""
+    """Join a ray scene and a moving object at its initial pose."""
     return MovedScene(
         scene,
         thing,

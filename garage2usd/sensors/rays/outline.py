@@ -1,4 +1,4 @@
-"""The outline that a lens makes of a polygon on the ground: bent, and cut off where the lens ends."""
+"""Outlines of ground polygons in a picture: bent by the lens and clipped at the edge of its field of view."""
 
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 __all__ = ["outline_in_picture", "polygons_of"]
 
 _STEP_M = 0.1
-"""Between points of an outline, which a fisheye bends."""
+"""Step along a polygon's edges, which a fisheye bends."""
 _HALVINGS = 30
 _FARTHEST_PX = 1e6
 _LEAST_POINTS = 3
@@ -20,19 +20,20 @@ Points = NDArray[np.float64]
 
 
 def outline_in_picture(corners_m: Points, project: Callable[[Points], Points]) -> shapely.Geometry:
-    """The outline of a polygon in a picture, as far as the lens sees it: its edges go in steps, which a lens may bend.
+    """Project a ground polygon to its outline in a picture, clipped to the lens's field of view.
 
     Parameters
     ----------
     corners_m
-        Of the polygon, in order; shape (n, 3).
+        Corners of the polygon, in order; shape (n, 3).
     project
-        From points in metres, shape (n, 3), to (column, row) in pixels, shape (n, 2); NaN for what it does not see.
+        Projection from points in metres, shape (n, 3), to (column, row) in pixels, shape (n, 2); NaN outside the field
+        of view.
 
     Returns
     -------
     shapely.Geometry
-        In pixels, valid; empty where the lens sees nothing of the polygon.
+        Valid geometry in pixels; empty if the polygon is outside the field of view.
     """
     steps: list[Points] = []
     for start, end in pairwise([*corners_m, corners_m[0]]):
@@ -53,10 +54,10 @@ def outline_in_picture(corners_m: Points, project: Callable[[Points], Points]) -
 def _up_to_the_rim(
     points: Points, places: Points, is_seen: NDArray[np.bool_], project: Callable[[Points], Points]
 ) -> Iterator[Points]:
-    """The places that a lens sees; for those that it does not see, the rim of what it sees of the polygon.
+    """Yield an outline's visible points in the picture, and points on the edge of view for invisible runs.
 
-    On the rim is the last that it sees on the straight lines to them from a point of the outline, that in the middle of
-    those that it sees. What a lens sees of a plane, or what it does not see, is convex, and each line leaves it once.
+    A point on the edge is the last visible one on the straight line from the middle visible point of the outline to an
+    invisible one. The visible part of a plane, or its complement, is convex, so each line leaves it once.
     """
     # the order begins with the first of a run of points that it sees
     first = int(np.flatnonzero(is_seen & ~np.roll(is_seen, 1))[0])
@@ -77,7 +78,7 @@ def _up_to_the_rim(
 
 
 def _last_seen(inner_m: Points, outer_m: Points, project: Callable[[Points], Points]) -> Points:
-    """The places of the last points that a lens sees on the lines from some that it sees to some that it does not."""
+    """Project the last visible points on lines from visible to invisible points, by bisection."""
     places = project(inner_m)
     for _ in range(_HALVINGS):
         middle = (inner_m + outer_m) / 2
@@ -89,6 +90,6 @@ def _last_seen(inner_m: Points, outer_m: Points, project: Callable[[Points], Poi
 
 
 def polygons_of(geometry: shapely.Geometry) -> Sequence[shapely.Polygon]:
-    """The polygons that a geometry consists of, which may be none."""
+    """Return the polygons of a geometry, possibly none."""
     parts = shapely.get_parts(shapely.get_parts(geometry))  # twice, for a collection of several multipolygons
     return [part for part in parts if isinstance(part, shapely.Polygon)]

@@ -1,4 +1,4 @@
-"""The polynomial by which a fisheye takes the angle of a ray from its axis to a distance in the picture."""
+"""Radius polynomials of fisheye lenses: from the angle of a ray to its distance from the principal point."""
 
 import math
 from collections.abc import Sequence
@@ -11,14 +11,14 @@ __all__ = ["RadiusPolynomial"]
 
 Floats = NDArray[np.float64]
 _STEPS = 60
-"""Of Newton at most; bisection alone halves pi so often that nothing of a double is left."""
+"""Maximum number of Newton steps; that many bisections of pi exhaust double precision."""
 _TINY = 1e-300
 _SAMPLES = 20_001
 
 
 @dataclass(frozen=True)
 class RadiusPolynomial:
-    """r(theta) = sum of c_i theta^i, which grows from r(0) = 0 on.
+    """A fisheye's radius r(theta) = sum of c_i theta^i, which increases from r(0) = 0.
 
     Attributes
     ----------
@@ -29,34 +29,34 @@ class RadiusPolynomial:
     coefficients: Sequence[float]
 
     def __call__(self, angle_rad: ArrayLike) -> Floats:
-        """The radius at some angles, shape (n,)."""
+        """Evaluate the radius at angles, shape (n,)."""
         return _horner(self.coefficients, np.asarray(angle_rad, dtype=np.float64))
 
     @property
     def slope(self) -> tuple[float, ...]:
-        """Coefficients of its derivative, that of theta^0 first."""
+        """Coefficients of the derivative, lowest degree first."""
         return tuple(power * factor for power, factor in enumerate(self.coefficients))[1:]
 
     @property
     def grows_up_to_rad(self) -> float:
-        """The angle up to which it grows from 0 on; at most pi.
+        """The angle up to which the radius increases, at most pi.
 
-        The slope is looked at in steps of less than 0.01 degrees: its roots as those of a polynomial are wrong where
-        the coefficients are of very different sizes.
+        The slope is sampled in steps of less than 0.01 degrees, since polynomial root finding is inaccurate for
+        coefficients of very different magnitude.
         """
         angles = np.linspace(0.0, math.pi, _SAMPLES)
         falls = np.flatnonzero(_horner(self.slope, angles) <= 0)
         return float(angles[max(falls[0] - 1, 0)]) if len(falls) else math.pi
 
     def angles_rad(self, radius: ArrayLike, *, most_rad: float) -> Floats:
-        """The angles that it takes to some radii, shape (n,); NaN for radii that it takes no angle up to a limit to.
+        """Invert the radius polynomial: the angles of radii, shape (n,); NaN for radii beyond the limit's.
 
         Parameters
         ----------
         radius
             At least 0.
         most_rad
-            It grows up to there.
+            Limit of the angle, up to which the radius increases.
         """
         radius = np.asarray(radius, dtype=np.float64)
         slope = self.slope

@@ -1,4 +1,4 @@
-"""Which triangle rays meet first: by Embree, or where that has no package for the machine by a hierarchy of boxes."""
+"""Ray casting: the first triangle that each ray hits, by Embree or by a bounding volume hierarchy in NumPy."""
 
 from typing import Any, Protocol
 
@@ -11,46 +11,46 @@ from garage2usd.common.system import HAS_EMBREE
 __all__ = ["SLOWLY", "BoxTree", "RayCaster", "ray_caster"]
 
 SLOWLY = None if HAS_EMBREE else "rays without embreex, which has no package for this machine: the same hits, slowly"
-"""What is said once where rays take long; None where they do not."""
+"""Warning that ray casting without Embree is slow; None if Embree is installed."""
 _LEAF = 4
-"""Triangles in each of the last boxes."""
+"""Number of triangles in each leaf of the hierarchy."""
 _CHUNK = 1 << 17
-"""Rays at a time, so that what is remembered of them stays within some tens of megabytes."""
+"""Number of rays cast together, which limits memory to some tens of megabytes."""
 _EDGE = 1e-9
-"""How far outside of a triangle, as a part of it, a ray still meets it: none passes between two that share an edge."""
+"""Tolerance in barycentric coordinates, so that no ray passes between two triangles that share an edge."""
 
 
 _FINEST = 65535
-"""Steps of the places by which triangles are sorted: a millimetre in a hall of 65 m, and sorted in no time."""
+"""Number of steps of the grid by which triangles are sorted: a millimetre in a hall of 65 m."""
 
 
 class RayCaster(Protocol):
-    """Finds triangles."""
+    """A ray caster on a mesh of triangles."""
 
     def first(self, origins_m: NDArray[np.float64], directions: NDArray[np.float64]) -> NDArray[np.int64]:
-        """Find the triangle that each ray meets first, -1 for none; origins and unit vectors of shape (n, 3)."""
+        """Find the first triangle that each ray hits, -1 for none; origins and unit vectors of shape (n, 3)."""
 
 
 def ray_caster(vertices_m: NDArray[np.float64], triangles: NDArray[np.int32]) -> RayCaster:
-    """Give the fastest caster that this machine has.
+    """Create the fastest ray caster that is available on this machine.
 
     Parameters
     ----------
     vertices_m
-        Shape (v, 3).
+        Vertices of the mesh; shape (v, 3).
     triangles
-        Vertices of each; shape (t, 3).
+        Vertex indices of each triangle; shape (t, 3).
 
     Raises
     ------
     MissingExtraError
-        If what casts rays is not installed.
+        If the packages for ray casting are not installed.
     """
     return _Embree(vertices_m, triangles) if HAS_EMBREE else BoxTree(vertices_m, triangles)
 
 
 class _Embree:
-    """Embree, by which trimesh casts rays; in single precision."""
+    """Ray casting by Embree through trimesh, in single precision."""
 
     def __init__(self, vertices_m: NDArray[np.float64], triangles: NDArray[np.int32]) -> None:
         with of_extra("casting rays"):
@@ -59,12 +59,12 @@ class _Embree:
         self._mesh: Any = trimesh.Trimesh(vertices_m, triangles, process=False, validate=False)
 
     def first(self, origins_m: NDArray[np.float64], directions: NDArray[np.float64]) -> NDArray[np.int64]:
-        """Find the triangle that each ray meets first."""
+        """Find the first triangle that each ray hits, by Embree."""
         return np.asarray(self._mesh.ray.intersects_first(origins_m, directions), dtype=np.int64)
 
 
 class BoxTree:
-    """A bounding volume hierarchy, a full binary tree that is split at medians along the longest side, by NumPy alone.
+    """A bounding volume hierarchy in NumPy: a full binary tree, split at medians along the longest side.
 
     Parameters
     ----------
@@ -102,13 +102,13 @@ class BoxTree:
         self._corner, self._sides = first, (second - first, third - first)
 
     def first(self, origins_m: NDArray[np.float64], directions: NDArray[np.float64]) -> NDArray[np.int64]:
-        """Find the triangle that each ray meets first."""
+        """Find the first triangle that each ray hits, by descending the tree."""
         parts = range(0, len(directions), _CHUNK)
         found = [self._first(origins_m[part : part + _CHUNK], directions[part : part + _CHUNK]) for part in parts]
         return np.concatenate([np.empty(0, dtype=np.int64), *found])
 
     def _first(self, origins_m: NDArray[np.float64], directions: NDArray[np.float64]) -> NDArray[np.int64]:
-        """Go down the tree, the nearer box first, for all rays at once: each has a stack of boxes that it enters."""
+        """Traverse the tree for all rays at once, the nearer box first, with a stack of boxes for each ray."""
         count, depth = len(directions), self._leaves.bit_length() + 1
         with np.errstate(divide="ignore"):
             inverse = 1.0 / directions
@@ -143,7 +143,7 @@ class BoxTree:
     def _enters(
         self, boxes: NDArray[np.int64], origins_m: NDArray[np.float64], inverse: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """Where rays enter boxes, infinite where they miss; of shape (n, 2) as the boxes."""
+        """Intersect rays with boxes: the distance of entry, infinite for a miss; shape (n, 2) as the boxes."""
         with np.errstate(invalid="ignore"):  # a ray within the plane of a side
             one = (self._low[boxes] - origins_m[:, None]) * inverse[:, None]
             other = (self._high[boxes] - origins_m[:, None]) * inverse[:, None]
@@ -162,7 +162,7 @@ class BoxTree:
         nearest: NDArray[np.float64],
         found: NDArray[np.int64],
     ) -> None:
-        """Meet the triangles of the last boxes, by Möller and Trumbore."""
+        """Intersect rays with the triangles of leaf boxes, by the algorithm of Möller and Trumbore."""
         numbers = self._order[boxes - (self._leaves - 1)]
         direction = directions[rays][:, None]
         side, other = (each[numbers] for each in self._sides)
@@ -184,7 +184,7 @@ class BoxTree:
 
 
 def _places(points_m: NDArray[np.float64]) -> NDArray[np.uint16]:
-    """Places in steps of the box around all."""
+    """Quantize points to steps of their common bounding box."""
     low, high = points_m.min(axis=0), points_m.max(axis=0)
     sides = np.maximum(high - low, np.finfo(np.float64).tiny)
     return np.asarray((points_m - low) / sides * (_FINEST - 1), dtype=np.uint16)

@@ -1,4 +1,4 @@
-"""The solid surfaces of a composed stage as one mesh that rays are cast at, with what each triangle belongs to."""
+"""Ray scene: the solid surfaces of a composed stage as one labelled mesh for ray casting."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
@@ -29,24 +29,24 @@ with of_extra("LiDAR"):
 __all__ = ["RayHits", "RayScene", "read_ray_scene"]
 
 _OPAQUE = 0.5
-"""What is less opaque is looked through, as in the path tracer's pictures of depth and instances."""
+"""Opacity below which a surface is transparent to rays, as in the path tracer's pictures of depth and instances."""
 _PAST_M = 1e-5
-"""How far behind a surface that is looked through a ray goes on."""
+"""Distance behind a transparent surface at which a ray continues."""
 _MOST_SHEETS = 64
-"""How many such surfaces a ray goes through."""
+"""Maximum number of transparent surfaces that a ray passes."""
 
 
 class RayHits(NamedTuple):
-    """What rays meet first.
+    """The first hits of rays.
 
     Attributes
     ----------
     range_m
-        From the origin along the ray, infinite where it meets nothing; float64, shape (n,).
+        Distance from the origin along the ray, infinite without a hit; float64, shape (n,).
     triangle
-        Number of the triangle, -1 for none; int64, shape (n,).
+        Index of the triangle, -1 for none; int64, shape (n,).
     cos_incidence
-        Of the angle between ray and normal, from whichever side, 0 for none; float64, shape (n,).
+        Cosine of the angle between ray and normal, from either side, 0 without a hit; float64, shape (n,).
     """
 
     range_m: NDArray[np.float64]
@@ -56,28 +56,28 @@ class RayHits(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class RayScene:
-    """The solid surfaces of a stage, in its axes, in metres.
+    """The solid surfaces of a stage as a labelled triangle mesh, in the stage's axes and in metres.
 
     Attributes
     ----------
     vertices_m
         float64, shape (v, 3).
     coordinates
-        Of the vertices on the texture that says how opaque they are; float32, shape (v, 2).
+        Texture coordinates of the vertices on the opacity texture; float32, shape (v, 2).
     triangles
-        Vertices of each triangle; int32, shape (t, 3).
+        Vertex indices of each triangle; int32, shape (t, 3).
     instance
-        Id of the object that each triangle is a part of, 0 for none; int32, shape (t,).
+        Object id of each triangle, 0 for none; int32, shape (t,).
     class_id
-        Id of its class, 0 for none; uint8, shape (t,).
+        Class id of each triangle, 0 for none; uint8, shape (t,).
     surface
-        Number of its surface; int32, shape (t,).
+        Index of each triangle's surface; int32, shape (t,).
     surfaces
-        What they look like.
+        Looks of the surfaces.
     placed
         The objects by their ids.
     pictures
-        What textures show.
+        Pictures of the textures.
     """
 
     vertices_m: NDArray[np.float64]
@@ -91,20 +91,20 @@ class RayScene:
     pictures: Pictures
 
     def cast(self, origins_m: NDArray[Any], directions: NDArray[Any]) -> RayHits:
-        """Find what each ray meets first.
+        """Cast rays and find the first hit of each.
 
         Parameters
         ----------
         origins_m
-            Shape (n, 3), or (3,) where all begin in one place.
+            Origins of shape (n, 3), or (3,) if all rays share one.
         directions
-            Of unit length; shape (n, 3).
+            Unit vectors; shape (n, 3).
 
         Notes
         -----
-        Embree finds the triangle in single precision, and what does without it in double precision
-        (`garage2usd.sensors.rays.ray_caster`); where the ray meets its plane is computed in double precision.
-        Where a texture says how opaque a surface is, rays go through what is less than half opaque.
+        Embree finds the triangle in single precision, the NumPy hierarchy in double precision
+        (`garage2usd.sensors.rays.ray_caster`); the intersection with the triangle's plane is computed in double precision.
+        Rays pass through texels that are less than half opaque.
         """
         directions = np.asarray(directions, dtype=np.float64).reshape(-1, 3)
         origins_m = np.broadcast_to(np.asarray(origins_m, dtype=np.float64), directions.shape)
@@ -132,7 +132,7 @@ class RayScene:
         return hits
 
     def of_classes(self, class_ids: Collection[int]) -> "RayScene":
-        """The surfaces of objects of some classes alone."""
+        """Select the surfaces of objects of some classes."""
         kept = np.isin(self.class_id, list(class_ids))
         return replace(
             self,
@@ -145,7 +145,7 @@ class RayScene:
     def _meet(
         self, found: NDArray[np.int64], origins_m: NDArray[np.float64], directions: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Range and cosine of the incidence of rays on the planes of triangles."""
+        """Compute the range and the cosine of incidence of rays on the planes of triangles."""
         first, second, third = (self.vertices_m[self.triangles[found, corner]] for corner in range(3))
         normal = np.cross(second - first, third - first)
         along = (directions * normal).sum(axis=1)
@@ -175,7 +175,7 @@ class RayScene:
 
     @cached_property
     def _masks(self) -> dict[int, NDArray[np.float64]]:
-        """Opacity of the texture of each surface whose texture has one; 0 to 1, the first row on top."""
+        """Opacity texture of each textured surface; 0 to 1, the first row on top."""
         return {
             number: self.pictures.plane(look.opacity_texture.band())
             for number, look in enumerate(self.surfaces)
@@ -186,29 +186,28 @@ class RayScene:
 def read_ray_scene(
     stage: Usd.Stage, labels: Labels, *, without: Collection[str] = (), only: Collection[str] | None = None
 ) -> RayScene:
-    """Read all that is solid in a stage, as it is composed now.
+    """Read the solid surfaces of a composed stage for ray casting.
 
     Parameters
     ----------
     stage
-        The stage; instances and point instancers are followed.
+        The stage; instances and point instancers are expanded.
     labels
-        Which object has which id and class.
+        Table of labels: ids and classes of the objects.
     without
-        Paths of objects that are left out with all below them, for example the car that carries the sensor.
+        Paths of prims to ignore with all their descendants, for example the car that carries the sensor.
     only
-        Paths of the objects that are read with all below them; left out, all are.
+        Paths of prims to read with all their descendants; None reads all.
 
     Raises
     ------
     StageError
-        If nothing in it is solid.
+        If the stage has no solid surface.
 
     Notes
     -----
-    That is what the path tracer draws, at the first time sample, less the sky: meshes and simple shapes, seen from both
-    sides, without being subdivided. What is less than half opaque as a whole is left out. Curves, points and volumes
-    have no surface and are left out too.
+    The surfaces are those of the path tracer at the first time sample, without the sky: double-sided meshes and solid
+    primitives, without subdivision. Surfaces less than half opaque are ignored, as are curves, points and volumes.
     """
     metres = metres_per_unit(stage)
     looks = MeshLooks(is_apart_by_name=True)
@@ -260,7 +259,7 @@ def read_ray_scene(
 
 
 class _Piece(NamedTuple):
-    """Triangles of one surface, in the space of the object that they are part of."""
+    """The triangles of one surface, in the local space of their object."""
 
     path: str
     positions: NDArray[np.float64]
@@ -288,7 +287,7 @@ def _pieces(placed: PlacedObject, part: DrawnPart, looks: MeshLooks) -> list[_Pi
 
 
 def _are_opaque(opacity: NDArray[np.float64], look: SurfaceLook) -> NDArray[np.bool_]:
-    """Whether places of a surface stop rays: by its own threshold, if it has one."""
+    """Test if texels of a surface stop rays, by the material's own opacity threshold if it has one."""
     opaque: NDArray[np.bool_] = opacity >= look.opacity_threshold if look.opacity_threshold else opacity > _OPAQUE
     return opaque
 

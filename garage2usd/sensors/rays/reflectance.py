@@ -1,4 +1,4 @@
-"""How much of a LiDAR's pulse comes back from a surface: the material's class and the angle of incidence."""
+"""LiDAR reflectance: the share of a pulse that a surface returns, by material class and angle of incidence."""
 
 from enum import StrEnum
 from typing import Any, NamedTuple
@@ -13,7 +13,7 @@ __all__ = ["REFLECTANCES", "MaterialClass", "Reflectance", "material_class", "re
 
 
 class MaterialClass(StrEnum):
-    """What a surface is to light of 905 nm."""
+    """Material classes of surfaces at a wavelength of 905 nm."""
 
     CONCRETE = "concrete"
     ASPHALT = "asphalt"
@@ -30,16 +30,16 @@ class MaterialClass(StrEnum):
 
 
 class Reflectance(NamedTuple):
-    """How a class of materials returns light.
+    """The reflectance model of a material class.
 
     Attributes
     ----------
     dark, bright
-        Reflectance of a black and of a white surface of it, over that of a perfectly white diffuse one.
+        Reflectance of a black and of a white surface of the class, relative to a perfect white diffuser.
     specular
-        Which share of that goes into the lobe around the mirrored ray.
+        Share of the reflectance in the specular lobe.
     exponent
-        How narrow that lobe is.
+        Exponent of the specular lobe; larger is narrower.
     """
 
     dark: float
@@ -62,8 +62,8 @@ REFLECTANCES = {
     MaterialClass.RETROREFLECTOR: Reflectance(10.0, 10.0),
     MaterialClass.OTHER: Reflectance(0.05, 0.80),
 }
-"""How each class returns light, typical values around 905 nm; prismatic sheeting sends back many times what a white
-surface does, so that it saturates a sensor up to grazing angles."""
+"""Reflectance of each material class, typical values around 905 nm. Retroreflective prismatic sheeting returns many
+times the light of a white surface and saturates a sensor up to grazing angles."""
 
 _OF_TOUCH = {
     Touch.CONCRETE: MaterialClass.CONCRETE,
@@ -108,7 +108,7 @@ _OF_KEY = {
         MaterialClass.OTHER,
     ),
 }
-"""What its touch does not tell."""
+"""Material classes by material name, which the tactile profile does not determine."""
 _METALLIC = 0.5
 _TEXTURED = 0.5
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
@@ -126,7 +126,7 @@ _CLASSES = {pascal_case(key): _class_of(key, material) for key, material in MATE
 
 
 def material_class(look: SurfaceLook) -> MaterialClass:
-    """The class of a surface: by its material's name where that is one of this program's, else by its look."""
+    """Classify a surface's material: by its name if it is one of garage2usd's, otherwise by its look."""
     if look.name in _CLASSES:
         return _CLASSES[look.name]
     if look.metallic >= _METALLIC:
@@ -137,7 +137,7 @@ def material_class(look: SurfaceLook) -> MaterialClass:
 
 
 def returned(look: SurfaceLook, cos_incidence: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
-    """What share of a pulse a surface returns, over a perfectly white diffuse one that is met squarely.
+    """Compute the share of a LiDAR pulse that a surface returns, relative to a perfect white diffuser.
 
     Parameters
     ----------
@@ -149,11 +149,11 @@ def returned(look: SurfaceLook, cos_incidence: NDArray[np.floating[Any]]) -> NDA
     Returns
     -------
     numpy.ndarray
-        0 to 1, shape (n,): min(1, rho ((1 - s) cos a + s max(0, cos 2a)^m)), Phong's model with source and receiver in
-        one place, so that the mirrored ray is 2a away from the receiver (B. Jutzi and H. Gross, Normalization of LiDAR
-        intensity data based on range and surface incidence angle, ISPRS 2009). Independent of the range, as sensors
-        report reflectivity. rho lies between `Reflectance.dark` and `Reflectance.bright` by the luminance of the
-        colour, and halfway where a texture has the colours.
+        0 to 1, shape (n,): min(1, rho ((1 - s) cos a + s max(0, cos 2a)^m)), Phong's model with source and receiver at
+        one place, where the mirrored ray is 2a away from the receiver (B. Jutzi and H. Gross, Normalization of LiDAR
+        intensity data based on range and surface incidence angle, ISPRS 2009). The share is independent of range, as in
+        sensors that report reflectivity. rho is interpolated between `Reflectance.dark` and `Reflectance.bright` by the
+        luminance of the colour, and is halfway for textured surfaces.
     """
     reflectance = REFLECTANCES[material_class(look)]
     luminance = _TEXTURED if look.colour_texture else float(np.clip(np.array(look.colour_rgb) @ _LUMINANCE, 0, 1))

@@ -1,4 +1,4 @@
-"""The places that a picture shows, from its depth."""
+"""Points visible in a picture, from its depth."""
 
 from typing import Any
 
@@ -13,22 +13,22 @@ __all__ = ["seen_points"]
 def seen_points(
     lens: Lens, depth_m: NDArray[np.floating[Any]], sensor_to_world: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """The place that each pixel shows.
+    """Unproject a depth picture to the point seen at each pixel.
 
     Parameters
     ----------
     lens
-        Of the picture.
+        Lens of the picture.
     depth_m
-        As pictures of depth have it: along the axis of pinholes and bird's-eye views, along the ray of other lenses;
-        not finite where there is nothing; shape (rows, columns).
+        Depth along the axis for pinholes and bird's-eye views, along the ray for other lenses; not finite where nothing
+        is hit; shape (rows, columns).
     sensor_to_world
-        From camera axes (OpenCV's) to the world, in metres; float64, shape (4, 4).
+        Transform from camera axes (OpenCV's) to the world, in metres; float64, shape (4, 4).
 
     Returns
     -------
     ndarray
-        float64, shape (rows, columns, 3); not finite where the picture shows nothing.
+        Points in the world, float64, shape (rows, columns, 3); not finite where nothing is hit.
     """
     middles = lens.middles()
     rays = lens.rays(middles)

@@ -1,4 +1,4 @@
-"""The around view of a rig: which of its cameras it looks through, and what ground it shows."""
+"""The around view of a rig: its four cameras and the ground it covers."""
 
 from collections.abc import Mapping
 from typing import Annotated, Literal, Self
@@ -17,13 +17,14 @@ from garage2usd.sensors.rig.camera_effects import CameraEffects
 __all__ = ["AroundViewCamera", "ServingCameras"]
 
 _VIEW_FROM_SENSOR = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
-"""Columns: right, down and into the ground, in axes that look forward, left and up."""
+"""Rotation from the view's axes (right, down, into the ground) to a sensor's (forward, left, up); columns are the
+view's."""
 _LEAST_PX_M, _LARGEST_PX_M = 0.001, 1.0
 _Metres = Annotated[float, Field(ge=-100.0, le=100.0)]
 
 
 class ServingCameras(Settings):
-    """The names of the cameras that serve the ground before, behind, to the left and to the right of the car."""
+    """Names of the cameras of the around view's front, rear, left and right sector."""
 
     front: str = "front"
     rear: str = "rear"
@@ -32,21 +33,21 @@ class ServingCameras(Settings):
 
 
 class AroundViewCamera(Camera):
-    """What the ground shows through four cameras of the rig, forwards at the top.
+    """A virtual camera that shows the ground through four cameras of the rig, forwards at the top.
 
-    Its pose is that of the picture's middle on the ground, unturned.
+    Its pose is that of the picture's middle on the ground, without rotation.
     """
 
     kind: Literal["around_view"]
     """`"around_view"`."""
     position_m: tuple[_Metres, _Metres, Annotated[float, Field(ge=0.0, le=0.0)]] = (1.4, 0.0, 0.0)
-    """x and y of the picture's middle, and 0, as it is on the ground."""
+    """x and y of the picture's middle; z is 0, on the ground."""
     metres_per_px: float = Field(0.02, ge=_LEAST_PX_M, le=_LARGEST_PX_M)
     """Width and height of a pixel on the ground."""
     cameras: ServingCameras = ServingCameras()
-    """The cameras that it looks through."""
+    """Names of the cameras that the view is composed of."""
     car_margin_m: float = Field(0.0, ge=0.0, le=2.0)
-    """By how much the black place of the car is longer and wider than the car at each of its sides."""
+    """Margin in metres by which the black rectangle of the car is larger than the car on each side."""
     _served: tuple[tuple[Camera, ...], CarBody] | None = PrivateAttr(None)
 
     @field_validator("mount")
@@ -72,12 +73,12 @@ class AroundViewCamera(Camera):
         return effects
 
     def through(self, cameras: Mapping[str, Camera], car: CarBody) -> Self:
-        """The same view through cameras by their names, around a car.
+        """Bind the around view to the cameras of a rig, given by name, and to its car.
 
         Raises
         ------
         ValueError
-            If a camera that it needs is missing, is not over the ground of a car, or is an around view itself.
+            If a required camera is missing, is not mounted on a car above the ground, or is an around view itself.
         """
         served = self.model_copy()
         serving = tuple(self._checked(getattr(self.cameras, side), side, cameras) for side in SECTORS)
@@ -86,12 +87,12 @@ class AroundViewCamera(Camera):
 
     @property
     def lens(self) -> AroundView:
-        """What it sees.
+        """The lens of the around view.
 
         Raises
         ------
         ValueError
-            If it is in no rig.
+            If the camera belongs to no rig.
         """
         if self._served is None:
             raise ValueError(f"{self.name} looks through cameras of a rig, and is in none")
@@ -106,7 +107,7 @@ class AroundViewCamera(Camera):
         )
 
     def _ground_of(self, car: CarBody) -> tuple[float, float, float, float]:
-        """The edges of the car's place in the picture's axes, see `AroundView.car_m`."""
+        """Return the edges of the car's footprint in the picture's axes, see `AroundView.car_m`."""
         (ahead_m, left_m, _), margin_m = self.position_m, self.car_margin_m
         half_m, nose_m = car.width_m / 2 + margin_m, car.ahead_m + margin_m
         tail_m = car.length_m - car.ahead_m + margin_m

@@ -1,4 +1,4 @@
-"""The kinds of cameras of a rig."""
+"""Cameras of a rig: pinhole, Kannala-Brandt and WoodScape fisheye."""
 
 import math
 from abc import abstractmethod
@@ -17,34 +17,34 @@ from garage2usd.sensors.rig.mount import Sensor
 __all__ = ["Camera", "KannalaBrandtCamera", "PinholeCamera", "WoodScapeCamera"]
 
 _CAMERA_FROM_SENSOR = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
-"""Columns: a camera's right, down and forward in axes that look forward, left and up."""
+"""Rotation from OpenCV's camera axes (right, down, forward) to forward, left and up; columns are the camera's."""
 _LEAST_SIDE_PX, _GREATEST_SIDE_PX = 16, 8192
 _Side = Annotated[int, Field(ge=_LEAST_SIDE_PX, le=_GREATEST_SIDE_PX)]
 _Focal = Annotated[float, Field(gt=0.0, le=1e5)]
 
 
 class Camera(Sensor):
-    """A camera."""
+    """A camera of a rig."""
 
     size_px: tuple[_Side, _Side]
-    """Width and height of its pictures."""
+    """Width and height of the camera's pictures."""
     recorded: bool = True
-    """Whether its own pictures are recorded; if not, it is there for an around view to look through."""
+    """True if the camera's pictures are recorded; otherwise the camera only serves an around view."""
     effects: CameraEffects | None = None
-    """How its pictures differ from those of a perfect camera; they do not if left out."""
+    """Imperfections of the camera's pictures; a perfect camera if left out."""
 
     @property
     @abstractmethod
     def lens(self) -> Lens:
-        """What it sees."""
+        """The lens of the camera."""
 
     def scaled(self, scale: float) -> Self:
-        """The same camera with pictures of another size, whose sides are rounded to whole pixels.
+        """Scale the camera's pictures, with sides rounded to whole pixels.
 
         Raises
         ------
         ConfigError
-            If they are too small or too large.
+            If the pictures would be too small or too large.
         """
         width, height = (round(side * scale) for side in self.size_px)
         if not (min(width, height) >= _LEAST_SIDE_PX and max(width, height) <= _GREATEST_SIDE_PX):
@@ -54,7 +54,7 @@ class Camera(Sensor):
 
     @abstractmethod
     def _resized(self, size_px: tuple[int, int]) -> dict[str, object]:
-        """What a picture of another size changes of the lens."""
+        """Return the settings of the lens that change with the size of the picture."""
 
     def _axes(self) -> NDArray[np.float64]:
         return _CAMERA_FROM_SENSOR
@@ -64,19 +64,19 @@ class Camera(Sensor):
 
 
 class PinholeCamera(Camera):
-    """A camera without distortion."""
+    """A pinhole camera, without distortion."""
 
     kind: Literal["pinhole"]
     """`"pinhole"`."""
     focal_px: tuple[_Focal, _Focal]
-    """fx and fy."""
+    """Focal lengths fx and fy."""
     centre_px: tuple[float, float] | None = None
-    """Where the optical axis meets the picture, from its left and upper edge (OpenCV's cx and cy plus 0.5); the middle
-    of the picture if left out."""
+    """Principal point, where the optical axis meets the picture, from its left and upper edge (OpenCV's cx and cy plus
+    0.5); the middle of the picture if left out."""
 
     @property
     def lens(self) -> Pinhole:
-        """What it sees."""
+        """The pinhole lens of the camera."""
         return Pinhole(size_px=self.size_px, centre_px=self.centre_px or self._half(), focal_px=self.focal_px)
 
     def _resized(self, size_px: tuple[int, int]) -> dict[str, object]:
@@ -85,19 +85,19 @@ class PinholeCamera(Camera):
 
 
 class KannalaBrandtCamera(Camera):
-    """A fisheye as OpenCV and ROS ("equidistant") have it."""
+    """A fisheye camera of the model of Kannala and Brandt, as in OpenCV and ROS ("equidistant")."""
 
     kind: Literal["kannala_brandt"]
     """`"kannala_brandt"`."""
     focal_px: tuple[_Focal, _Focal]
-    """fx and fy."""
+    """Focal lengths fx and fy."""
     coefficients: tuple[float, float, float, float]
     """k1 to k4 of r = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8)."""
     centre_px: tuple[float, float] | None = None
-    """Where the optical axis meets the picture, from its left and upper edge (OpenCV's cx and cy plus 0.5); the middle
-    of the picture if left out."""
+    """Principal point, where the optical axis meets the picture, from its left and upper edge (OpenCV's cx and cy plus
+    0.5); the middle of the picture if left out."""
     field_of_view_deg: float = Field(gt=0.0, le=360.0)
-    """The whole angle that it sees; r grows up to half of it."""
+    """Full field of view; r must increase up to half of it."""
 
     @field_validator("field_of_view_deg")
     @classmethod
@@ -109,7 +109,7 @@ class KannalaBrandtCamera(Camera):
 
     @property
     def lens(self) -> KannalaBrandt:
-        """What it sees."""
+        """The Kannala-Brandt lens of the camera."""
         return KannalaBrandt(
             size_px=self.size_px,
             centre_px=self.centre_px or self._half(),
@@ -124,18 +124,18 @@ class KannalaBrandtCamera(Camera):
 
 
 class WoodScapeCamera(Camera):
-    """A fisheye as WoodScape has it."""
+    """A fisheye camera of WoodScape's polynomial model."""
 
     kind: Literal["woodscape"]
     """`"woodscape"`."""
     coefficients_px: tuple[float, float, float, float]
     """k1 to k4 of r = k1 theta + k2 theta^2 + k3 theta^3 + k4 theta^4."""
     centre_offset_px: tuple[float, float] = (0.0, 0.0)
-    """From the middle of the picture to where the optical axis meets it: WoodScape's cx_offset and cy_offset."""
+    """Offset of the principal point from the middle of the picture: WoodScape's cx_offset and cy_offset."""
     aspect_ratio: float = Field(1.0, gt=0.1, lt=10.0)
-    """By which rows are stretched."""
+    """Factor by which rows are stretched."""
     field_of_view_deg: float = Field(gt=0.0, le=360.0)
-    """The whole angle that it sees; r grows up to half of it."""
+    """Full field of view; r must increase up to half of it."""
 
     @field_validator("field_of_view_deg")
     @classmethod
@@ -146,7 +146,7 @@ class WoodScapeCamera(Camera):
 
     @property
     def lens(self) -> WoodScape:
-        """What it sees."""
+        """The WoodScape lens of the camera."""
         (half_width, half_height), (right, down) = self._half(), self.centre_offset_px
         return WoodScape(
             size_px=self.size_px,

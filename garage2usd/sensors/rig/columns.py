@@ -1,4 +1,4 @@
-"""The column of a garage that watches a stall, for sensors that are mounted on one."""
+"""Column-mounted sensors: the column that watches a stall, and its frame."""
 
 import math
 
@@ -15,27 +15,28 @@ __all__ = ["column_to_y_up"]
 
 _COLUMN = "column"
 _HIDES_FROM_M = 1.9
-"""What is lower than that does not hide a stall from a column's camera, nor do cars, which come and go."""
+"""Height in metres above which an object hides a stall from a column's camera. Cars, which come and go, are ignored."""
 _NEAREST_M = 2.5
-"""A column that stands nearer to the middle of a stall sees only part of it."""
+"""Least distance in metres from a stall's middle to its column; nearer columns see only part of the stall."""
 
 
 def column_to_y_up(garage: BuiltGarage, stall: Stall) -> NDArray[np.float64]:
-    """The frame of sensors that are mounted on the column which watches a stall.
+    """Compute the frame of sensors on the column that watches a stall.
 
-    It is the nearest one before the stall's mouth from which nothing that is as tall as a wall hides the middle of the
-    stall; where there is none, the nearest of the others. Nearer ones than 2.5 m do not count.
+    The column is the nearest one in front of the stall's entry with a free line of sight to the stall's middle over
+    everything lower than a wall. If there is none, the nearest other column is used. Columns nearer than 2.5 m are
+    ignored.
 
     Returns
     -------
     ndarray
-        From x level towards the middle of the stall, y to the left and z up, whose origin is the foot of the column's
-        axis, to metres with Y up; for column vectors, float64, shape (4, 4).
+        Transform from the column's frame to metres with Y up, for column vectors; float64, shape (4, 4). The frame has
+        its origin at the foot of the column's axis, x horizontal towards the stall's middle, y to the left and z up.
 
     Raises
     ------
     ConfigError
-        If there is no such column.
+        If the garage has no suitable column.
     """
     found: dict[str, tuple[list[shapely.Polygon], float]] = {}
     for solid in garage.solids.standing(_COLUMN):
@@ -61,7 +62,7 @@ def column_to_y_up(garage: BuiltGarage, stall: Stall) -> NDArray[np.float64]:
 
 
 def _is_before(stall: Stall, place: Point) -> bool:
-    """Whether a place lies on the side of a stall's mouth that cars come from."""
+    """Test if a point lies in front of a stall's entry, on the side from which cars come."""
     ahead = (place[0] - stall.mouth[0]) * stall.outwards[0] + (place[1] - stall.mouth[1]) * stall.outwards[1]
     return ahead > 0
 

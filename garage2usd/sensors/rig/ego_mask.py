@@ -1,4 +1,4 @@
-"""Which pixels of a camera on a car show that car itself, which recordings leave out."""
+"""Ego masks: the pixels of a vehicle-mounted camera that show the vehicle itself."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ __all__ = ["ego_mask", "ego_triangles_m"]
 
 
 def ego_triangles_m(car: CarBody) -> NDArray[np.float64]:
-    """The surface of a car in ISO 8855's axes, from the middle of the rear axle on the ground; shape (n, 3, 3)."""
+    """Return the surface of the ego car as triangles in ISO 8855 axes, origin at the rear axle; shape (n, 3, 3)."""
     fans = []
     for part in driven_asset(car).parts:
         starts = np.cumsum(part.face_counts) - part.face_counts
@@ -29,14 +29,14 @@ def ego_triangles_m(car: CarBody) -> NDArray[np.float64]:
 
 
 def ego_mask(camera: Camera, car: CarBody) -> NDArray[np.bool_]:
-    """Whether the ray through the middle of each pixel meets the car that the camera is on; shape (rows, columns).
+    """Compute the mask of camera pixels whose rays hit the car that carries the camera; shape (rows, columns).
 
-    Of an around view, whether the pixel stands for ground that the car covers.
+    For an around view, pixels are masked if the car covers their ground.
 
     Raises
     ------
     MissingExtraError
-        If what casts rays is not installed.
+        If the packages for ray casting are not installed.
     """
     lens, place = camera.lens, camera.sensor_to_vehicle
     if isinstance(lens, AroundView):

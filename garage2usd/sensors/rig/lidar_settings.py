@@ -1,4 +1,4 @@
-"""The kinds of LiDARs of a rig."""
+"""LiDARs of a rig: spinning and solid-state."""
 
 from typing import Annotated, Literal, Self
 
@@ -14,14 +14,14 @@ _MOST_SHOTS = 2**22
 
 
 class Lidar(Sensor):
-    """What LiDARs share."""
+    """A LiDAR of a rig."""
 
     range_m: tuple[float, float]
-    """Nearest and farthest return."""
+    """Range of the nearest and of the farthest return."""
     range_noise_m: float = Field(0.0, ge=0.0, le=1.0)
-    """Standard deviation of a return's distance."""
+    """Standard deviation of a return's range."""
     rate_hz: float = Field(10.0, gt=0.0, le=1000.0)
-    """Scans a second."""
+    """Sweeps per second."""
 
     @field_validator("range_m")
     @classmethod
@@ -32,12 +32,12 @@ class Lidar(Sensor):
 
 
 class SpinningLidar(Lidar):
-    """A LiDAR that turns about its z axis."""
+    """A spinning LiDAR, which turns about its z axis."""
 
     kind: Literal["spinning_lidar"]
     """`"spinning_lidar"`."""
     elevations_deg: tuple[Annotated[float, Field(ge=-90.0, le=90.0)], ...] = Field((), max_length=1024)
-    """Of each beam over the horizon; or `channels` with `lowest_deg` and `highest_deg`."""
+    """Elevation of each beam over the horizon; alternatively `channels` with `lowest_deg` and `highest_deg`."""
     channels: int | None = Field(None, ge=1, le=1024)
     """Number of beams, from the lowest to the highest with equal steps."""
     lowest_deg: float | None = Field(None, ge=-90.0, le=90.0)
@@ -45,7 +45,7 @@ class SpinningLidar(Lidar):
     highest_deg: float | None = Field(None, ge=-90.0, le=90.0)
     """Elevation of the highest of the `channels`."""
     azimuth_steps: int = Field(ge=1, le=65536)
-    """Shots of each beam in one turn."""
+    """Shots of each beam per revolution."""
 
     @model_validator(mode="after")
     def _either(self) -> Self:
@@ -68,20 +68,20 @@ class SpinningLidar(Lidar):
 
 
 class SolidStateLidar(Lidar):
-    """A LiDAR that looks forward only."""
+    """A solid-state LiDAR, which looks forward only."""
 
     kind: Literal["solid_state_lidar"]
     """`"solid_state_lidar"`."""
     horizontal_deg: float = Field(gt=0.0, le=180.0)
-    """Width of its field of view."""
+    """Horizontal field of view."""
     vertical_deg: float = Field(gt=0.0, le=180.0)
-    """Height of its field of view."""
+    """Vertical field of view."""
     columns: int = Field(ge=1, le=8192)
     """Shots across."""
     rows: int = Field(ge=1, le=8192)
     """Shots from top to bottom; one scan has `columns` times `rows`."""
     pattern: Literal["raster", "rosette"] = "raster"
-    """`"raster"`: line by line; `"rosette"`: the shots lie on a rose of petals through the middle."""
+    """`"raster"`: line by line; `"rosette"`: the shots form a rosette through the middle."""
 
     @model_validator(mode="after")
     def _not_too_many(self) -> Self:

@@ -1,4 +1,4 @@
-"""Where a sensor is mounted."""
+"""Sensor mounts: the frame and the pose of a sensor."""
 
 from typing import Annotated, Literal
 
@@ -15,28 +15,28 @@ _Turn = Annotated[float, Field(ge=-360.0, le=360.0)]
 
 
 class Sensor(Settings):
-    """A sensor and where it is mounted."""
+    """A sensor of a rig with its mount and pose."""
 
     name: str = Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,31}$")
-    """By which its files are called; no other sensor of the rig has it."""
+    """Unique name within the rig, by which the sensor's files are named."""
     mount: Literal["vehicle", "column", "world"] = "vehicle"
-    """What it is mounted on, in whose frame its pose is: x forward, y to the left, z up. `"vehicle"` (ISO 8855): from
-    the middle of the rear axle on the ground. `"column"`: from the foot of a column's axis; x leads level to the middle
-    of the stall that is driven to. `"world"`: the stage's X is x, its -Z is y, its Y is z."""
+    """Mount of the sensor, in whose frame its pose is given: x forward, y to the left, z up. `"vehicle"` (ISO 8855):
+    origin at the middle of the rear axle on the ground. `"column"`: origin at the foot of a column's axis, x horizontal
+    towards the middle of the target stall. `"world"`: the stage's X is x, its -Z is y, its Y is z."""
     position_m: tuple[_Metres, _Metres, _Metres]
-    """x, y and z of its origin."""
+    """x, y and z of the sensor's origin."""
     yaw_deg: _Turn = 0.0
-    """Turn to the left; at 0 it looks along x."""
+    """Yaw to the left; at 0 the sensor looks along x."""
     pitch_deg: _Turn = 0.0
-    """After that, right-handed about its y to the left, as ISO 8855 has it: positive looks down."""
+    """Pitch, applied after the yaw, right-handed about y (to the left) as in ISO 8855: positive looks down."""
     roll_deg: _Turn = 0.0
-    """After that, right-handed about the axis that it looks along: positive lowers its right side."""
+    """Roll, applied after the pitch, right-handed about the viewing axis: positive lowers the right side."""
 
     @property
     def sensor_to_vehicle(self) -> NDArray[np.float64]:
-        """From the sensor's axes to those of its mount, in metres, for column vectors; float64, shape (4, 4).
+        """Transform from the sensor's axes to those of its mount, in metres, for column vectors; float64, shape (4, 4).
 
-        Cameras have OpenCV's axes (+X right, +Y down, +Z forward), LiDARs look along x with y left and z up.
+        Cameras have OpenCV's axes (+X right, +Y down, +Z forward). LiDARs look along x, with y to the left and z up.
         """
         from scipy.spatial.transform import Rotation  # noqa: PLC0415 - all who import this module would wait for it
 
@@ -47,5 +47,5 @@ class Sensor(Settings):
         return matrix
 
     def _axes(self) -> NDArray[np.float64]:
-        """The sensor's own axes in ones that look forward, left and up."""
+        """Return the rotation from the sensor's own axes to forward, left and up."""
         return np.eye(3)

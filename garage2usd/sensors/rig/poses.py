@@ -1,4 +1,4 @@
-"""Where a vehicle is when its sensors record: places along a drive, and the axes of what sensors are mounted on."""
+"""Vehicle poses at which sensors record: sampled along a drive, with the frames of vehicle, map and stage."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -19,29 +19,29 @@ __all__ = ["CAR_FROM_VEHICLE", "MAP_TO_Y_UP", "VehiclePose", "poses_along", "veh
 Matrix = NDArray[np.float64]
 
 CAR_FROM_VEHICLE = np.array([[0.0, -1, 0, 0], [0, 0, 1, 0], [-1, 0, 0, 0], [0, 0, 0, 1]])
-"""From ISO 8855's axes (x forward, y left, z up) to those of a car that looks to -Z with Y up."""
+"""Transform from ISO 8855 axes (x forward, y left, z up) to those of a car that looks to -Z with Y up."""
 MAP_TO_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
-"""From x = X, y = -Z and z = Y to X, Y and Z."""
+"""Transform from a map (x = X, y = -Z, z = Y) to X, Y and Z with Y up."""
 _STEP_S = 0.02
 _HALF_S = 0.005
-"""How long before and after a place the vehicle is looked at, to tell how it moves."""
+"""Time before and after a pose between which the vehicle's motion is measured."""
 _END_M = 1e-3
-"""A last place that is nearer to the end than this is the end."""
+"""Distance below which the last pose is merged with the end of the drive."""
 
 
 @dataclass(frozen=True, eq=False)
 class VehiclePose:
-    """A place of a vehicle on its drive.
+    """A pose of a vehicle on its drive.
 
     Attributes
     ----------
     time_s, distance_m
-        Since the drive began, and driven till then, in both gears.
+        Time since the start, and distance driven in both gears.
     vehicle_to_world
-        From ISO 8855's axes, whose origin is the middle of the rear axle on the ground, to the stage's axes, in metres,
-        for column vectors; float64, shape (4, 4).
+        Transform from the vehicle's ISO 8855 axes (origin at the middle of the rear axle on the ground) to the stage's
+        axes, in metres, for column vectors; float64, shape (4, 4).
     find_twist
-        Finds `twist`, which pictures without motion do without.
+        Function that computes `twist`, called only if the motion is needed.
     """
 
     time_s: float
@@ -51,26 +51,26 @@ class VehiclePose:
 
     @cached_property
     def twist(self) -> Twist:
-        """How it moves there, in ISO 8855's axes."""
+        """Velocity and turning rate of the vehicle at the pose, in ISO 8855 axes."""
         return self.find_twist()
 
     @property
     def facts(self) -> dict[str, float]:
-        """When and how far on the way it is, to a microsecond and a micrometre."""
+        """Time and distance of the vehicle pose, rounded to a microsecond and a micrometre."""
         return {"time_s": round(self.time_s, 6), "distance_m": round(self.distance_m, 6)}
 
 
 def poses_along(motion: Motion, every_m: float, *, to_stage: Matrix) -> list[VehiclePose]:
-    """The places of a drive from its start in equal steps along the way, and its end.
+    """Sample a drive's vehicle poses in equal steps of distance, from its start to its end.
 
     Parameters
     ----------
     motion
-        When the car is where.
+        Motion of the car over time.
     every_m
-        More than 0. Where the car stands for a while, the place is that of its arrival.
+        Step, greater than 0. During a stop, the pose is that of the arrival.
     to_stage
-        From metres with Y up to the stage's axes; shape (4, 4), see `y_up_to_stage`.
+        Transform from metres with Y up to the stage's axes; shape (4, 4), see `y_up_to_stage`.
     """
     driven = motion.sampled(_STEP_S)
     length_m = float(driven.arc_m[-1])
@@ -86,7 +86,7 @@ def poses_along(motion: Motion, every_m: float, *, to_stage: Matrix) -> list[Veh
 
 
 def vehicle_to_y_up(states: Trajectory) -> Matrix:
-    """From ISO 8855's axes to metres with Y up at each state; float64, shape (n, 4, 4)."""
+    """Return the vehicle's transform to metres with Y up at each state of a trajectory; float64, shape (n, 4, 4)."""
     sin_yaw, cos_yaw = np.sin(states.yaw_rad), np.cos(states.yaw_rad)
     sin_pitch, cos_pitch = np.sin(states.pitch_rad), np.cos(states.pitch_rad)
     zero = np.zeros_like(sin_yaw)
@@ -102,7 +102,7 @@ def vehicle_to_y_up(states: Trajectory) -> Matrix:
 
 
 def y_up_to_stage(stage: Usd.Stage) -> Matrix:
-    """From metres with Y up to the stage's own axes, still in metres; for column vectors, float64, shape (4, 4)."""
+    """Return the rotation from Y up to the stage's axes, both in metres; for column vectors, shape (4, 4)."""
     turn = np.eye(4)
     to_metres = metres_y_up(stage)
     # for row vectors it leads the other way

@@ -1,4 +1,4 @@
-"""Rigs: the sensors of a car, or of a column, where they are mounted and what they measure; TOML in, frozen models."""
+"""Sensor rigs: the cameras and LiDARs of a car or a column and their mounts, read from TOML into frozen models."""
 
 import tomllib
 from collections.abc import Mapping
@@ -36,7 +36,7 @@ __all__ = [
 ]
 
 RIG_NAMES = ("avp_around_view", "avp_surround", "column_camera", "lidar_32", "woodscape_like")
-"""The rigs that are shipped."""
+"""Names of the shipped rigs."""
 
 _AnySensor = Annotated[
     PinholeCamera | KannalaBrandtCamera | WoodScapeCamera | AroundViewCamera | SpinningLidar | SolidStateLidar,
@@ -45,23 +45,23 @@ _AnySensor = Annotated[
 
 
 class Rig(Settings):
-    """Sensors that measure together."""
+    """A rig: sensors that record together."""
 
     name: str = Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$")
     """Short name of the rig."""
     title: str = Field("", max_length=500)
-    """What it is made after."""
+    """Title of the rig, for example the product it is modelled on."""
     models: ModelFolder | None = None
-    """A folder of models of cars of one's own, as USD or GLB, that `car` may name (see the guide of own cars)."""
+    """Folder of own car models in USD or GLB, which `car` may name (see the guide of own cars)."""
     car: str = "hatchback"
     """The ego car, which masks show: a body of garage2usd's catalogue, such as `"saloon"`, `"suv"` or `"van"`, or a
-    model in `models` by the name of its file without the ending. What is driven is the way of the design car."""
+    model in `models` by its file name without the extension. The trajectory is that of the design car."""
     ego_visible: bool = False
-    """Whether cameras on the car see its body, where their masks say; around views never do."""
+    """True if cameras on the car see its body in the masked pixels; around views never do."""
     lamps: Literal["off", "on"] = "off"
-    """Whether the head and tail lamps of the ego car are on: their light falls before and behind it along a drive."""
+    """State of the ego car's head and tail lamps, which light the ground before and behind the car along a drive."""
     sensors: Annotated[tuple[_AnySensor, ...], Field(min_length=1, max_length=64)]
-    """The sensors."""
+    """The sensors of the rig."""
 
     @field_validator("models", mode="before")
     @classmethod
@@ -71,7 +71,7 @@ class Rig(Settings):
     @field_validator("models")
     @classmethod
     def _read(cls, models: ModelFolder | None) -> ModelFolder | None:
-        """The folder with the digest of what it holds; refused where that is not what it was given with."""
+        """Return the folder of car models with a digest of its contents; reject a folder of another digest."""
         return read_own_cars(models)[0] if models else None
 
     @field_validator("car")
@@ -102,26 +102,26 @@ class Rig(Settings):
 
     @property
     def body(self) -> CarBody:
-        """The ego car."""
+        """The body of the ego car."""
         return cars_by_name(self.models)[self.car]
 
     @property
     def cameras(self) -> tuple[Camera, ...]:
-        """Its cameras whose pictures are recorded."""
+        """The cameras whose pictures are recorded."""
         return tuple(sensor for sensor in self.sensors if isinstance(sensor, Camera) and sensor.recorded)
 
     @property
     def recorded(self) -> tuple[Sensor, ...]:
-        """Its sensors but for the cameras that are not recorded."""
+        """The recorded sensors, without cameras that only serve an around view."""
         return tuple(sensor for sensor in self.sensors if not isinstance(sensor, Camera) or sensor.recorded)
 
     def scaled(self, scale: float) -> Self:
-        """The same rig with larger or smaller pictures, where any are recorded.
+        """Scale the pictures of the rig's cameras.
 
         Raises
         ------
         ConfigError
-            If they would be too small or too large.
+            If pictures would be too small or too large.
         """
         sensors = tuple(
             sensor.scaled(scale) if isinstance(sensor, Camera) and sensor.recorded else sensor
@@ -130,33 +130,33 @@ class Rig(Settings):
         return self.model_copy(update={"sensors": _looking_through(sensors, self.body)})
 
     def without_cameras(self) -> Self:
-        """The same rig with its LiDARs alone, of which it needs one."""
+        """Return the rig with its LiDARs only, of which it must have at least one."""
         return self.model_copy(update={"sensors": self.lidars})
 
     @property
     def lidars(self) -> tuple[SpinningLidar | SolidStateLidar, ...]:
-        """Its LiDARs."""
+        """The LiDARs of the rig."""
         return tuple(sensor for sensor in self.sensors if isinstance(sensor, SpinningLidar | SolidStateLidar))
 
 
 def _looking_through(sensors: tuple[Sensor, ...], car: CarBody) -> tuple[Sensor, ...]:
-    """Sensors whose around views look through the cameras among them."""
+    """Bind the around views among sensors to the cameras they are composed of."""
     cameras = {sensor.name: sensor for sensor in sensors if isinstance(sensor, Camera)}
     return tuple(sensor.through(cameras, car) if isinstance(sensor, AroundViewCamera) else sensor for sensor in sensors)
 
 
 def read_rig(name_or_path: str | Path) -> Rig:
-    """A shipped rig by its name, or one of a user's own from a TOML file.
+    """Read a sensor rig: a shipped one by its name, or a user's from a TOML file.
 
     Parameters
     ----------
     name_or_path
-        One of `RIG_NAMES`, or a path that ends in ``.toml``.
+        One of `RIG_NAMES`, or the path of a ``.toml`` file.
 
     Raises
     ------
     ConfigError
-        If there is no such rig, the file cannot be read, or it holds what no rig has.
+        If the rig is unknown, or the file is unreadable or invalid.
     """
     name = str(name_or_path)
     if name in RIG_NAMES:
@@ -170,12 +170,12 @@ def read_rig(name_or_path: str | Path) -> Rig:
 
 
 def rig_from_mapping(settings: Mapping[str, Any]) -> Rig:
-    """Validate a rig given as nested mappings, as TOML reads them.
+    """Validate a sensor rig given as nested mappings, as TOML reads them.
 
     Raises
     ------
     ConfigError
-        With the setting, its value and what is allowed.
+        If a setting is invalid; the message names the setting, its value and the allowed values.
     """
     return validated(Rig, settings, within="rig")
 

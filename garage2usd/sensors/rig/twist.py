@@ -1,4 +1,4 @@
-"""How something rigid moves at one moment."""
+"""Rigid-body motion at one moment: linear and angular velocity."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -13,14 +13,14 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Twist:
-    """Velocity and rate of turning, both in the axes of what moves, and of its origin.
+    """Velocity and angular velocity of a rigid body, in its own axes and at its origin.
 
     Attributes
     ----------
     velocity_m_s
-        Metres a second; float64, shape (3,).
+        Velocity in metres per second; float64, shape (3,).
     turn_rad_s
-        Along the axis about which it turns, radians a second; float64, shape (3,).
+        Angular velocity along the axis of rotation, in radians per second; float64, shape (3,).
     """
 
     velocity_m_s: Floats
@@ -28,14 +28,14 @@ class Twist:
 
     @classmethod
     def at_rest(cls) -> Self:
-        """Of what stands."""
+        """Return the twist of a body at rest."""
         return cls(np.zeros(3), np.zeros(3))
 
     @classmethod
     def between(cls, before: Floats, after: Floats, seconds: float) -> Self:
-        """From a pose to a later one, in the axes halfway; matrices to the world's axes, shape (4, 4).
+        """Compute the mean twist between two poses, in the axes halfway; matrices to the world's axes, shape (4, 4).
 
-        `seconds`, by which the later one is later, is more than 0.
+        `seconds` between the poses is greater than 0.
         """
         from scipy.spatial.transform import Rotation  # noqa: PLC0415 - all who import this module would wait for it
 
@@ -45,17 +45,17 @@ class Twist:
         return cls(halfway.T @ (after[:3, 3] - before[:3, 3]) / seconds, angles / seconds)
 
     def of_part(self, part_to_whole: Floats) -> Self:
-        """Of something that is fixed to what moves, in its own axes; `part_to_whole` has the shape (4, 4)."""
+        """Return the twist of a part fixed to the body, in the part's own axes; `part_to_whole` has shape (4, 4)."""
         turn, place_m = part_to_whole[:3, :3], part_to_whole[:3, 3]
         velocity = self.velocity_m_s + np.cross(self.turn_rad_s, place_m)
         return type(self)(turn.T @ velocity, turn.T @ self.turn_rad_s)
 
     def reversed(self) -> Self:
-        """How what stands moves as seen from what moves."""
+        """Return the motion of the static world as seen from the moving body."""
         return type(self)(-self.velocity_m_s, -self.turn_rad_s)
 
     def seen_after(self, points_m: Floats, seconds: float) -> Floats:
-        """Where points that stand, shape (n, 3), are in the axes of what moves so long later, or earlier."""
+        """Transform static points, shape (n, 3), to the moving body's axes after a time; negative times are earlier."""
         from scipy.linalg import expm  # noqa: PLC0415 - as above
 
         generator = np.zeros((4, 4))
@@ -68,7 +68,7 @@ class Twist:
 
     @property
     def facts(self) -> dict[str, list[float]]:
-        """Plain values, to a micrometre and a microradian a second."""
+        """Velocity and angular velocity as plain values, rounded to micrometres and microradians per second."""
         return {
             "velocity_m_s": [round(float(value), 6) + 0.0 for value in self.velocity_m_s],
             "turn_rad_s": [round(float(value), 6) + 0.0 for value in self.turn_rad_s],
