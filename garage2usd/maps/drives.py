@@ -1,4 +1,4 @@
-"""A drive through a garage, from what is asked for to the car's motion."""
+"""Planning of a drive through a garage: from stall, entrance and exit to the car's motion."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -24,18 +24,18 @@ _STEP_S = 0.05
 
 @dataclass(frozen=True, eq=False)
 class Drive:
-    """A car that comes, parks and leaves, or one part of that.
+    """A drive of a car that enters, parks and leaves a garage, or a leg of it.
 
     Attributes
     ----------
     route
-        Where it drives.
+        Route of the car.
     leg
-        Which part.
+        Leg of the drive.
     motion
-        When it is where.
+        Motion of the car over time.
     car, settings
-        The car, and its limits.
+        The car, and the limits of its motion.
     """
 
     route: Route
@@ -46,12 +46,12 @@ class Drive:
 
     @cached_property
     def trajectory(self) -> Trajectory:
-        """Its states every 0.05 s, and at the times at which the car starts, stops, or has turned its wheels."""
+        """States of the car every 0.05 s, and at the times of starts, stops and finished steering."""
         return self.motion.sampled(_STEP_S)
 
     @property
     def facts(self) -> Mapping[str, object]:
-        """What is to be said of it beside its states."""
+        """Facts about the drive besides its states."""
         return {
             "stall": self.route.stall,
             "leg": self.leg.value,
@@ -64,7 +64,7 @@ class Drive:
 
 
 class DrivePlanner:
-    """Plans drives through one garage; what was found for one stall serves the next.
+    """Planner of drives through one garage, which reuses searches between stalls.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ class DrivePlanner:
     Raises
     ------
     ConfigError
-        If the garage's file tells of no lanes that lead from an entrance to an exit.
+        If the garage's file has no lanes from an entrance to an exit.
     """
 
     def __init__(
@@ -105,23 +105,22 @@ class DrivePlanner:
         exit: int | None = None,  # noqa: A002 - the garage's word
         leg: Leg = Leg.BOTH,
     ) -> Drive:
-        """The drive to a stall and away from it.
+        """Plan the drive to a stall and away from it.
 
         Parameters
         ----------
         stall
-            Its name, or the number painted in it where it has one, in letters of whatever case; left out, the first in
-            the garage's order that is free and that a drive is found for, or where there is none the first that a drive
-            is found for.
+            Name of the stall or its painted number, case-insensitive. If left out, the first free stall in the garage's
+            order with a feasible drive, or else the first stall with one.
         entrance, exit
-            From 1 on in the order of the squares, by rows; left out, those with the shortest way.
+            Numbers from 1 in the order of the squares, by rows; if left out, those of the shortest route.
         leg
-            Whether the car comes, leaves, or does both.
+            Leg to drive: to the stall, away from it, or both.
 
         Raises
         ------
         ConfigError
-            If there is no such stall, entrance or exit, or no way is found between them.
+            If the stall, entrance or exit does not exist, or no drive connects them.
         """
         entrances = self._chosen("entrance", entrance, LaneKind.ENTRANCE)
         exits = self._chosen("exit", exit, LaneKind.EXIT)
@@ -154,7 +153,7 @@ class DrivePlanner:
         raise ConfigError("stall", asked, f"one of the garage's {len(self._outlines)} stalls: {known}")
 
     def _in_order(self) -> list[Stall]:
-        """The stalls that cars park in, as the garage has them, the free ones first."""
+        """Order the stalls for cars as in the garage, free ones first."""
         return sorted((self._driven[name] for name in self._outlines), key=lambda stall: stall.name in self._taken)
 
     def _chosen(self, field: str, number: int | None, use: LaneKind) -> tuple[Portal, ...]:
@@ -167,12 +166,12 @@ class DrivePlanner:
 
 
 def _names(stall: Stall) -> list[str]:
-    """The name of a stall, and what is painted in it."""
+    """Return the name of a stall and its painted number."""
     return [stall.name] if stall.number is None else [stall.name, str(stall.number)]
 
 
 def _lack(proof: StallProof) -> str:
-    """What a stall must be to be driven to, with what is in the way of this one."""
+    """Explain why a stall cannot be the target of a drive."""
     if proof.touched or proof.is_undecided:
         named = ", ".join(proof.touched[:_NAMED]) or "nothing"
         how = "in the way" if proof.is_single_cause else "touched"

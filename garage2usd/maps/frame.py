@@ -1,4 +1,4 @@
-"""The frame of all maps: metres, x to the east is the stage's X, y to the north its -Z, z up its Y."""
+"""The common frame of all maps in metres: x east is the stage's X, y north its -Z, z up its Y."""
 
 import math
 
@@ -9,23 +9,23 @@ __all__ = ["heading_rad", "map_point", "map_points", "projection"]
 
 
 def map_points(ground: ArrayLike) -> NDArray[np.float64]:
-    """Points (x, z) of the stage's ground as (x, y) of the map; float64, shape (..., 2)."""
+    """Convert ground points (x, z) of the stage to map points (x, y); float64, shape (..., 2)."""
     points: NDArray[np.float64] = np.asarray(ground, dtype=np.float64) * (1.0, -1.0)
     return points
 
 
 def map_point(ground: tuple[float, float]) -> tuple[float, float]:
-    """A point (x, z) of the stage's ground as (x, y) of the map."""
+    """Convert a ground point (x, z) of the stage to a map point (x, y)."""
     x, y = map_points(ground).tolist()
     return x, y
 
 
 def projection(latitude_deg: float, longitude_deg: float) -> str:
-    """The transverse Mercator projection around the frame's origin in which metres are metres, as PROJ writes it."""
+    """Return the transverse Mercator projection around the map's origin as a PROJ string, with true scale."""
     latitude, longitude = (repr(degrees + 0.0).removesuffix(".0") for degrees in (latitude_deg, longitude_deg))
     return f"+proj=tmerc +lat_0={latitude} +lon_0={longitude} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs"
 
 
 def heading_rad(yaw_rad: float) -> float:
-    """A yaw about the stage's +Y, at 0 to -Z, as a heading counter-clockwise from x, from -pi to pi."""
+    """Convert a yaw about the stage's +Y (0 towards -Z) to a heading counter-clockwise from x, from -pi to pi."""
     return math.remainder(math.pi / 2 + yaw_rad, math.tau)

@@ -1,4 +1,4 @@
-"""GLB: a stage as one glTF 2.0 file for engines, browsers and simulators that read no USD."""
+"""GLB export: a stage as one binary glTF 2.0 file for engines, browsers and simulators."""
 
 from collections.abc import Iterable, Sequence
 from functools import cache
@@ -35,7 +35,7 @@ _STALLS = "stalls"
 _STALL = "parking_stall"
 _IDENTITY = np.eye(4)
 _MATTE = 0.5
-"""Roughness from which on a surface mirrors nothing that is told apart."""
+"""Roughness above which reflections of a surface are indistinct."""
 
 
 def write_glb(
@@ -46,34 +46,33 @@ def write_glb(
     objects: Iterable[PlacedObject] | None = None,
     remarks: Remarks | None = None,
 ) -> None:
-    """Write a stage as a binary glTF 2.0 file, in metres, Y up, as it is composed now.
+    """Write a composed stage as a binary glTF 2.0 file, in metres with Y up.
 
     Parameters
     ----------
     stage
         The stage.
     path
-        The file; its folder is there.
+        The file, in an existing folder.
     labels
-        Which object has which instance id; left out, what `garage2usd.reading.labels.read_labels` finds.
+        Table of labels with instance ids; if left out, read by `garage2usd.reading.labels.read_labels`.
     objects
-        What `garage2usd.reading.walk.placed_objects` finds in metres, Y up, if that is known already.
+        Objects from `garage2usd.reading.walk.placed_objects` in metres with Y up, if already known.
     remarks
-        Told of what glTF cannot say.
+        Receives remarks on features that glTF lacks.
 
     Raises
     ------
     StageError
-        If nothing in the stage can be drawn, or the file beside it is not a table of labels.
+        If the stage has nothing to draw, or the file beside it is not a table of labels.
 
     Notes
     -----
     Each object is a node with the path of its prim as its name and, as ``extras``, its class, its instance id and, for
-    cars and stalls, the stall; what is painted on it is a node below it.
-    What it looks like is one mesh, which all objects that look alike share, with primitives by material; what is
-    faceted has no normals, as glTF 2.0 (3.7.2.1) says. Each light is a node of its own, as a point, a spot or a sun;
-    one with an area is left out where the lamp that it belongs to glows, as glTF has none with an area. Below
-    the node ``stalls`` each stall is a node in the middle of its outline, whose Z axis leads to its mouth.
+    cars and stalls, the stall; painted parts are nodes below it. Objects of equal look share one mesh, with primitives
+    by material. Faceted primitives have no normals, as glTF 2.0 (3.7.2.1) specifies. Each light is a node: a point, a
+    spot or a sun. glTF has no area lights, so an area light is omitted if its lamp is emissive. Below the node
+    ``stalls`` each stall is a node in the middle of its outline, whose Z axis leads to its mouth.
     """
     remarks, file = Remarks() if remarks is None else remarks, stage.GetRootLayer().realPath
     looks = _Looks(remarks)
@@ -129,20 +128,20 @@ def write_glb(
 
 
 class _Look(NamedTuple):
-    """What an object draws.
+    """The drawable parts of an object: triangles, outline and lights.
 
     Attributes
     ----------
     pieces
-        In the object's space.
+        Pieces in the object's space.
     points_m
-        All of it, in the object's space; float, shape (n, 3). None are kept but of cars.
+        All points in the object's space; float, shape (n, 3). Kept for cars only.
     outline_m
-        Corners of their convex outline seen from above; float, shape (k, 3).
+        Corners of the convex hull of the points seen from above; float, shape (k, 3).
     lights
-        The parts that shine.
+        The parts that are lights.
     left_out
-        Why which part is left out.
+        Reasons for omitted parts.
     """
 
     pieces: Sequence[Piece]
@@ -152,14 +151,14 @@ class _Look(NamedTuple):
     left_out: Sequence[tuple[str, DrawnPart]]
 
     def on_ground(self, matrix: Matrix) -> NDArray[np.floating[Any]]:
-        """Points (x, z) of the ground that holds it, placed by a matrix."""
+        """Project the outline of a placed object to ground points (x, z)."""
         points_m = self.outline_m if are_upright(matrix[None]).all() else self.points_m
         placed: NDArray[np.floating[Any]] = (points_m @ matrix[:3, :3] + matrix[3, :3])[:, [0, 2]]
         return placed
 
 
 class _Looks:
-    """Reads what objects draw, each mesh and surface of the stage once."""
+    """Reader of objects' drawable parts, which reads each mesh and surface of the stage once."""
 
     def __init__(self, remarks: Remarks) -> None:
         self._looks = MeshLooks(remarks=remarks)
@@ -172,7 +171,9 @@ class _Looks:
         self._outline_of = cache(_outline)
 
     def of(self, placed: PlacedObject) -> _Look:
-        """One piece for all that has the same surface, apart from what is faceted, which needs no normals."""
+        """Return an object's look with one piece for each surface; faceted triangles, which need no normals, are
+        separate.
+        """
         alike: dict[tuple[int, bool, bool, bool], list[Triangles]] = {}
         surfaces = self._looks.surfaces.values
         left_out: list[tuple[str, DrawnPart]] = []
@@ -203,7 +204,7 @@ class _Looks:
         return _Look(pieces, points_m, np.insert(outline, 1, 0.0, axis=1), lights, left_out)
 
     def _placed(self, triangles: Triangles, matrix: Matrix) -> Triangles:
-        """Triangles in the space of the object that they are a part of."""
+        """Transform a part's triangles to the space of its object."""
         if np.array_equal(matrix, _IDENTITY):
             return triangles
         key = triangles, matrix.tobytes()
@@ -221,7 +222,7 @@ def _outline(triangles: Triangles) -> NDArray[np.float64]:
 
 
 def _hull(points_m: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
-    """Corners of the convex outline of points, shape (n, 2)."""
+    """Compute the corners of the convex hull of points, shape (n, 2)."""
     corners: NDArray[np.float64] = shapely.get_coordinates(hulls_of([points_m]))
     return corners
 

@@ -1,4 +1,4 @@
-"""A binary glTF 2.0 file in the making: nodes, meshes, materials, and their numbers and images in one buffer."""
+"""Builder of a binary glTF 2.0 file: nodes, meshes, materials and one buffer of numbers and images."""
 
 import hashlib
 import struct
@@ -24,24 +24,24 @@ __all__ = ["GlbFile", "Piece"]
 
 _FLOAT, _SHARE = 5126, 5123
 _MOST = 65535
-"""What stands for 1 in 16 bits: shares of a texture's side are off by at most a hundredth of a pixel of a thousand."""
+"""16-bit value of 1 for normalized texture coordinates; the error is at most 1/100 pixel of 1000."""
 _VERTICES, _INDICES = 34962, 34963
 _INDEX_TYPES = {5121: "<u1", 5123: "<u2", 5125: "<u4"}
-"""Types of indices, the shortest first; the last number of each would restart a primitive."""
+"""Index component types, smallest first; the largest value of each is reserved for primitive restart."""
 _ALIGNMENT = 4
 _LIGHTS = "KHR_lights_punctual"
 _GLTF, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
 
 
 class Piece(NamedTuple):
-    """Triangles of a mesh that have one surface.
+    """Triangles of a mesh with one surface.
 
     Attributes
     ----------
     triangles, surface
-        What is drawn.
+        The triangles and their surface.
     is_faceted
-        Whether the normals of all triangles are their own.
+        True if all triangles have flat normals.
     """
 
     triangles: Triangles
@@ -50,14 +50,14 @@ class Piece(NamedTuple):
 
 
 class GlbFile:
-    """Collects what a file holds: equal numbers, images, materials and meshes once.
+    """Builder of a GLB file, which stores equal arrays, images, materials and meshes once.
 
     Parameters
     ----------
     pictures
-        What textures show.
+        Pictures of the textures.
     remarks
-        Told of what glTF cannot say.
+        Receives remarks on features that glTF lacks.
 
     Notes
     -----
@@ -65,7 +65,7 @@ class GlbFile:
     """
 
     def __init__(self, pictures: Pictures, remarks: Remarks) -> None:
-        """Begin an empty file."""
+        """Create an empty file."""
         self._materials = Materials(pictures, remarks)
         self._numbers = _Numbers()
         self._nodes: list[dict[str, Any]] = []
@@ -77,7 +77,7 @@ class GlbFile:
         self._primitive_of: dict[tuple[Triangles, Triangles | None, int], dict[str, Any]] = {}
 
     def add_mesh(self, pieces: Iterable[Piece], name: str) -> int:
-        """Number of the mesh that consists of some pieces; a new one is called `name`."""
+        """Return the index of the mesh of some pieces; a new mesh is called `name`."""
         of_materials = [(self._material(piece), piece) for piece in pieces]
         mates = {(material, not piece.is_faceted): piece for material, piece in of_materials}
         primitives = [
@@ -95,7 +95,7 @@ class GlbFile:
         return self._materials.number(piece.surface, double_sided=own.double_sided, has_colours=own.colours is not None)
 
     def _primitive(self, piece: Piece, material: int, mate: Piece | None) -> dict[str, Any]:
-        """A primitive, which shares vertices with the `mate` of its material: a faceted one with a smooth one."""
+        """Return a primitive, whose vertices are shared with its `mate`: a faceted with a smooth one of equal material."""
         key = piece.triangles, None if mate is None else mate.triangles, material
         if key not in self._primitive_of:
             own, attributes = self._arrays(piece, material), {}
@@ -113,7 +113,9 @@ class GlbFile:
         return primitive_of(piece.triangles, sets=sets, normals_set=normals, is_faceted=piece.is_faceted)
 
     def _attributes(self, own: Primitive, within: Mapping[str, int]) -> dict[str, int]:
-        """Numbers of its accessors; those that are `within` the beginnings of others by their names."""
+        """Return the accessor indices of a primitive's attributes; those in `within` start at another accessor's
+        beginning.
+        """
         attributes = {}
         for name, array in own.named().items():
             if name in within:
@@ -133,25 +135,25 @@ class GlbFile:
         above: int | None = None,
         extras: Mapping[str, Any] | None = None,
     ) -> int:
-        """Add a node.
+        """Add a node to the GLB file.
 
         Parameters
         ----------
         name
             Its name.
         matrix
-            From its space to that of the node above; rigid as `garage2usd.maps.glb_meshes.are_rigid` says.
+            Transform to the space of the parent node; rigid as defined by `garage2usd.maps.glb_meshes.are_rigid`.
         mesh
-            Number of what it draws.
+            Index of the mesh.
         above
-            Number of the node that it is below; None for a node of the scene.
+            Index of the parent node; None for a root node of the scene.
         extras
-            What it says of itself.
+            Extras of the node.
 
         Returns
         -------
         int
-            Its number.
+            Index of the node.
         """
         number = len(self._nodes)
         drawn = {} if mesh is None else {"mesh": mesh}
@@ -162,16 +164,16 @@ class GlbFile:
         return number
 
     def add_light(self, name: str, matrix: Matrix, light: dict[str, Any]) -> None:
-        """Add a node that shines along -Z.
+        """Add a light node, which shines along -Z.
 
         Parameters
         ----------
         name
             Its name.
         matrix
-            From its space to that of the scene; a turn and a move.
+            Transform to the space of the scene; a rotation and a translation.
         light
-            As KHR_lights_punctual has it.
+            The light as JSON of KHR_lights_punctual.
         """
         node = self.add_node(name, matrix)
         if light not in self._lights:
@@ -179,7 +181,7 @@ class GlbFile:
         self._nodes[node]["extensions"] = {_LIGHTS: {"light": self._lights.index(light)}}
 
     def data(self, facts: Mapping[str, Any]) -> bytes:
-        """The bytes of the file; `facts` is what the scene says of itself."""
+        """Return the bytes of the GLB file; `facts` are the extras of the scene."""
         materials, images = self._materials, []
         for image in materials.textures.images:
             view = self._numbers.image(image.data)
@@ -209,7 +211,7 @@ class GlbFile:
 
 
 class _Numbers:
-    """The buffer: arrays of one type and width stand in one view, images in views of their own."""
+    """The buffer of a GLB file: arrays of one type and width share a view, images have views of their own."""
 
     def __init__(self) -> None:
         self.accessors: list[dict[str, Any]] = []
@@ -220,19 +222,19 @@ class _Numbers:
         self._view_of: dict[tuple[int, str], int] = {}
 
     def vectors(self, values: NDArray[np.float32], *, with_bounds: bool = False) -> int:
-        """Number of the accessor of vectors, one a vertex; float32, shape (vertices, 2 to 4)."""
+        """Add an accessor of vertex vectors and return its index; float32, shape (vertices, 2 to 4)."""
         width = values.shape[1]
         header = {"target": _VERTICES, "byteStride": 4 * width}
         bounds = partial(_bounds, values) if with_bounds else None
         return self._accessor(values.astype("<f4").tobytes(), _FLOAT, len(values), f"VEC{width}", header, bounds)
 
     def shares(self, values: NDArray[np.float32]) -> int:
-        """Number of the accessor of texture coordinates from 0 to 1, one a vertex, in half the bytes of others."""
+        """Add an accessor of texture coordinates from 0 to 1 as 16-bit numbers, and return its index."""
         header, data = {"target": _VERTICES, "byteStride": 4}, np.rint(values * _MOST).astype("<u2").tobytes()
         return self._accessor(data, _SHARE, len(values), "VEC2", header, None)
 
     def beginning(self, number: int, values: NDArray[np.float32], *, with_bounds: bool = False) -> int:
-        """Number of the accessor of the first vectors of another one, which are `values`."""
+        """Return the index of an accessor of the first vectors of another one, which are `values`."""
         whole = self.accessors[number]
         if whole["count"] == len(values):
             return number
@@ -243,14 +245,14 @@ class _Numbers:
         return self._beginnings[key]
 
     def indices(self, triangles: NDArray[np.uint32]) -> int:
-        """Number of the accessor of what `triangles` numbers, in as few bytes as are enough."""
+        """Add an accessor of vertex indices in the smallest sufficient type, and return its index."""
         fitting = (number for number, kind in _INDEX_TYPES.items() if triangles.max() < np.iinfo(np.dtype(kind)).max)
         component = next(fitting)
         data = triangles.astype(_INDEX_TYPES[component]).tobytes()
         return self._accessor(data, component, triangles.size, "SCALAR", {"target": _INDICES}, None)
 
     def image(self, data: bytes) -> int:
-        """Number of the view of an image."""
+        """Add an image to the buffer and return the index of its view."""
         self._headers.append({})
         self._parts.append(bytearray(data))
         return len(self._parts) - 1
@@ -288,7 +290,7 @@ class _Numbers:
         return self._known[key]
 
     def views(self) -> list[dict[str, int]]:
-        """The views of the buffer, each from a multiple of four bytes on."""
+        """Return the views of the buffer, aligned to four bytes."""
         views, offset = [], 0
         for part, header in zip(self._parts, self._headers, strict=True):
             length = len(part)
@@ -297,7 +299,7 @@ class _Numbers:
         return views
 
     def buffer(self) -> bytes:
-        """All views, padded to multiples of four bytes."""
+        """Return the buffer: all views, padded to multiples of four bytes."""
         return b"".join(part + bytes(-len(part) % _ALIGNMENT) for part in self._parts)
 
 

@@ -1,4 +1,4 @@
-"""Lights of a stage as those of KHR_lights_punctual."""
+"""Lights of a stage as punctual lights of glTF (KHR_lights_punctual)."""
 
 import math
 from typing import Any
@@ -15,20 +15,20 @@ __all__ = ["place_of", "punctual_light", "why_left_out"]
 
 _HALF_ROUND_DEG = 90.0
 _EDGE = 0.999
-"""Inner over outer angle of a cone with a sharp edge: glTF wants it smaller."""
+"""Ratio of a sharp cone's inner to outer angle; glTF requires less than 1."""
 _FLAT = frozenset({"RectLight", "DiskLight"})
 _PANELS = _FLAT | {"CylinderLight"}
 
 
 def why_left_out(prim: Usd.Prim, *, glows: bool) -> str:
-    """Why a light gets none of glTF; empty where it gets one.
+    """Explain why a light has no glTF equivalent; empty if it has one.
 
     Parameters
     ----------
     prim
         The light.
     glows
-        Whether something that it belongs to glows, as the glass of a lamp does.
+        True if the light's object is emissive, as the glass of a lamp is.
     """
     kind = prim.GetTypeName()
     if kind in DOMES or kind not in LIGHT_TYPES:
@@ -39,18 +39,18 @@ def why_left_out(prim: Usd.Prim, *, glows: bool) -> str:
 def punctual_light(
     prim: Usd.Prim, path: str, matrix: Matrix, metres_per_unit: float, remarks: Remarks
 ) -> dict[str, Any] | None:
-    """A light as glTF's JSON has it; None where it shines nothing.
+    """Convert a light to glTF's JSON; None for a light without intensity.
 
     Parameters
     ----------
     prim, path
-        The light, and what it is called.
+        The light, and its name in remarks.
     matrix
-        From its space to that of the world, in metres.
+        Transform from the light's space to the world, in metres.
     metres_per_unit
-        Of the stage.
+        Metres per unit of the stage.
     remarks
-        Told of what is left out or changed.
+        Receives remarks on omissions and changes.
     """
     light = light_of(prim, matrix, metres_per_unit)
     brightest = max(light.colour_rgb)
@@ -71,7 +71,7 @@ def punctual_light(
 
 
 def _form(light: LightSource, path: str, remarks: Remarks) -> dict[str, Any]:
-    """Whether it is a sun, a point or a spot, and the angles of that."""
+    """Return the type of a glTF light (sun, point or spot) and its cone angles."""
     if light.kind == "DistantLight":
         return {"type": "directional"}
     if light.cone_deg > _HALF_ROUND_DEG:
@@ -89,7 +89,7 @@ def _form(light: LightSource, path: str, remarks: Remarks) -> dict[str, Any]:
 
 
 def place_of(matrix: Matrix) -> Matrix:
-    """Where a light is and where to it shines, without the size of its prim."""
+    """Return the rotation and translation of a light, without its scale."""
     place = np.eye(4)
     ahead, up = matrix[2, :3], matrix[1, :3]
     back = ahead / (np.linalg.norm(ahead) or 1.0)

@@ -14,29 +14,29 @@ from garage2usd.reading.textures import Texture
 __all__ = ["Materials"]
 
 _REFLECTED = 0.04
-"""What a surface reflects in glTF of light that meets it squarely, by its usual index of refraction."""
+"""Reflectance of glTF's default index of refraction at normal incidence."""
 _USUAL_IOR = 1.5
 _DIRECTIONS = (2.0, 2.0, 2.0), (-1.0, -1.0, -1.0)
-"""Scale and bias that make a direction of the values of a picture, as glTF does by itself."""
+"""Scale and bias from a picture's values to a normal, implicit in glTF."""
 _SAME = 1e-6
 
 
 class Materials:
-    """Collects the materials of a file: each that differs once.
+    """Builder of a GLB file's materials, which stores equal materials once.
 
     Parameters
     ----------
     pictures
-        What the textures of surfaces show.
+        Pictures of the surfaces' textures.
     remarks
-        Told of what a material cannot say.
+        Receives remarks on features that glTF materials lack.
 
     Attributes
     ----------
     materials
-        As the array of glTF's JSON has them.
+        Materials as glTF's JSON array.
     textures
-        What they refer to.
+        Textures of the materials.
     """
 
     def __init__(self, pictures: Pictures, remarks: Remarks) -> None:
@@ -49,11 +49,11 @@ class Materials:
 
     @property
     def extensions(self) -> set[str]:
-        """Those that the materials use."""
+        """glTF extensions used by the materials."""
         return self._extensions | self.textures.extensions
 
     def number(self, surface: SurfaceLook, *, double_sided: bool, has_colours: bool = False) -> int:
-        """Number of the material of a surface; `has_colours` says whether its vertices have colours of their own."""
+        """Return the index of a surface's material; `has_colours` is True for surfaces with vertex colours."""
         key = surface, double_sided, has_colours
         if key not in self._number_of:
             self._number_of[key] = len(self.materials)
@@ -65,24 +65,26 @@ class Materials:
         return self._number_of[key]
 
     def sets_of(self, number: int) -> tuple[int, ...]:
-        """Which of its surface's texture coordinates a material reads, in the order of the sets of its primitives."""
+        """Return the indices of the surface's texture coordinates that a material reads, in order of its primitives'
+        sets.
+        """
         return self._sets[number]
 
     def normals_of(self, number: int) -> int | None:
-        """Which of those sets a material's normal map is read at; None without one."""
+        """Return the texture coordinate set of a material's normal map; None without a normal map."""
         texture = self.materials[number].get("normalTexture")
         return None if texture is None else int(texture.get("texCoord", 0))
 
 
 class _Material:
-    """A material in the making.
+    """A glTF material under construction.
 
     Attributes
     ----------
     sets
-        Which of the surface's texture coordinates it reads.
+        Indices of the surface's texture coordinates that the material reads.
     extensions
-        Those that it uses itself.
+        glTF extensions used by the material.
     """
 
     def __init__(self, surface: SurfaceLook, pictures: Pictures, remarks: Remarks, textures: Textures) -> None:
@@ -92,7 +94,7 @@ class _Material:
         self._made: dict[str, Any] = {"name": surface.name} if surface.name else {}
 
     def properties(self, *, double_sided: bool) -> dict[str, Any]:
-        """All that glTF's JSON says of it."""
+        """Return the material as glTF's JSON."""
         surface, made = self._surface, self._made
         made["pbrMetallicRoughness"] = self._reflection()
         self._add_normals()
@@ -125,7 +127,7 @@ class _Material:
         return reflection
 
     def _finish(self) -> tuple[tuple[float, float], Bands, Texture | None]:
-        """Factors of roughness and metallic, and the texture that has the one in green and the other in blue."""
+        """Return the factors of roughness and metallic, and the texture with both in its green and blue band."""
         surface = self._surface
         rough, metal = surface.roughness_texture, surface.metallic_texture
         roughness, metallic = surface.roughness, surface.metallic
@@ -208,7 +210,7 @@ class _Material:
         self._extend("KHR_materials_clearcoat", coat)
 
     def _add_mirror(self) -> None:
-        """What it reflects of light that meets it squarely."""
+        """Add the specular reflectance at normal incidence."""
         surface = self._surface
         if surface.specular_rgb is None:
             if surface.ior != _USUAL_IOR:
@@ -222,7 +224,7 @@ class _Material:
         self._extend("KHR_materials_specular", mirror)
 
     def _info(self, bands: Bands, texture: Texture, *, is_srgb: bool = False) -> dict[str, Any]:
-        """What refers to a texture of some bands that lies as another does."""
+        """Return the JSON reference to a texture of some bands, in the layout of another texture."""
         info = self._textures.info(bands, texture.layout, is_srgb=is_srgb)
         number = self._surface.sets.index(texture.layout.coordinates)
         if number not in self.sets:
@@ -231,7 +233,7 @@ class _Material:
         return info | ({"texCoord": number} if number else {})
 
     def _mean(self, texture: Texture, which: str) -> float:
-        """The mean of what a texture gives."""
+        """Compute the mean value of a texture's band."""
         self._remarks.add(f"{which} are carried as their mean", texture.file)
         return min(max(self._pictures.mean(texture.band()), 0.0), 1.0)
 

@@ -1,4 +1,4 @@
-"""Triangles as primitives of glTF, and matrices as translation, turn and scale."""
+"""Triangle meshes as glTF primitives, and matrices as translation, rotation and scale."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -27,21 +27,22 @@ Matrices = NDArray[np.float64]
 """Transforms for points as rows; float64, shape (n, 4, 4)."""
 
 _SQUARE = 1e-6
-"""By how much the cosine between two axes may differ from that of a right angle: single precision."""
+"""Tolerance of the cosine between two axes for a right angle, in single precision."""
 _SMALLEST = 1e-12
 _FACET_RAD, _MOST_RAD = 1.4e-3, math.radians(10)
-"""By how much the normals of a faceted triangle may tilt from its own: any, and a narrow matte one."""
+"""Greatest tilt of a faceted triangle's vertex normals from its face normal: for any triangle, and for narrow matte
+ones."""
 _NARROW_M, _OFF_M = 0.03, 1e-3
-"""Narrow triangles are lower than this; their normals tell of a surface that is no more than so much off."""
+"""Height below which triangles are narrow, and greatest deviation of the surface that their normals imply."""
 _WELDED = 0.95
-"""Share of its vertices that a welded mesh has at most: with more it stays as it is, and number plates that differ by
-their coordinates alone share the rest."""
+"""Greatest share of vertices left after welding for a mesh to be welded. Number plates that differ only in their
+texture coordinates share the other arrays."""
 _PLACE_DIGITS, _DIGITS = 4, 6
-"""Of metres, and of what has none."""
+"""Decimals of lengths in metres, and of unitless values."""
 
 
 class Primitive(NamedTuple):
-    """Arrays of a primitive, one row a vertex.
+    """Arrays of a glTF primitive, one row per vertex.
 
     Attributes
     ----------
@@ -49,7 +50,7 @@ class Primitive(NamedTuple):
         float32, shapes (vertices, 3), (vertices, 3), (vertices, 4) and (vertices, 3), or None where it has none: a
         primitive without normals is faceted, as glTF 2.0 says in 3.7.2.1.
     coordinates
-        Those of each set; float32, shape (vertices, 2) each.
+        Texture coordinates of each set; float32, shape (vertices, 2) each.
     indices
         uint32, shape (triangles, 3).
     """
@@ -62,7 +63,7 @@ class Primitive(NamedTuple):
     indices: NDArray[np.uint32]
 
     def named(self) -> dict[str, NDArray[np.float32]]:
-        """Its arrays by the names of attributes in glTF."""
+        """Return the primitive's arrays by glTF attribute name."""
         arrays = {"POSITION": self.positions, "NORMAL": self.normals, "TANGENT": self.tangents}
         arrays |= {f"TEXCOORD_{number}": array for number, array in enumerate(self.coordinates)}
         arrays["COLOR_0"] = self.colours
@@ -70,18 +71,18 @@ class Primitive(NamedTuple):
 
 
 def primitive_of(mesh: Triangles, *, sets: Sequence[int], normals_set: int | None, is_faceted: bool) -> Primitive:
-    """Triangles as a primitive.
+    """Convert triangles to a glTF primitive.
 
     Parameters
     ----------
     mesh
         The triangles.
     sets
-        Which of their texture coordinates its material reads.
+        Indices of the texture coordinates that the material reads.
     normals_set
-        Which of `sets` a normal map is read at, so that it needs normals and tangents; None without one.
+        Index in `sets` of the normal map, which requires normals and tangents; None without one.
     is_faceted
-        Whether the normals of all triangles are their own, so that it needs none.
+        True if all triangles have flat normals, so that the primitive needs none.
     """
     # the first row of pixels is v = 0 there and v = 1 in USD
     coordinates = tuple((mesh.coordinates[:, number] * (1, -1) + (0, 1)).astype(np.float32) for number in sets)
@@ -100,9 +101,9 @@ def primitive_of(mesh: Triangles, *, sets: Sequence[int], normals_set: int | Non
 
 
 def beside(smooth: Primitive, faceted: Primitive) -> Primitive:
-    """A faceted primitive whose vertices are those of a smooth one, and behind them those that it has alone.
+    """Merge a faceted primitive's vertices with those of a smooth one; vertices of its own follow.
 
-    Both have the same kinds of arrays but for the normals.
+    Both have the same kinds of arrays, except for the normals.
     """
     here, there = _rows(smooth), _rows(faceted)
     first, inverse = _distinct(np.vstack([here, there]))
@@ -129,13 +130,13 @@ def _stacked(
 
 
 def _rows(primitive: Primitive) -> NDArray[np.float32]:
-    """What its vertices have apart from normals."""
+    """Return the vertex rows of a primitive without normals."""
     colours = () if primitive.colours is None else (primitive.colours,)
     return np.hstack([primitive.positions, *primitive.coordinates, *colours])
 
 
 def _distinct(rows: NDArray[np.float32]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Where each different row is first, in the order of their values, and which of those each row is."""
+    """Return the first index of each distinct row, ordered by value, and the distinct row of each row."""
     order = np.lexsort(rows.T[::-1])
     columns = rows.T[:, order]
     differs = np.ones(len(order), dtype=bool)
@@ -146,19 +147,19 @@ def _distinct(rows: NDArray[np.float32]) -> tuple[NDArray[np.intp], NDArray[np.i
 
 
 def by_facets(mesh: Triangles, *, is_matte: bool = False) -> Iterator[tuple[bool, Triangles]]:
-    """Split off the triangles at which all normals are as good as their own: those are faceted.
+    """Split off the faceted triangles, whose vertex normals equal their face normals within tolerance.
 
     Parameters
     ----------
     mesh
         The triangles.
     is_matte
-        Whether their surface mirrors nothing, so that it is not seen whether narrow ones are smooth.
+        True if the surface has no visible reflections, so that smoothing of narrow triangles is invisible.
 
     Yields
     ------
     tuple
-        Whether they are faceted, and the triangles.
+        True for faceted triangles, and the triangles.
     """
     corners = mesh.positions_m.T.astype(np.float64)[:, mesh.indices]
     sides = corners - np.roll(corners, 1, axis=2)
@@ -182,7 +183,7 @@ def _each(mesh: Triangles) -> NDArray[np.int32]:
 
 
 def joined(meshes: Sequence[Triangles]) -> Triangles:
-    """Several meshes that are seen from the same sides, all with colours or none, as one."""
+    """Join meshes of equal sidedness, all with vertex colours or none."""
     if len(meshes) == 1:
         return meshes[0]
     first = np.cumsum([0, *(len(mesh.positions_m) for mesh in meshes[:-1])])
@@ -198,7 +199,7 @@ def joined(meshes: Sequence[Triangles]) -> Triangles:
 
 
 def are_rigid(matrices: Matrices) -> NDArray[np.bool_]:
-    """Whether each matrix is a scale along the axes, then a turn and a move: all that a node of glTF can say."""
+    """Test if each matrix is a scale along the axes, a rotation and a translation, as glTF nodes require."""
     lengths = np.linalg.norm(matrices[:, :3, :3], axis=2, keepdims=True)
     axes = matrices[:, :3, :3] / np.maximum(lengths, _SMALLEST)
     found: NDArray[np.bool_] = np.abs(axes @ axes.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2)) < _SQUARE
@@ -206,12 +207,12 @@ def are_rigid(matrices: Matrices) -> NDArray[np.bool_]:
 
 
 def rigid_inverses(matrices: Matrices) -> Matrices:
-    """The inverse of each rigid matrix.
+    """Invert rigid matrices.
 
     Notes
     -----
-    By transposition, as threads of a BLAS library wait for each other at each of thousands of small matrices: twelve
-    thousand took seconds while other processes kept the cores busy.
+    The inverse is computed by transposition. BLAS threads synchronize at each small matrix: twelve thousand matrices
+    took seconds on a busy machine.
     """
     scaled = matrices[:, :3, :3]
     inverses = np.zeros_like(matrices)
@@ -222,7 +223,7 @@ def rigid_inverses(matrices: Matrices) -> Matrices:
 
 
 def places_of(matrices: Matrices) -> list[dict[str, list[float]]]:
-    """Rigid matrices for points as rows as the properties of nodes; what is as it is by default is left out.
+    """Convert rigid matrices for points as rows to node properties, without default values.
 
     Notes
     -----
@@ -249,7 +250,7 @@ def places_of(matrices: Matrices) -> list[dict[str, list[float]]]:
 
 
 def moved_triangles(mesh: Triangles, matrix: Matrix) -> Triangles:
-    """The same triangles in another space, also through a matrix that is not rigid."""
+    """Transform triangles to another space, also by a matrix that is not rigid."""
     turn = matrix[:3, :3]
     is_mirrored = np.linalg.det(turn) < 0
     return Triangles(
@@ -264,7 +265,7 @@ def moved_triangles(mesh: Triangles, matrix: Matrix) -> Triangles:
 
 
 def _tangents_of(mesh: Triangles, coordinates: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Tangent of each vertex, along which the first texture coordinate grows, and the side of the bitangent.
+    """Compute vertex tangents along the first texture coordinate, with the sign of the bitangent.
 
     Returns
     -------
@@ -297,7 +298,7 @@ def _tangents_of(mesh: Triangles, coordinates: NDArray[np.float32]) -> NDArray[n
 
 
 def _across(vectors: NDArray[Any], normals: NDArray[Any]) -> NDArray[Any]:
-    """The part of vectors that is square to normals."""
+    """Return the components of vectors perpendicular to normals."""
     square: NDArray[Any] = vectors - normals * (vectors * normals).sum(axis=1, keepdims=True)
     return square
 

@@ -18,23 +18,23 @@ _BYTE = 1 / 255
 
 
 class Textures:
-    """Collects the textures of a file: each that differs once, and so each image.
+    """Builder of a GLB file's textures, which stores equal textures and images once.
 
     Parameters
     ----------
     pictures
-        What textures show.
+        Pictures of the textures.
     remarks
-        Told of what no texture can say.
+        Receives remarks on features that glTF textures lack.
 
     Attributes
     ----------
     textures, samplers
-        As the arrays of glTF's JSON have them.
+        Textures and samplers as glTF's JSON arrays.
     images
-        What the textures show.
+        Images of the textures.
     extensions
-        Those that they use.
+        glTF extensions used by the textures.
     """
 
     def __init__(self, pictures: Pictures, remarks: Remarks) -> None:
@@ -46,16 +46,16 @@ class Textures:
         self._image_of: dict[tuple[Bands, bool], int] = {}
 
     def info(self, bands: Bands, layout: Layout, *, is_srgb: bool = False) -> dict[str, Any]:
-        """What refers to the texture that consists of some bands, without its set of coordinates.
+        """Return the JSON reference to the texture of some bands, without its texture coordinate set.
 
         Parameters
         ----------
         bands
-            What it shows, one of them of a picture.
+            Bands of the texture, at least one from a picture.
         layout
-            How it lies on the surface.
+            Placement of the texture on the surface.
         is_srgb
-            Whether red, green and blue are read as sRGB.
+            True if red, green and blue are read as sRGB.
         """
         texture: dict[str, Any] = {"source": self._image(bands, is_srgb=is_srgb)}
         wraps = layout.wrap_s, layout.wrap_t
@@ -80,12 +80,12 @@ class Textures:
 
 
 def shortest(values: Iterable[float]) -> list[float]:
-    """Numbers of single precision in the fewest digits that mean the same."""
+    """Round numbers to the fewest digits of equal single-precision value."""
     return [float(np.format_float_positional(np.float32(value), unique=True, trim="0")) for value in values]
 
 
 def _transform(layout: Layout) -> dict[str, Any]:
-    """A layout as KHR_texture_transform, whose v runs down: from v to 1 - v, the layout, and back."""
+    """Convert a texture layout to KHR_texture_transform, whose v points down."""
     (_, scale_v), (move_u, move_v), turn = layout.scale, layout.translation, layout.rotation_rad
     offset = move_u - scale_v * math.sin(turn), 1 - move_v - scale_v * math.cos(turn)
     found = {"offset": shortest(offset), "rotation": shortest([turn])[0], "scale": shortest(layout.scale)}
@@ -94,7 +94,7 @@ def _transform(layout: Layout) -> dict[str, Any]:
 
 
 def _number(values: list[Any], value: object) -> int:
-    """Number of a value among others, to which it is added if it is new."""
+    """Return the index of a value in a list, appending it if new."""
     if value not in values:
         values.append(value)
     return values.index(value)

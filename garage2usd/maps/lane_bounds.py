@@ -1,4 +1,4 @@
-"""Bounds of lanes as polylines that lanes side by side share."""
+"""Lane bounds as polylines, shared by adjacent lanes."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -11,22 +11,22 @@ from garage2usd.maps.osm_file import Place
 __all__ = ["Bound", "LaneBounds", "lane_bounds"]
 
 _SAG_M = 1e-3
-"""How far a bound may lie off the polyline that stands for it."""
+"""Greatest deviation of a polyline from its lane bound."""
 _LEAST_M = 1e-6
 _MOST_EASED_BEND, _MOST_EASED_SLOPE = 6.0, 1.5
-"""Greatest second and first derivative of the curve by which widths run from 0 to 1 along a road of length 1."""
+"""Greatest second and first derivative of the easing curve for lane widths, from 0 to 1 along a road of length 1."""
 
 
 @dataclass(eq=False)
 class Bound:
-    """A side of a lane.
+    """A bound of a lane.
 
     Attributes
     ----------
     places
-        Its corners along the road.
+        Points of the polyline along the road.
     is_middle
-        Whether it is the line between the two lanes of a straight road, on which the middle line is painted.
+        True for the line between the two lanes of a straight road, where the middle line is painted.
     """
 
     places: list[Place]
@@ -35,14 +35,14 @@ class Bound:
 
 @dataclass(frozen=True, eq=False)
 class LaneBounds:
-    """A lane and its sides.
+    """A lane with its left and right bound.
 
     Attributes
     ----------
     road, lane
-        Of which road, and its number there.
+        The road, and the number of the lane in it.
     left, right
-        Its sides as a driver sees them; their places are in the order of the road all the same.
+        Bounds to the driver's left and right; their points are in the road's order.
     """
 
     road: Road
@@ -52,23 +52,23 @@ class LaneBounds:
 
     @property
     def outer(self) -> tuple[Bound, ...]:
-        """The sides beyond which no lane of the road lies."""
+        """The bounds on the edge of the road."""
         return (self.right,) if self.road.lanes == (LEFT, RIGHT) else (self.left, self.right)
 
     @property
     def ground(self) -> list[tuple[float, float]]:
-        """Corners (x, y) around it."""
+        """Corners (x, y) of the lane's polygon."""
         return [place[:2] for place in (*self.left.places, *reversed(self.right.places))]
 
     @property
     def turned_rad(self) -> float:
-        """By how much cars turn to the left on it."""
+        """Angle by which the lane turns to the left in its driving direction."""
         turned = sum(arc.length_m * arc.curvature_per_m for arc in self.road.line.arcs)
         return turned if self.lane == RIGHT else -turned
 
 
 def lane_bounds(network: Network) -> tuple[LaneBounds, ...]:
-    """All lanes of a garage in the order of their roads, from left to right."""
+    """Compute all lanes of a garage with their bounds, ordered by road and from left to right."""
     return tuple(lane for road in network.roads for lane in _lanes(road))
 
 
@@ -89,7 +89,7 @@ def _lanes(road: Road) -> Iterator[LaneBounds]:
 
 
 def _turns_back(bound: Bound, road: Road, runs: Sequence[float]) -> bool:
-    """Whether a side leads against its road, as the inner one of a bend does that is tighter than its lane is wide."""
+    """Test if a bound runs backwards, as the inner bound of a bend tighter than its lane is wide."""
     for (before, start), (after, end) in pairwise(zip(runs, bound.places, strict=True)):
         heading = road.line.at((before + after) / 2)[2]
         if (end[0] - start[0]) * math.cos(heading) + (end[1] - start[1]) * math.sin(heading) < -_LEAST_M:
@@ -98,7 +98,7 @@ def _turns_back(bound: Bound, road: Road, runs: Sequence[float]) -> bool:
 
 
 def _runs(road: Road) -> list[float]:
-    """Lengths along a road between which its bounds are straight but for `_SAG_M`, with those where slopes change."""
+    """Divide a road into lengths whose bounds are straight within `_SAG_M`, including changes of slope."""
     length_m = road.line.length_m
     wide_m = max(abs(lanes.middle_m) + lanes.left_m + lanes.right_m for lanes in (road.start, road.end))
     change_m = 2 * sum(abs(start - end) for start, end in zip(road.start, road.end, strict=True))

@@ -1,4 +1,4 @@
-"""A garage as a Lanelet2 map with the tags of Autoware."""
+"""Lanelet2 map of a garage, with Autoware's tags."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -23,35 +23,35 @@ _STRAIGHT_RAD = 0.1
 def write_lanelet2(
     garage: BuiltGarage, path: Path, settings: MapsConfig, *, network: Network | None = None
 ) -> tuple[LaneBounds, ...]:
-    """Write a garage as a Lanelet2 file, in the frame of all maps (`garage2usd.maps.frame`).
+    """Write a garage as a Lanelet2 map in the common map frame (`garage2usd.maps.frame`).
 
     Parameters
     ----------
     garage
         The garage.
     path
-        The file; its folder is there.
+        The file, in an existing folder.
     settings
-        Where on the earth it lies, and how fast cars may drive.
+        Geographic position and speed limit.
     network
-        What `garage2usd.maps.road_builder.network_of` finds in it, if that is known already.
+        Network of `garage2usd.maps.road_builder.network_of`, if already known.
 
     Returns
     -------
     tuple of LaneBounds
-        The lanes that lanelets were made of.
+        The lanes of the lanelets.
 
     Raises
     ------
     StageError
-        If the garage has no whole lane graph.
+        If the garage has no complete lane graph.
 
     Notes
     -----
     A lanelet is a driving lane of a road of `garage2usd.maps.network`, with the numbers that both have in the OpenDRIVE
     map. The last points of one are the first of the next, and the two of an aisle share its middle line. Bounds lie
     within a millimetre of the lane's; where a bend is tighter than its lane is wide, the inner one is straight.
-    Latitude and longitude are those of the projection that the OpenDRIVE map names. Stalls are those of
+    Latitude and longitude follow the projection of the OpenDRIVE map. Stalls are those of
     `garage2usd.maps.lanelet2_parking`.
     """
     lanes = lane_bounds(network or network_of(garage))
@@ -77,7 +77,7 @@ def write_lanelet2(
 
 
 def _bound_tags(bound: Bound) -> dict[str, str]:
-    """Of a side; nobody changes to the lane that comes towards him, and stalls are entered across all others."""
+    """Return the tags of a lane bound: no lane change over the middle line; other bounds may be crossed into stalls."""
     return {"type": "line_thin", "subtype": "dashed", "lane_change": "no"} if bound.is_middle else {"type": "virtual"}
 
 

@@ -1,4 +1,4 @@
-"""Stalls of a Lanelet2 map: areas, Autoware's parking spaces, the ground between them and the lanes, parking lots."""
+"""Stalls of a Lanelet2 map: parking areas, Autoware's parking spaces, access areas and parking lots."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -20,17 +20,17 @@ __all__ = ["Feet", "add_lots", "add_stalls"]
 Floats = NDArray[np.float64]
 
 _MOST_ASIDE = 2.0
-"""Where a lane lies farther ahead of a corner than this many times its distance, it bends away from there."""
+"""Ratio of distance ahead to distance beside a corner above which a lane bends away."""
 _GRID_M = 1e-4
-"""To which outlines are rounded to be joined."""
+"""Grid in metres to which outlines are rounded before their union."""
 _BEHIND_M = 1e-3
-"""Where a mouth touches the lane, the lane is found from a little inside the stall."""
+"""Distance inside the stall from which the lane is searched, for entries that touch the lane."""
 
 
 class _Foot(NamedTuple):
-    """Where the lane begins ahead of a corner: the place, on which bound, and how far along that.
+    """The point of a lane bound ahead of a stall corner: position, bound and distance along it.
 
-    The ends of lanes have no bound.
+    Feet on the ends of lanes have no bound.
     """
 
     place: Place
@@ -39,12 +39,12 @@ class _Foot(NamedTuple):
 
 
 class Feet:
-    """Places on the bounds of lanes where the ground before stalls ends.
+    """Points on lane bounds at which the access areas of stalls end.
 
     Parameters
     ----------
     lanes
-        All lanes; those that are not level are left out.
+        All lanes; lanes that are not level are ignored.
     """
 
     def __init__(self, lanes: Sequence[LaneBounds]) -> None:
@@ -61,15 +61,15 @@ class Feet:
         self._on: dict[Bound, dict[float, Place]] = {}
         self._runs: dict[Bound, list[float]] = {}
         self.grounds: Grounds = np.empty(0, dtype=object)
-        """Outlines of the stalls that take cars, and of the ground between them and the lanes."""
+        """Outlines of the stalls for cars and of their access areas."""
 
     def before(self, mouths: Floats, ahead: Floats) -> list[list[Place]]:
-        """Where the lane begins before mouths, from their right to their left; empty where all lanes are ramps.
+        """Find the lane bound in front of stall entries, from right to left; empty if all lanes are ramps.
 
         Parameters
         ----------
         mouths
-            Left and right corner of each; shape (n, 2, 2).
+            Left and right corner of each entry; shape (n, 2, 2).
         ahead
             Unit vectors out of the stalls; shape (n, 2).
         """
@@ -79,7 +79,7 @@ class Feet:
         return [self._between(*pair) for pair in zip(feet[::2], feet[1::2], strict=True)]
 
     def _between(self, right: _Foot, left: _Foot) -> list[Place]:
-        """The places of a lane's side from a foot to another."""
+        """Return the points of a lane bound between two feet."""
         bound = right.bound
         if bound is None or bound is not left.bound:
             return [right.place, left.place]
@@ -89,7 +89,7 @@ class Feet:
         return [right.place, *(between if right.run_m < left.run_m else reversed(between)), left.place]
 
     def along(self, bound: Bound) -> list[Place]:
-        """The places of a bound, with the feet on it."""
+        """Return the points of a lane bound, including feet."""
         feet = self._on.get(bound)
         if not feet:
             return bound.places
@@ -98,14 +98,14 @@ class Feet:
         return [bound.places[0], *(place for _, place in inner), bound.places[-1]]
 
     def _runs_of(self, bound: Bound) -> list[float]:
-        """How far along a bound each of its places lies."""
+        """Return the distance along a lane bound of each of its points."""
         if bound not in self._runs:
             flat = [place[:2] for place in bound.places]
             self._runs[bound] = shapely.line_locate_point(shapely.LineString(flat), shapely.points(flat)).tolist()
         return self._runs[bound]
 
     def _feet(self, corners: Floats, ahead: Floats) -> list[_Foot]:
-        """Where the lane begins ahead of corners, or nearest to them where it bends away."""
+        """Find the lane ahead of corners, or the nearest point of the lane where it bends away."""
         lines = self._tree.geometries
         starts = shapely.points(corners - _BEHIND_M * ahead)
         nearest = self._tree.nearest(starts)
@@ -133,12 +133,12 @@ class Feet:
 
 
 def add_stalls(osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds]) -> Feet:
-    """Write all stalls.
+    """Write all stalls to a Lanelet2 map.
 
-    A stall that takes cars is an area of the subtype `parking` around its corners, and a way from the middle of its
-    mouth to that of its rear with its width, as Autoware has it. The ground between its mouth and the lane is an area
-    of the subtype `parking_access`, whose corners are points of the lane's bound and of the stall. Hatched ground is a
-    polygon of the type that Autoware has for it.
+    A stall for cars is an area of the subtype `parking` around its corners, and Autoware's parking space: a way from
+    the middle of its entry to the middle of its rear, with its width. The ground between entry and lane is an area of
+    the subtype `parking_access`, whose corners are points of the lane bound and of the stall. Hatched ground is a
+    polygon of Autoware's type for it.
     """
     taken = garage.taken_stalls
     feet = Feet(lanes)
@@ -173,9 +173,9 @@ def add_stalls(osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds]) -
 
 
 def add_lots(osm: OsmFile, lanes: Sequence[LaneBounds], feet: Feet) -> None:
-    """Write the ground of stalls and lanes as Autoware's parking lots; ramps are not part of them.
+    """Write the ground of stalls and level lanes as Autoware's parking lots.
 
-    Autoware parks where both the car and its goal lie within one lot, so that lots reach over the lanes.
+    Autoware parks only if car and goal lie within one lot, so lots include the lanes.
     """
     level = grounds_of([lane.ground for lane in lanes if not any(place[2] for place in lane.left.places)])
     # lanes cross each other; stalls and what is before them share whole sides, by which they are joined far sooner

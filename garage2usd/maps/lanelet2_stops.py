@@ -1,4 +1,4 @@
-"""Lines of a Lanelet2 map at which cars stop before gates and slow down before speed bumps."""
+"""Stop lines of a Lanelet2 map: before gates, and before speed bumps, where cars slow down."""
 
 import math
 from collections import defaultdict
@@ -18,15 +18,15 @@ from garage2usd.maps.osm_file import Member, OsmFile
 __all__ = ["add_stops"]
 
 _BEFORE_M = 1.0
-"""From a line to what stands or lies beyond it."""
+"""Distance from a stop line to its gate or speed bump."""
 _STEP_M = 0.02
-"""Between places on a lane at which it is looked whether something lies across it."""
+"""Step along a lane at which obstacles across it are searched."""
 _SIGNS = {"barrier": ("lift_gate", "stop_sign"), "speed_bump": ("bump", "de112")}
-"""What Lanelet2 calls the things that cars stop or slow down at, by their class, and the sign of the same meaning."""
+"""Lanelet2 type and equivalent traffic sign of gates and speed bumps, by semantic class."""
 
 
 class _Thing(NamedTuple):
-    """Something that cars pass: its class, its path in the stage, and its outline in the map."""
+    """A gate or speed bump: its class, its path in the stage, and its outline in the map."""
 
     label: str
     name: str
@@ -34,7 +34,7 @@ class _Thing(NamedTuple):
 
 
 def add_stops(osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds]) -> dict[LaneBounds, list[int]]:
-    """Write a line before each gate and each speed bump, and a rule that names both.
+    """Write a stop line and a regulatory element for each gate and each speed bump.
 
     Parameters
     ----------
@@ -48,8 +48,8 @@ def add_stops(osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds]) ->
     Returns
     -------
     dict of LaneBounds to list of int
-        Numbers of the rules of each lane that has any. Where something lies less than a metre behind the beginning of
-        a lane, the line lies on those that lead to it, and so does the rule.
+        Ids of the regulatory elements of each lane with any. For a gate or bump less than a metre behind the start of a
+        lane, line and element belong to the preceding lanes.
     """
     ends = [
         (
@@ -92,7 +92,7 @@ def _things(garage: BuiltGarage) -> Iterator[_Thing]:
 
 
 def _across(lane: LaneBounds, thing: _Thing) -> tuple[float, float] | None:
-    """From how far to how far along a lane something reaches over its middle; None if it does not."""
+    """Find the interval along a lane in which a gate or bump covers its middle line; None if it does not."""
     road, length_m = lane.road, lane.road.line.length_m
     runs = np.linspace(0.0, length_m, math.ceil(length_m / _STEP_M) + 1)
     over = runs[shapely.contains_xy(thing.outline, road.middle_points(lane.lane, runs))]
@@ -110,7 +110,7 @@ def _add_rule(osm: OsmFile, lane: LaneBounds, thing: _Thing, run_m: float, stop:
 
 
 def _line_across(osm: OsmFile, lane: LaneBounds, run_m: float) -> tuple[int, ...]:
-    """Points from the left of a lane to its right, as its driver sees them, at a length along it."""
+    """Create the points across a lane at a distance along it, from the driver's left to right."""
     road, is_left = lane.road, lane.lane == LEFT
     run_m = road.line.length_m - run_m if is_left else run_m
     lanes, height = road.lanes_at(run_m), road.height_m(run_m)

@@ -1,4 +1,4 @@
-"""Roads, lanes and junctions of a garage in metres: what OpenDRIVE and Lanelet2 are written from."""
+"""Road network of a garage in metres: roads, lanes and junctions, the source of OpenDRIVE and Lanelet2 maps."""
 
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -12,18 +12,18 @@ from garage2usd.maps.road_nodes import RoadNode
 __all__ = ["LEFT", "RIGHT", "Junction", "LaneLink", "Lanes", "Neighbour", "Network", "Road"]
 
 LEFT, RIGHT = 1, -1
-"""Numbers of the lanes of a road, that against its direction and that along it: cars keep to the right."""
+"""Numbers of a road's lanes against and along its direction, for right-hand traffic."""
 
 
 class Lanes(NamedTuple):
-    """The lanes across a road, to the left of its reference line.
+    """Cross section of a road's lanes, to the left of its reference line.
 
     Attributes
     ----------
     middle_m
-        Where the left lane meets the right one.
+        Offset of the line between the left and the right lane.
     left_m, right_m
-        Their widths; 0 for a lane that is not there.
+        Widths of the lanes; 0 for a missing lane.
     """
 
     middle_m: float
@@ -31,25 +31,25 @@ class Lanes(NamedTuple):
     right_m: float
 
     def width_m(self, lane: int) -> float:
-        """Of a lane."""
+        """Return the width of a lane."""
         return self.left_m if lane == LEFT else self.right_m
 
     def centre_m(self, lane: int) -> float:
-        """Of a lane's middle line."""
+        """Return the offset of a lane's middle line."""
         return self.middle_m + (self.left_m / 2 if lane == LEFT else -self.right_m / 2)
 
 
 class Neighbour(NamedTuple):
-    """What a road goes on as.
+    """The predecessor or successor of a road.
 
     Attributes
     ----------
     number
-        Of the road or junction.
+        Number of the road or junction.
     is_junction
-        Which of the two it is.
+        True for a junction.
     at_start
-        Whether it is joined where the other road starts.
+        True if the start of the other road is joined.
     """
 
     number: int
@@ -58,14 +58,14 @@ class Neighbour(NamedTuple):
 
 
 class LaneLink(NamedTuple):
-    """A way through a junction.
+    """A lane link through a junction.
 
     Attributes
     ----------
     incoming, connecting
         Numbers of the roads.
     from_lane, to_lane
-        The lane of the road that comes in, and that of the road that goes out.
+        Lane of the incoming and of the connecting road.
     """
 
     incoming: int
@@ -76,26 +76,26 @@ class LaneLink(NamedTuple):
 
 @dataclass(eq=False)
 class Road:
-    """A road.
+    """A road with its lanes and its neighbours.
 
     Attributes
     ----------
     number
-        From 1 on.
+        Number of the road, from 1.
     line
-        Its reference line.
+        Reference line of the road.
     start, end
-        Its lanes there; widths run smoothly from one to the other.
+        Lanes at both ends; widths are eased between them.
     nodes
-        Numbers of the lane nodes that it crosses.
+        Numbers of the lane nodes along the road.
     profile_m
-        (s, height) where its slope changes, in straight stretches; empty where it lies level at 0.
+        Elevation profile as (s, height) at changes of slope; empty for a level road at height 0.
     junction
-        Number of the junction that it connects two roads in.
+        Number of the junction, for a connecting road.
     predecessor, successor
-        What comes before and after it.
+        Neighbours at the start and the end.
     lane_before, lane_after
-        For each of its lanes, the lane of the predecessor and of the successor; those without are left out.
+        Lane of the predecessor and of the successor for each lane that has one.
     """
 
     number: int
@@ -112,23 +112,23 @@ class Road:
 
     @property
     def lanes(self) -> tuple[int, ...]:
-        """Numbers of its lanes, from left to right."""
+        """Numbers of the road's lanes, from left to right."""
         return tuple(lane for lane in (LEFT, RIGHT) if self.start.width_m(lane) > 0)
 
     def lanes_at(self, s_m: float) -> Lanes:
-        """Its lanes at a length along it."""
+        """Return the road's lanes at a distance along it."""
         share = min(max(s_m / self.line.length_m, 0.0), 1.0)
         eased = share * share * (3 - 2 * share)
         return Lanes(*(a + (b - a) * eased for a, b in zip(self.start, self.end, strict=True)))
 
     def middle_points(self, lane: int, s_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(x, y) on the middle line of a lane at lengths along the road; shape (n, 2)."""
+        """Compute points (x, y) of a lane's middle line at distances along the road; shape (n, 2)."""
         share = np.clip(s_m / self.line.length_m, 0.0, 1.0)
         start_m, end_m = self.start.centre_m(lane), self.end.centre_m(lane)
         return self.line.beside_each(s_m, start_m + (end_m - start_m) * share * share * (3 - 2 * share))
 
     def height_m(self, s_m: float) -> float:
-        """Of its surface at a length along it."""
+        """Return the height of the road's surface at a distance along it."""
         if not self.profile_m:
             return 0.0
         runs, heights = zip(*self.profile_m, strict=True)
@@ -137,16 +137,16 @@ class Road:
 
 @dataclass(frozen=True, eq=False)
 class Junction:
-    """A node in which three or more roads meet.
+    """A junction: a lane node in which three or more roads meet.
 
     Attributes
     ----------
     number
-        Differs from those of all roads.
+        Number of the junction, distinct from those of roads.
     node
-        Number of its node.
+        Number of the lane node.
     links
-        The ways through it.
+        Lane links through the junction.
     """
 
     number: int
@@ -156,7 +156,7 @@ class Junction:
 
 @dataclass(frozen=True, eq=False)
 class Network:
-    """All roads and junctions, and the nodes that they were made from, each at its number."""
+    """The road network of a garage: roads, junctions and lane nodes by number."""
 
     roads: tuple[Road, ...]
     junctions: tuple[Junction, ...]

@@ -1,4 +1,4 @@
-"""Occupancy grids for robots: a map of nav2's map server, and masks for its keep-out and speed filters."""
+"""Occupancy grids for robots: maps of nav2's map server, and masks for its keep-out and speed filters."""
 
 import math
 from collections.abc import Iterable
@@ -22,46 +22,46 @@ __all__ = ["grid_files", "write_grid"]
 Floats = NDArray[np.float64]
 
 _OCCUPIED, _UNKNOWN, _FREE = 0, 205, 254
-"""Greys of the map server's own maps."""
+"""Grey values of nav2's map server."""
 _OCCUPIED_THRESHOLD, _FREE_THRESHOLD = 0.65, 0.196
-"""Of a cell's darkness: 205 is as dark as 0.19608, which counts as unknown only while no more than that is free."""
+"""Thresholds of a cell's darkness: 205 is as dark as 0.19608, so it is unknown only with a free threshold up to
+that."""
 _MOST_CELLS = 400_000_000
 _AROUND_M = 1.0
-"""Of the map around the floors: walls stand there."""
+"""Margin of the occupancy grid around the floors, for walls."""
 _NEAR_CELLS = 0.25
 _ARC_SIDES = 4
-"""Of a quarter of a turn around a corner: they cut off a fiftieth of the distance to it."""
+"""Segments of a quarter circle around a corner; they cut off a fiftieth of the radius."""
 _BAND_ROWS = 256
-"""Rows that are filled at a time, so that large maps need no more memory for it than small ones."""
+"""Rows filled at a time, which limits the memory for large grids."""
 _KEPT_FREE = frozenset({StallUse.ACCESS_AISLE, StallUse.UNREACHABLE})
 _KEEP_OUT = 100
 _KEEP_OUT_MASK, _SPEED_MASK = "keepout", "speed"
 _RAMP_PERCENT, _BUMP_PERCENT, _BUMP_REACH_M = 50, 30, 2.0
-"""Most speed on ramps, and over a speed bump and as near to it as a car that slows down for it is."""
+"""Speed limit in percent on ramps and speed bumps, and the distance around a bump in which cars slow down."""
 
 
 def grid_files(path: Path, grid: GridConfig, *, joint: str = "_") -> tuple[Path, ...]:
-    """The files that `write_grid` writes, a YAML file before its picture."""
+    """Return the files of `write_grid`, each YAML file before its picture."""
     masks = [name for name, is_asked in ((_KEEP_OUT_MASK, grid.keepout), (_SPEED_MASK, grid.speed)) if is_asked]
     maps = [path, *(_mask_file(path, joint, name) for name in masks)]
     return tuple(file for yaml in maps for file in (yaml, yaml.with_suffix(".pgm")))
 
 
 def write_grid(garage: BuiltGarage, path: Path, grid: GridConfig, *, joint: str = "_") -> tuple[Path, ...]:
-    """Write the map of a garage for robots: a YAML file and the picture (PGM) that it names.
+    """Write the occupancy grid of a garage: a YAML file and its picture (PGM).
 
     Parameters
     ----------
     garage
         The garage.
     path
-        The YAML file; its folder is there. The picture is beside it, ``<stem>.pgm``, and so are the masks that are
-        asked for, ``<stem>_keepout`` and ``<stem>_speed``, a YAML file and a picture each.
+        The YAML file, in an existing folder. The picture ``<stem>.pgm`` is written beside it, as are requested masks,
+        ``<stem>_keepout`` and ``<stem>_speed``, each a YAML file and a picture.
     grid
-        Size of a cell, the heights between which things count, and whether masks for nav2's keep-out and speed filters
-        are written as well.
+        Cell size, range of heights of obstacles, and choice of masks for nav2's keep-out and speed filters.
     joint
-        What stands between the stem and the name of a mask.
+        Separator between the stem and the name of a mask.
 
     Returns
     -------
@@ -73,16 +73,16 @@ def write_grid(garage: BuiltGarage, path: Path, grid: GridConfig, *, joint: str 
     ConfigError
         If there would be more than 400 million cells.
     StageError
-        If nothing in the garage has the class floor.
+        If the garage has no object of the class floor.
 
     Notes
     -----
     The frame is that of `garage2usd.maps.frame`; the origin is the lower left corner of the lower left cell, a multiple
-    of the cell's side. A cell is occupied where the ground of something solid holds its middle or comes nearer to it
-    than a quarter of a cell; what is thinner than a cell counts as one cell thick, so that no wall has gaps. What lies
-    wholly in something is thus occupied. Where a car goes that keeps 5 cm away from all that is at least half a cell
-    thick, cells of up to 5 cm are free: their middles are 0.71 cells from the car at most, and 0.25 from what occupies
-    them. Other cells are free on the floor of garage and ramps, and unknown elsewhere.
+    of the cell's side. A cell is occupied if a solid's footprint contains its middle or comes within a quarter of a
+    cell of it. Footprints thinner than a cell are widened to one cell, so walls have no gaps. Cells of up to 5 cm stay
+    free along the path of a car that keeps 5 cm clear of everything at least half a cell thick: their middles are at
+    most 0.71 cells from the car, and occupied cells reach 0.25 cells beyond a solid. Other cells are free on the floor
+    of garage and ramps, and unknown elsewhere.
 
     The masks have the mode raw, in which a grey is the value itself: 100 keeps out, and a speed is a percentage of the
     robot's own, 0 without a limit (filter type 1 with a base of 0 and a multiplier of 1).
@@ -113,12 +113,12 @@ def _mask_file(path: Path, joint: str, name: str) -> Path:
 
 @dataclass(frozen=True, slots=True)
 class _Raster:
-    """Where cells lie.
+    """The raster of an occupancy grid.
 
     Attributes
     ----------
     side_m
-        Of a cell.
+        Side of a cell.
     column, row
         Cells from the map's origin to the lower left cell, to the right and upwards.
     shape
@@ -132,7 +132,7 @@ class _Raster:
 
     @classmethod
     def around(cls, floor: Grounds, side_m: float) -> "_Raster":
-        """The cells on and around grounds (x, z)."""
+        """Create the raster that covers footprints (x, z) with a margin."""
         (left, high), (right, low) = map_points(shapely.total_bounds(floor).reshape(2, 2))
         first_column, first_row = (math.floor((value - _AROUND_M) / side_m) for value in (left, low))
         columns, rows = (
@@ -147,11 +147,11 @@ class _Raster:
 
     @property
     def origin_m(self) -> tuple[float, float]:
-        """(x, y) of the lower left corner in the map's frame."""
+        """Lower left corner (x, y) of the grid in the map's frame."""
         return round(self.column * self.side_m, 6) + 0.0, round(self.row * self.side_m, 6) + 0.0
 
     def fill(self, cells: NDArray[np.uint8], grounds: Iterable[shapely.Geometry], value: int) -> None:
-        """Set the cells whose middles lie in any of some grounds (x, z), or on their left or lower border.
+        """Fill the cells whose middles lie in polygons (x, z), or on their left or lower border.
 
         Notes
         -----
@@ -177,7 +177,7 @@ class _Raster:
             np.putmask(cells[rows - above : rows - band], inside, value)
 
     def _sides(self, grounds: Iterable[shapely.Geometry]) -> tuple[Floats, Floats]:
-        """Both ends of each side of some grounds in cells from the middle of the lower left one on, shape (sides, 2).
+        """Return both ends of each polygon edge in cells from the middle of the lower left cell, shape (sides, 2).
 
         Outlines run counter-clockwise, holes clockwise.
         """
@@ -190,7 +190,7 @@ class _Raster:
 
 
 def _thickened(grounds: Iterable[shapely.Geometry], side_m: float) -> Grounds:
-    """Convex grounds and what is nearer to them than a quarter of a cell, all of it at least a cell thick."""
+    """Buffer convex footprints by a quarter of a cell, after widening them to at least one cell."""
     outlines = np.array([*grounds], dtype=object)
     thickened: Grounds = shapely.buffer(
         outlines, np.maximum(_NEAR_CELLS * side_m, (side_m - _thicknesses_m(outlines)) / 2), quad_segs=_ARC_SIDES
@@ -199,7 +199,7 @@ def _thickened(grounds: Iterable[shapely.Geometry], side_m: float) -> Grounds:
 
 
 def _thicknesses_m(grounds: Grounds) -> Floats:
-    """The shorter side of the tightest rectangle around each convex ground; 0 for a line or a point."""
+    """Measure the shorter side of the minimum rectangle around each convex footprint; 0 for a line or a point."""
     boxes = shapely.oriented_envelope(grounds)
     thicknesses = np.zeros(len(boxes))
     are_areas = (shapely.get_type_id(boxes) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(boxes)
@@ -225,6 +225,6 @@ def _write(path: Path, cells: NDArray[np.uint8], raster: _Raster, mode: str) -> 
 
 
 def _quoted(text: str) -> str:
-    """A text in the double quotes of YAML 1.1 and 1.2, in which signs that cannot be printed stand by their number."""
+    """Quote a text in double quotes of YAML 1.1 and 1.2, with unprintable characters escaped."""
     signs = (f"\\{sign}" if sign in '"\\' else sign if sign.isprintable() else f"\\U{ord(sign):08x}" for sign in text)
     return f'"{"".join(signs)}"'

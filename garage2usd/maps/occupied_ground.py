@@ -1,4 +1,4 @@
-"""What the floor of a garage holds between two heights, as polygons on the ground."""
+"""Footprints of obstacles between two heights, and the floor polygons of a garage."""
 
 from collections.abc import Iterator
 
@@ -16,18 +16,18 @@ __all__ = ["floor_of", "occupied_ground", "ramp_floors"]
 
 _DOOR, _RAMP, _FLOOR, _DRIVEN_OVER = "vehicle_door", "ramp", "floor", "speed_bump"
 _TOUCH_M = 1e-4
-"""Lines of a section that come nearer to each other belong to one body."""
+"""Distance below which section lines belong to one body."""
 _LEAST_UP = 0.1
-"""Of the normals of a floor's faces, which may be ramps with grooves."""
+"""Least upward component of a floor face's normal, which allows ramps with grooves."""
 
 
 def floor_of(garage: BuiltGarage) -> Grounds:
-    """The grounds that the garage's floors and ramps take, (x, z) in metres.
+    """Return the polygons of the garage's floors and ramps, (x, z) in metres.
 
     Raises
     ------
     StageError
-        If nothing is labelled as a floor: then nothing says where the garage ends.
+        If no object is labelled as a floor, so that the garage's extent is unknown.
     """
     bodies = list(_bodies(garage, _FLOOR))
     if not bodies:
@@ -37,19 +37,19 @@ def floor_of(garage: BuiltGarage) -> Grounds:
 
 
 def ramp_floors(garage: BuiltGarage) -> Grounds:
-    """The ground that the floor of each ramp takes."""
+    """Return the floor polygon of each ramp."""
     sheets = (body for body in _bodies(garage, _RAMP) if _is_sheet(body))
     return hulls_of([body.world_points()[:, [0, 2]] for body in sheets])
 
 
 def occupied_ground(garage: BuiltGarage, low_m: float, high_m: float) -> Iterator[shapely.Geometry]:
-    """Convex outlines of all between two heights, to which it reaches at least, (x, z) in metres.
+    """Yield convex footprints of all solids between two heights, (x, z) in metres.
 
     Notes
     -----
-    What counts is what `garage2usd.as_built.solids.Solids` takes as solid, less speed bumps, which cars drive over. A
-    vehicle door counts by its sections at every height where its form changes, as its convex outline would shut it;
-    ramps count without their floors.
+    Solids are those of `garage2usd.as_built.solids.Solids`, without speed bumps, which cars drive over. A vehicle door
+    is represented by its sections at every height where its shape changes, since its convex hull would close it. Ramps
+    are included without their floors.
     """
     for solid in garage.solids.between(low_m, high_m):
         if solid.label not in {_DOOR, _RAMP, _DRIVEN_OVER}:
@@ -67,12 +67,12 @@ def _bodies(garage: BuiltGarage, label: str) -> Iterator[Body]:
 
 
 def _is_sheet(body: Body) -> bool:
-    """Whether all faces look up, so that it is driven on."""
+    """Test if all faces of a body look up, as those of a floor."""
     return all(face.normal[1] >= _LEAST_UP for face in body.faces())
 
 
 def _sections(thing: Thing, low_m: float, high_m: float) -> Iterator[shapely.Geometry]:
-    """Convex outlines of the parts of an object that level planes cut, one between each two heights of its points."""
+    """Yield the convex outlines of an object's horizontal sections, one between each two heights of its points."""
     heights = np.unique(np.concatenate([body.world_points()[:, 1].clip(low_m, high_m) for body in thing.bodies]))
     for level in ((heights[1:] + heights[:-1]) / 2).tolist():
         lines = [shapely.LineString(cut) for cut in section_of(thing, level) if len(cut) > 1]

@@ -1,4 +1,4 @@
-"""A garage as an OpenDRIVE 1.8 map."""
+"""OpenDRIVE 1.8 map of a garage."""
 
 import math
 import xml.etree.ElementTree as ET
@@ -30,24 +30,24 @@ __all__ = ["write_opendrive"]
 
 _CENTRE_LINE_M = 0.12
 _AROUND_M = 10.0
-"""Of the bounds of the map around its roads."""
+"""Margin of the map's bounds around its roads."""
 
 
 def write_opendrive(
     garage: BuiltGarage, path: Path, settings: MapsConfig, *, network: Network | None = None
 ) -> Network:
-    """Write a garage as an OpenDRIVE 1.8 file, in the frame of all maps (`garage2usd.maps.frame`).
+    """Write a garage as an OpenDRIVE 1.8 map in the common map frame (`garage2usd.maps.frame`).
 
     Parameters
     ----------
     garage
         The garage.
     path
-        The file; its folder is there.
+        The file, in an existing folder.
     settings
-        Where on the earth it lies, and how fast cars may drive.
+        Geographic position and speed limit.
     network
-        What `garage2usd.maps.road_builder.network_of` finds in it, if that is known already.
+        Network of `garage2usd.maps.road_builder.network_of`, if already known.
 
     Returns
     -------
@@ -57,11 +57,11 @@ def write_opendrive(
     Raises
     ------
     StageError
-        If the garage has no whole lane graph.
+        If the garage has no complete lane graph.
 
     Notes
     -----
-    Numbers of roads, junctions and objects are integers, as CARLA wants them; the ids of stalls are names. Stalls,
+    Numbers of roads, junctions and objects are integers, as CARLA requires; the ids of stalls are names. Stalls,
     columns and walls lie beside straight roads (`garage2usd.maps.road_places`), with outlines as they stand in the
     stage. The projection is a transverse Mercator around the stage's origin, in which metres are metres.
     """
@@ -182,7 +182,7 @@ def _add_lane(lane: ET.Element, road: Road, number: int) -> None:
 
 
 def _eased(start: float, end: float, length_m: float) -> tuple[float, float, float, float]:
-    """The cubic from a value to another that is level at both ends."""
+    """Return the coefficients of the cubic between two values with zero slope at both ends."""
     rise = end - start
     return start, 0.0, 3 * rise / length_m**2, -2 * rise / length_m**3
 

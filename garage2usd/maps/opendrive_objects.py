@@ -1,4 +1,4 @@
-"""Stalls, building, speed bumps and signs as objects and signals of OpenDRIVE's roads."""
+"""OpenDRIVE objects and signals: stalls, columns, walls, speed bumps and signs beside roads."""
 
 import math
 import xml.etree.ElementTree as ET
@@ -30,36 +30,36 @@ _TYPES = {
     "speed_bump": ("roadSurface", "speedBump"),
     "barrier": ("barrier", "gate"),
 }
-"""OpenDRIVE's type and a subtype for what stands, by its class."""
+"""OpenDRIVE type and subtype of solid objects, by semantic class."""
 _SIGNS = {"traffic_sign": ("DE", "286"), "exit_sign": ("OpenDRIVE", "-1")}
-"""Country and number of signs: no stopping for longer than three minutes (Zeichen 286 of the German StVO); the signs
-of escape routes of ISO 7010 have no number in a road traffic act."""
+"""Country and number of traffic signs: no stopping for longer than three minutes (Zeichen 286 of the German StVO).
+Escape signs of ISO 7010 have no number in a road traffic act."""
 _APART_M = 0.01
-"""Walls in line that are no farther apart are one."""
+"""Gap up to which walls in line are merged."""
 _DIGITS = 3
 _DEEP_M = 0.002
-"""By which single precision may have what stands on the floor below it."""
+"""Depth below the floor that single precision may give objects on it."""
 
 
 class MapObject(NamedTuple):
-    """An object beside a road.
+    """An OpenDRIVE object beside a road.
 
     Attributes
     ----------
     road, s_m, t_m
-        Which road, how far along it, and how far to its left its middle lies.
+        Road of the object, and its middle's distance along the road and offset to the left.
     heading_rad
-        Of its own axis u, in the map.
+        Heading of the object's axis u in the map.
     corners_m
-        (u, v) of its outline; float64, shape (n, 2).
+        Outline (u, v); float64, shape (n, 2).
     name, type, subtype
-        As OpenDRIVE says them.
+        OpenDRIVE's name, type and subtype.
     bottom_m, height_m
-        Over the road.
+        Bottom over the road, and height of the object.
     stall
-        Where it is one.
+        The stall, if the object is one.
     data
-        What OpenDRIVE has no attribute for.
+        User data without an OpenDRIVE attribute.
     """
 
     road: Road
@@ -77,7 +77,7 @@ class MapObject(NamedTuple):
 
 
 class Signal(NamedTuple):
-    """A sign beside a road; its front looks where `heading_rad` says, in the map."""
+    """An OpenDRIVE signal: a sign beside a road whose front faces `heading_rad` in the map."""
 
     road: Road
     s_m: float
@@ -92,7 +92,7 @@ class Signal(NamedTuple):
 
 
 def stalls_of(garage: BuiltGarage, places: RoadPlaces, network: Network) -> Iterator[MapObject]:
-    """Each stall; its axis u leads from its mouth to its rear, its corners are those of `Stall`."""
+    """Yield the stalls of a garage as OpenDRIVE objects; axis u leads from entry to rear, corners as in `Stall`."""
     taken = garage.taken_stalls
     through = {number: road for road in network.roads if road.junction is None for number in road.nodes}
     meeting = {junction.node: junction.number for junction in network.junctions}
@@ -122,7 +122,7 @@ def stalls_of(garage: BuiltGarage, places: RoadPlaces, network: Network) -> Iter
 
 
 def solids_of(garage: BuiltGarage, places: RoadPlaces) -> Iterator[MapObject]:
-    """Columns, walls, obstacles, gates and speed bumps by their outlines; walls in line are one object."""
+    """Yield the outlines of columns, walls, obstacles, gates and speed bumps; walls in line are merged."""
     pieces: dict[str, list[tuple[str, shapely.Polygon, float, float]]] = {label: [] for label in _TYPES}
     for solid in garage.solids.standing(*_TYPES):
         outline = shapely.transform(solid.footprint, map_points)
@@ -138,14 +138,14 @@ def solids_of(garage: BuiltGarage, places: RoadPlaces) -> Iterator[MapObject]:
 
 
 def signals_of(garage: BuiltGarage, places: RoadPlaces) -> Iterator[Signal]:
-    """The signs of a garage."""
+    """Yield the signs of a garage as OpenDRIVE signals."""
     for thing in garage.things:
         if thing.label in _SIGNS and thing.bodies:
             yield _signal(thing, places)
 
 
 def add_objects(parent: ET.Element, objects: Iterable[tuple[int, MapObject]]) -> None:
-    """Write objects with their numbers into a road."""
+    """Add numbered OpenDRIVE objects to a road's element."""
     for number, thing in objects:
         low, high = thing.corners_m.min(axis=0), thing.corners_m.max(axis=0)
         length_m, width_m = (high - low).tolist()
@@ -179,7 +179,7 @@ def add_objects(parent: ET.Element, objects: Iterable[tuple[int, MapObject]]) ->
 
 
 def add_signals(parent: ET.Element, signals: Iterable[tuple[int, Signal]]) -> None:
-    """Write signs with their numbers into a road."""
+    """Add numbered OpenDRIVE signals to a road's element."""
     for number, sign in signals:
         child(
             parent,
@@ -203,7 +203,7 @@ def add_signals(parent: ET.Element, signals: Iterable[tuple[int, Signal]]) -> No
 
 
 def _add_markings(element: ET.Element, corners: Floats) -> None:
-    """The lines on three sides of a stall; its mouth has none."""
+    """Add the stall markings on three sides; the entry has no line."""
     markings = child(element, "markings")
     for start, end in ((1, 2), (2, 3), (3, 0)):
         line = child(
@@ -222,7 +222,7 @@ def _add_markings(element: ET.Element, corners: Floats) -> None:
 
 
 def _signal(thing: Thing, places: RoadPlaces) -> Signal:
-    """A sign; it looks to its own +Z."""
+    """Create the OpenDRIVE signal of a sign, which faces its own +Z."""
     points = np.concatenate([body.world_points() for body in thing.bodies])
     low, high = points.min(axis=0), points.max(axis=0)
     front = thing.bodies[0].matrix[2, [0, 2]]
@@ -247,7 +247,7 @@ def _signal(thing: Thing, places: RoadPlaces) -> Signal:
 def _joined_walls(
     walls: Sequence[tuple[str, shapely.Polygon, float, float]],
 ) -> Iterator[tuple[str, shapely.Polygon, float, float]]:
-    """Walls as boxes, those that continue each other as one."""
+    """Merge walls in line, given as boxes."""
     rows: dict[tuple[int, float, float, float, float], list[tuple[float, float, str]]] = {}
     for name, outline, bottom_m, top_m in walls:
         if outline.area < (1 - 1e-3) * outline.envelope.area:
@@ -273,7 +273,7 @@ def _joined_walls(
 
 
 def _over_road(height_m: float, road: Road, s_m: float) -> float:
-    """A height as one over a road; what single precision has a little below it lies on it."""
+    """Return a height relative to a road; tiny depths below the surface are set to 0."""
     over_m = round(height_m - road.height_m(s_m), _DIGITS)
     return over_m if over_m < -_DEEP_M else max(over_m, 0.0)
 

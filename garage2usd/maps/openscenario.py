@@ -1,4 +1,4 @@
-"""A drive as an OpenSCENARIO 1.2 scenario: the car follows its trajectory among the parked cars."""
+"""OpenSCENARIO 1.2 scenario of a drive: the car follows its trajectory among parked cars."""
 
 import math
 from collections.abc import Sequence
@@ -22,13 +22,13 @@ with of_extra("a scenario"):
 __all__ = ["EGO", "write_scenario"]
 
 EGO = "Ego"
-"""Name of the car that drives."""
+"""Name of the driven car."""
 _WRITTEN = datetime(2000, 1, 1, tzinfo=UTC).replace(tzinfo=None)
-"""Stands for the time of writing, which would make two files of the same drive differ."""
+"""Constant time of writing, so that files are reproducible."""
 _MINOR = 2
 _HEIGHT_M, _WHEEL_M = 1.5, 0.62
 _AFTER_S = 1.0
-"""How long the scenario goes on when the car has come to its end."""
+"""Seconds for which the scenario continues after the car has stopped."""
 _DIGITS = 6
 _INDENT = "    "
 
@@ -44,22 +44,22 @@ def write_scenario(
     name: str = "drive",
     seed: int | None = None,
 ) -> None:
-    """Write a scenario in the frame of all maps (`garage2usd.maps.frame`).
+    """Write a drive as an OpenSCENARIO 1.2 file in the common map frame (`garage2usd.maps.frame`).
 
     Parameters
     ----------
     path
         The file.
     trajectory
-        What the car drives; its last state ends the scenario a second later.
+        Trajectory of the car; the scenario ends a second after its last state.
     car, settings
-        The car, and the limits that it keeps to.
+        The car, and the limits of its motion.
     road_file
-        Name of the OpenDRIVE file, as it is found from the folder of the scenario.
+        Path of the OpenDRIVE file relative to the scenario's folder.
     parked
-        The other cars.
+        The parked cars.
     name, seed
-        Said in the header.
+        Name and seed in the file's header.
 
     Notes
     -----
@@ -102,7 +102,7 @@ def write_scenario(
 
 
 def _positions(trajectory: Trajectory) -> list["xosc.WorldPosition"]:
-    """The states as positions; a nose that looks up has a negative pitch there."""
+    """Convert the trajectory's states to world positions; a nose that points up has a negative pitch."""
     places = map_points(np.stack([trajectory.x_m, trajectory.z_m], axis=1)).tolist()
     # unbroken, so that what is interpolated between two of them takes the short way round
     headings = (math.pi / 2 + trajectory.yaw_rad).tolist()
@@ -134,7 +134,7 @@ def _standing_car(parked: ParkedCar) -> "xosc.Vehicle":
 
 
 def _wheelbase_m(parked: ParkedCar) -> float:
-    """A scenario asks for axles, which the box of a car does not tell; they lie evenly before and behind its middle."""
+    """Estimate a parked car's wheelbase, with axles symmetric about its middle, as scenarios require axles."""
     return _number(0.58 * parked.length_m)
 
 
@@ -158,7 +158,7 @@ def _act(action: "xosc.FollowTrajectoryAction") -> "xosc.Act":
 
 
 def _when(name: str, time_s: float, triggering: str = "start") -> "xosc.ValueTrigger":
-    """Once the simulation's time is later than a time."""
+    """Create a trigger of the simulation time."""
     later = xosc.SimulationTimeCondition(_number(time_s), xosc.Rule.greaterOrEqual)
     return xosc.ValueTrigger(name, 0, xosc.ConditionEdge.none, later, triggering)
 

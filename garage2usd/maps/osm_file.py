@@ -1,4 +1,4 @@
-"""OSM XML files of Lanelet2: points that ways share, with their places on the earth."""
+"""OSM XML files of Lanelet2 maps: shared points, ways and relations with geographic coordinates."""
 
 import itertools
 from collections.abc import Iterable, Mapping, Sequence
@@ -17,20 +17,20 @@ with of_extra("a Lanelet2 map"):
 __all__ = ["Member", "OsmFile", "Place"]
 
 Place = tuple[float, float, float]
-"""(x, y, z) in metres, in the frame of `garage2usd.maps.frame`."""
+"""Point (x, y, z) in metres, in the frame of `garage2usd.maps.frame`."""
 _SAME_M = 5e-4
-"""Places that are no farther apart along each axis are one point."""
+"""Distance along each axis up to which points are merged."""
 _GROUP_BITS = 7
-"""Cells of the side of `_SAME_M` are looked for by groups, of two to the power of so many along each axis."""
+"""Cells of the side `_SAME_M` are grouped for lookup, by two to the power of this number along each axis."""
 _DEGREE_DIGITS = 13
-"""A hundred-millionth of a metre."""
+"""Decimals of degrees: a hundred-millionth of a metre."""
 
 
 _Cell = tuple[int, int, int]
 
 
 class Member(NamedTuple):
-    """What a relation holds, as OSM says it: `way` or `relation`, its number, and its role."""
+    """A member of an OSM relation: `way` or `relation`, its id and its role."""
 
     kind: str
     number: int
@@ -38,13 +38,13 @@ class Member(NamedTuple):
 
 
 class OsmFile:
-    """Points, ways and relations, numbered from 1 on in the order in which they are added.
+    """An OSM file under construction: points, ways and relations, numbered from 1 in order of creation.
 
     Parameters
     ----------
     latitude_deg, longitude_deg
-        Of the origin of the frame, around which places are projected by a transverse Mercator on the WGS 84 ellipsoid
-        in which metres are metres.
+        Coordinates of the frame's origin, around which points are projected by a transverse Mercator of true scale on
+        the WGS 84 ellipsoid.
     """
 
     def __init__(self, latitude_deg: float, longitude_deg: float) -> None:
@@ -57,7 +57,7 @@ class OsmFile:
         self._relations: dict[int, tuple[tuple[Member, ...], dict[str, str]]] = {}
 
     def point(self, place: Place) -> int:
-        """The number of the point at a place, which is new where there is none yet."""
+        """Return the id of the OSM point at a position, creating it if needed."""
         cell = _cell(place)
         x, y, z = place
         found = [
@@ -74,23 +74,23 @@ class OsmFile:
         return number
 
     def points(self, places: Iterable[Place]) -> tuple[int, ...]:
-        """Numbers of the points at places in a row, each once."""
+        """Return the ids of OSM points at a sequence of positions, without repeats."""
         numbers = [self.point(place) for place in places]
         return tuple(number for number, before in zip(numbers, [None, *numbers], strict=False) if number != before)
 
     def place(self, point: int) -> Place:
-        """Where a point lies."""
+        """Return the position of an OSM point."""
         return self._places[point]
 
     def way(self, points: Sequence[int], tags: Mapping[str, str]) -> int:
-        """The number of the way along points: that of one along the same points in either direction if there is any."""
+        """Return the id of the OSM way along points, reusing one in either direction."""
         key = min(tuple(points), tuple(reversed(points)))
         if key not in self._way_of:
             self._way_of[key] = self.new_way(points, tags)
         return self._way_of[key]
 
     def new_way(self, points: Sequence[int], tags: Mapping[str, str]) -> int:
-        """The number of a way along points that stands for something else than any other one along them."""
+        """Create an OSM way along points, even if one exists."""
         number = next(self._numbers)
         self._ways[number] = tuple(points), dict(tags)
         return number
@@ -100,22 +100,22 @@ class OsmFile:
         return self.new_way(points, {**tags, "area": "yes"})
 
     def relation(self, members: Iterable[Member], tags: Mapping[str, str]) -> int:
-        """The number of a new relation."""
+        """Create an OSM relation and return its id."""
         number = next(self._numbers)
         self._relations[number] = tuple(members), dict(tags)
         return number
 
     def write(self, path: Path, *, generator: str, facts: Mapping[str, str]) -> None:
-        """Write the file.
+        """Write the OSM XML file.
 
         Parameters
         ----------
         path
             The file.
         generator
-            What made it.
+            Name of the generating program.
         facts
-            Said in the element `MetaInfo`, which Autoware reads and others pass over.
+            Attributes of the element `MetaInfo`, which Autoware reads and other programs ignore.
         """
         places = np.array(list(self._places.values())).reshape(-1, 3)
         longitudes, latitudes = self._to_degrees.transform(places[:, 0], places[:, 1])
@@ -157,7 +157,7 @@ def _group(x: int, y: int, z: int) -> _Cell:
 
 
 def _groups_around(cell: _Cell) -> Iterable[_Cell]:
-    """The groups of a cell and of those around it: one, but at the border of two."""
+    """Return the lookup groups of a cell and its neighbours: one, or several at a border."""
     x, y, z = cell
     low, high = _group(x - 1, y - 1, z - 1), _group(x + 1, y + 1, z + 1)
     if low == high:

@@ -1,4 +1,4 @@
-"""The cars that stand in a garage, as boxes."""
+"""Parked cars of a garage as boxes, for scenarios."""
 
 import math
 from collections.abc import Collection
@@ -16,18 +16,18 @@ __all__ = ["ParkedCar", "parked_cars"]
 
 @dataclass(frozen=True, slots=True)
 class ParkedCar:
-    """A car that stands.
+    """A parked car as a box.
 
     Attributes
     ----------
     name
-        A name that no other one has.
+        Unique name of the car.
     middle_m
         (x, z) of the middle of its footprint.
     yaw_rad
         Right-handed about +Y; at 0 its nose looks to -Z.
     length_m, width_m, height_m
-        Of its body.
+        Size of the body.
     """
 
     name: str
@@ -39,20 +39,19 @@ class ParkedCar:
 
 
 def parked_cars(garage: BuiltGarage, *, free: Collection[str] = ()) -> list[ParkedCar]:
-    """The cars of a garage, in the order of their prims, as boxes around their bodies.
+    """Return the parked cars of a garage as boxes around their bodies, in prim order.
 
     Parameters
     ----------
     garage
         The garage.
     free
-        Names of stalls whose cars are left out.
+        Names of stalls whose cars are ignored.
 
     Notes
     -----
-    A car looks to its own -Z, as those of garage2usd's catalogue do; its name in a scenario is ``Car_1`` and so on. A
-    box goes around what others can touch, which is not the mirrors: a box as wide as those would stand in the way of
-    cars that pass beside it. ASAM OSI has the boxes of vehicles without mirrors as well.
+    A car looks to its own -Z, as those of garage2usd's catalogue do; its name in a scenario is ``Car_1`` and so on. The
+    box excludes the mirrors, whose width would block passing cars. ASAM OSI also defines vehicle boxes without mirrors.
     """
     cars: list[ParkedCar] = []
     things = [thing for thing in garage.things if thing.label in CAR_LABELS and thing.bodies]

@@ -1,4 +1,4 @@
-"""Reference lines of roads: straights and arcs, one after the other."""
+"""Reference lines of roads: sequences of straights and arcs."""
 
 import math
 from dataclasses import dataclass
@@ -12,23 +12,23 @@ __all__ = ["Arc", "Point", "ReferenceLine", "straight", "turn"]
 
 Floats = NDArray[np.float64]
 Point = tuple[float, float]
-"""(x, y) in metres, in the frame of `garage2usd.maps.frame`."""
+"""Point (x, y) in metres, in the frame of `garage2usd.maps.frame`."""
 _LEAST_M = 1e-6
-"""What is shorter is left out."""
+"""Length below which segments are omitted."""
 _PARALLEL = 1e-9
 
 
 class Arc(NamedTuple):
-    """A stretch of constant curvature.
+    """A segment of constant curvature of a reference line.
 
     Attributes
     ----------
     start
-        Where it begins.
+        Start point.
     heading_rad
-        There, counter-clockwise from x.
+        Heading at the start, counter-clockwise from x.
     length_m
-        Along it.
+        Length of the segment.
     curvature_per_m
         1 / radius, to the left; 0 for a straight.
     """
@@ -39,7 +39,7 @@ class Arc(NamedTuple):
     curvature_per_m: float = 0.0
 
     def at(self, run_m: float) -> tuple[float, float, float]:
-        """(x, y, heading) after a run along it; a straight goes on at both ends."""
+        """Evaluate (x, y, heading) at a distance along the arc; a straight extends beyond both ends."""
         (x, y), heading, curvature = self.start, self.heading_rad, self.curvature_per_m
         if curvature == 0.0:
             return x + run_m * math.cos(heading), y + run_m * math.sin(heading), heading
@@ -51,7 +51,7 @@ class Arc(NamedTuple):
         )
 
     def beside_each(self, run_m: Floats, t_m: Floats) -> Floats:
-        """(x, y) after runs along it and at distances to its left; shape (n, 2)."""
+        """Evaluate points (x, y) at distances along the arc and offsets to its left; shape (n, 2)."""
         (x, y), heading, curvature = self.start, self.heading_rad, self.curvature_per_m
         turned = heading + curvature * run_m
         cos, sin = np.cos(turned), np.sin(turned)
@@ -64,28 +64,28 @@ class Arc(NamedTuple):
 
 @dataclass(frozen=True)
 class ReferenceLine:
-    """A line without kinks.
+    """A smooth reference line of a road.
 
     Attributes
     ----------
     arcs
-        Its stretches in order; each begins where the one before it ends, in its direction.
+        Segments in order; each continues the previous one in position and heading.
     """
 
     arcs: tuple[Arc, ...]
 
     @cached_property
     def length_m(self) -> float:
-        """Along it."""
+        """Length of the reference line."""
         return sum(arc.length_m for arc in self.arcs)
 
     @property
     def is_straight(self) -> bool:
-        """Whether it is one straight."""
+        """True if the reference line is a single straight."""
         return len(self.arcs) == 1 and self.arcs[0].curvature_per_m == 0.0
 
     def at(self, s_m: float) -> tuple[float, float, float]:
-        """(x, y, heading) at a length along it; beyond its ends as its first or last stretch goes on."""
+        """Evaluate (x, y, heading) at a distance along the reference line; the end segments extend beyond both ends."""
         for arc in self.arcs[:-1]:
             if s_m <= arc.length_m:
                 return arc.at(s_m)
@@ -93,12 +93,12 @@ class ReferenceLine:
         return self.arcs[-1].at(s_m)
 
     def beside(self, s_m: float, t_m: float) -> Point:
-        """(x, y) at a length along it and a distance to its left."""
+        """Evaluate the point (x, y) at a distance along the reference line and an offset to its left."""
         x, y, heading = self.at(s_m)
         return x - t_m * math.sin(heading), y + t_m * math.cos(heading)
 
     def beside_each(self, s_m: Floats, t_m: Floats) -> Floats:
-        """(x, y) at lengths along it and distances to its left; shape (n, 2)."""
+        """Evaluate points (x, y) at distances along the reference line and offsets to its left; shape (n, 2)."""
         ends = np.cumsum([arc.length_m for arc in self.arcs[:-1]])
         number = np.searchsorted(ends, s_m)
         points = np.empty((len(s_m), 2))
@@ -108,12 +108,12 @@ class ReferenceLine:
         return points
 
     def foot(self, point: Point) -> tuple[float, float]:
-        """(s, t) of a point: how far along a straight line, and how far to its left; s may lie beyond its ends.
+        """Project a point onto a straight reference line as (s, t); s may lie beyond its ends.
 
         Raises
         ------
         ValueError
-            If the line is not one straight.
+            If the line is not a single straight.
         """
         if not self.is_straight:
             raise ValueError("a line that bends")
@@ -124,14 +124,14 @@ class ReferenceLine:
 
 
 def straight(start: Point, end: Point) -> ReferenceLine:
-    """The straight from a point to another."""
+    """Return the straight reference line between two points."""
     return ReferenceLine((Arc(start, _heading(start, end), math.dist(start, end)),))
 
 
 def turn(start: Point, corner: Point, end: Point) -> ReferenceLine:
-    """From a point towards a corner, round it on the largest arc that touches both sides, and on to a point.
+    """Create a reference line that turns at a corner, on the largest arc that touches both sides.
 
-    Where the corner lies between the two in line with them, this is one straight.
+    If the three points are collinear, the line is a single straight.
     """
     before_m, after_m = math.dist(start, corner), math.dist(corner, end)
     inwards, outwards = _heading(start, corner), _heading(corner, end)

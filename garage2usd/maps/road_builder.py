@@ -1,4 +1,4 @@
-"""Makes the roads and junctions of a garage from its lane nodes."""
+"""Builder of a garage's road network from its lane nodes."""
 # Over 300 lines: roads of aisles, portals and junctions share which nodes are taken and which ends meet.
 
 from collections.abc import Iterator
@@ -16,24 +16,24 @@ from garage2usd.maps.road_nodes import OUTSIDE, Opening, RoadNode, road_nodes
 __all__ = ["network_of"]
 
 _MOST_PORTAL_LANE_M = 3.75
-"""A wider door or ramp keeps a margin on both sides of its one lane."""
+"""Greatest width of a portal's lane; wider doors and ramps keep a margin on both sides."""
 _PROFILE_M = 5e-4
-"""How far heights of ramps may be off where their profile is written with fewer points."""
+"""Greatest deviation of a simplified ramp profile."""
 _LEAST_M = 1e-6
 
 
 def network_of(garage: BuiltGarage) -> Network:
-    """The roads of a garage's lane graph.
+    """Build the road network of a garage's lane graph.
 
-    Squares that are passed through straight on are one road, from one bend, junction, portal or dead end to the next; a
-    bend is a road of its own, and so is the way from a portal's door to the top of its ramp. A node in which three or
-    more ways meet is a junction; roads reach a little into its node, so that two junctions side by side have a road
-    between them. Cars keep to the right. The one lane of a portal lies in the middle of its door.
+    A straight run of squares is one road, from one bend, junction, portal or dead end to the next. A bend is a road,
+    and so is the section from a portal's door to the top of its ramp. A node in which three or more roads meet is a
+    junction. Roads reach slightly into junction nodes, so that adjacent junctions have a road between them. Traffic
+    keeps to the right. The single lane of a portal is centred in its door.
 
     Raises
     ------
     StageError
-        If the garage has no whole lane graph.
+        If the garage has no complete lane graph.
     """
     if not garage.has_whole_graph or not garage.lanes.edges:
         raise StageError(garage.source, "it has no whole lane graph, so that nothing says where its roads are")
@@ -41,7 +41,7 @@ def network_of(garage: BuiltGarage) -> Network:
 
 
 class _Meeting(NamedTuple):
-    """Where ends of roads meet: at the side between two nodes, or within a junction at its opening to another."""
+    """A meeting of road ends: at the side between two nodes, or at an opening of a junction."""
 
     node: int
     other: int
@@ -49,7 +49,7 @@ class _Meeting(NamedTuple):
 
 
 class _Reach(NamedTuple):
-    """How far a road goes on straight from a side on."""
+    """The extent of a straight road from a side."""
 
     end: Point
     meeting: _Meeting | None
@@ -58,7 +58,7 @@ class _Reach(NamedTuple):
 
 
 class _Path(NamedTuple):
-    """A road as it is planned: from where to where, round which corner, with which lanes, and what it meets."""
+    """A planned road: its ends, corner, lanes and meetings."""
 
     ends: tuple[Point, Point]
     lanes: tuple[Lanes, Lanes]
@@ -69,7 +69,7 @@ class _Path(NamedTuple):
 
 
 class _Builder:
-    """Makes roads node by node, then joins their ends."""
+    """Builder of roads, node by node, whose ends are joined afterwards."""
 
     def __init__(self, nodes: tuple[RoadNode, ...]) -> None:
         self._nodes = nodes
@@ -100,7 +100,7 @@ class _Builder:
     # Aisles
 
     def _aisle(self, node: RoadNode, opening: Opening) -> None:
-        """The road across a side between two nodes that are no portals, as far as it goes straight on."""
+        """Add the straight road across the side between two nodes that are not portals."""
         if self._nodes[opening.towards].is_portal or _side(node.number, opening.towards) in self._crossed:
             return
         beyond = self._nodes[opening.towards]
@@ -115,7 +115,7 @@ class _Builder:
         self._add(_Path((behind.end, ahead.end), (lanes, lanes), (behind.meeting, ahead.meeting), nodes))
 
     def _reach(self, node: RoadNode, entered: Opening) -> _Reach:
-        """How far a road that comes through an opening of a node goes on."""
+        """Find the extent of the straight road that enters a node through an opening."""
         numbers: list[int] = []
         left_by: list[Opening] = []
         while True:
@@ -141,7 +141,7 @@ class _Builder:
         return _Reach(end, meeting, tuple(numbers), tuple(left_by))
 
     def _lone_square(self, node: RoadNode) -> None:
-        """A bend, or a node beside portals alone."""
+        """Add the road of a bend, or of a node with portals as its only neighbours."""
         first, last = node.openings[0], node.openings[-1]
         is_dead_end = first is last
         along = first.lets_in or (last.lets_out and not is_dead_end)
@@ -157,7 +157,7 @@ class _Builder:
     # Portals
 
     def _portal(self, node: RoadNode) -> None:
-        """The way from outside to a portal's node, and from there to its neighbours."""
+        """Add the roads from outside to a portal's node, and from there to its neighbours."""
         door, inner = node.opening(OUTSIDE), [side for side in node.openings if side.towards != OUTSIDE]
         reach_m = door.inset_m if node.is_junction else 0.0
         ramp, away_m = node.ramp, node.outside_m
@@ -189,7 +189,7 @@ class _Builder:
     # Junctions
 
     def _junctions(self) -> tuple[Junction, ...]:
-        """The roads that connect others in the nodes of junctions, whose numbers follow those of all roads."""
+        """Add the connecting roads of junctions, and number the junctions after all roads."""
         ways = [(node, list(self._connections(node))) for node in self._nodes if node.is_junction]
         junctions = []
         for number, (node, connections) in enumerate(ways, len(self._roads) + 1):
@@ -234,7 +234,7 @@ class _Builder:
     # All roads
 
     def _add(self, path: _Path, *, is_turned: bool = False) -> None:
-        """Add a road, from its end to its start where cars drive so; one without a length is left out."""
+        """Add a planned road, reversed if traffic runs from its end; roads without length are omitted."""
         if is_turned or path.lanes[0].right_m == 0:
             path = _from_end(path)
         start, end = path.ends
@@ -257,7 +257,7 @@ class _Builder:
     def _beyond(
         self, road: Road, meeting: _Meeting | None, junction_of: dict[int, int], *, at_start: bool
     ) -> tuple[Neighbour | None, dict[int, int]]:
-        """What a road goes on as at one of its ends, and as which lanes."""
+        """Map a road's end to its successor road and lanes."""
         if meeting is None:
             return None, {}
         if meeting.is_in_junction:
@@ -280,12 +280,12 @@ def _inside(node: int, other: int) -> _Meeting:
 
 
 def _halves(width_m: float, *, along: bool, against: bool) -> Lanes:
-    """A lane on each half of a carriageway that is driven on."""
+    """Return one lane on each half of a carriageway that is open to traffic."""
     return Lanes(0.0, width_m / 2 * against, width_m / 2 * along)
 
 
 def _passing(opening: Opening) -> Lanes:
-    """The lane through an opening, seen along it: on the right half, or in the middle of a door."""
+    """Return the lanes through an opening: on the right half, or in the middle of a door."""
     if opening.towards != OUTSIDE:
         return _halves(opening.width_m, along=True, against=False)
     width_m = min(opening.width_m, _MOST_PORTAL_LANE_M)
@@ -293,7 +293,7 @@ def _passing(opening: Opening) -> Lanes:
 
 
 def _from_end(path: _Path) -> _Path:
-    """A road from its end to its start, each lane on the side where it is seen then; one lane stays as it is said."""
+    """Reverse a planned road and its lanes; a single lane keeps its offset."""
     length_m = max((run for run, _ in path.profile_m), default=0.0)
     one_way = path.lanes[0].left_m == 0
     lanes = path.lanes if one_way else tuple(Lanes(-lane.middle_m, lane.right_m, lane.left_m) for lane in path.lanes)
@@ -311,7 +311,7 @@ def _beside(place: Point, along: Point, left_m: float) -> Point:
 
 
 def _crossing(start: Point, along: Point, end: Point, onward: Point) -> Point:
-    """Where a line from a point on crosses one that leads to another point."""
+    """Intersect two lines, each given by a point and a second point or direction."""
     over = along[0] * onward[1] - along[1] * onward[0]
     dx, dy = end[0] - start[0], end[1] - start[1]
     run = (dx * onward[1] - dy * onward[0]) / over
@@ -319,7 +319,7 @@ def _crossing(start: Point, along: Point, end: Point, onward: Point) -> Point:
 
 
 def _profile(ramp: RampFloor, length_m: float) -> tuple[tuple[float, float], ...]:
-    """Heights along the way from the top of a ramp into the garage, in straight stretches."""
+    """Return the elevation profile from the top of a ramp into the garage, piecewise linear."""
     top_m = float(ramp.runs_m[-1])
     down = [(top_m - run, height) for run, height in zip(ramp.runs_m.tolist(), ramp.heights_m.tolist(), strict=True)]
     line = shapely.LineString([*down[::-1], (length_m, down[0][1])]).simplify(_PROFILE_M)

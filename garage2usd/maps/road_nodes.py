@@ -1,4 +1,4 @@
-"""Lane nodes as pieces of road: where they open to their neighbours and outside, and how cars pass there."""
+"""Lane nodes as nodes of the road network: their openings to neighbours and to the outside."""
 
 import math
 from collections.abc import Iterator
@@ -14,32 +14,32 @@ from garage2usd.maps.reference_line import Point
 __all__ = ["OUTSIDE", "Opening", "RoadNode", "road_nodes"]
 
 OUTSIDE = -1
-"""Stands for the number of the node beyond a portal's door."""
+"""Number of the node beyond a portal's door."""
 _MOST_INSET_M, _LEAST_INSET_M = 0.3, 0.05
-"""How far roads reach into a junction, so that two junctions side by side have a road between them."""
+"""Range of depths to which roads reach into a junction, so that adjacent junctions have a road between them."""
 _OPPOSITE = -0.999
-"""Cosine between the directions of two openings that face each other."""
+"""Cosine between the directions of two opposite openings."""
 _JUNCTION = 3
 
 
 @dataclass(frozen=True)
 class Opening:
-    """A side of a node across which cars drive.
+    """An opening of a road node: a side across which cars drive.
 
     Attributes
     ----------
     towards
-        Number of the node beyond it, or `OUTSIDE`.
+        Number of the node beyond the opening, or `OUTSIDE`.
     place
-        Its middle.
+        Middle of the opening.
     outwards
         Unit vector out of the node.
     width_m
-        Of the carriageway across it.
+        Width of the carriageway.
     lets_in, lets_out
-        In which directions it is driven.
+        True if traffic enters or leaves the node through the opening.
     inset_m
-        How far a road across it reaches into the node if that is a junction.
+        Depth to which a road reaches into the node, if the node is a junction.
     """
 
     towards: int
@@ -52,32 +52,32 @@ class Opening:
 
     @property
     def is_one_way(self) -> bool:
-        """Whether it is driven in one direction only."""
+        """True if traffic crosses the opening in one direction only."""
         return self.lets_in != self.lets_out
 
     def inside(self, distance_m: float) -> Point:
-        """The point on its middle line at a distance from it in the node."""
+        """Return the point on the opening's axis at a distance inside the node."""
         return self.place[0] - distance_m * self.outwards[0], self.place[1] - distance_m * self.outwards[1]
 
 
 @dataclass(frozen=True, eq=False)
 class RoadNode:
-    """A lane node as a piece of road.
+    """A lane node as a node of the road network.
 
     Attributes
     ----------
     number
-        Of the node.
+        Number of the node.
     name
-        Its row and column.
+        Row and column.
     middle
-        Its middle.
+        Middle of the node.
     openings
-        To its neighbours in the order of their numbers, that to the outside last.
+        Openings to neighbours ordered by number, the one to the outside last.
     ramp
-        The floor of the ramp that begins where a portal's ground ends; None where there is none.
+        Floor of the ramp beyond a portal's ground; None without a ramp.
     outside_m
-        From there to the top of that ramp.
+        Distance from the portal to the top of its ramp.
     """
 
     number: int
@@ -89,30 +89,30 @@ class RoadNode:
 
     @property
     def is_junction(self) -> bool:
-        """Whether three or more ways meet in it."""
+        """True if three or more roads meet in the node."""
         return len(self.openings) >= _JUNCTION
 
     @property
     def is_portal(self) -> bool:
-        """Whether it opens to the outside."""
+        """True if the node opens to the outside."""
         return any(opening.towards == OUTSIDE for opening in self.openings)
 
     def opening(self, towards: int) -> Opening:
-        """Its opening to a neighbour."""
+        """Return the opening of the node to a neighbour."""
         return next(opening for opening in self.openings if opening.towards == towards)
 
     def far_from(self, opening: Opening) -> Opening | None:
-        """The opening opposite to another; None where it has none there."""
+        """Return the opening opposite to another; None if there is none."""
         facing = (other for other in self.openings if _cosine(other.outwards, opening.outwards) < _OPPOSITE)
         return next(facing, None)
 
     def end_opposite(self, opening: Opening) -> Point:
-        """Where a dead end ends that is entered through an opening: as far from the middle as the opening is."""
+        """Return the end point of a dead end entered through an opening, as far from the middle as the opening."""
         return opening.inside(2 * math.dist(opening.place, self.middle))
 
 
 def road_nodes(garage: BuiltGarage) -> tuple[RoadNode, ...]:
-    """Make a piece of road of each lane node and portal, in their order."""
+    """Create a road node for each lane node and portal, in order."""
     mouths = {mouth.number: mouth for mouth in portal_mouths(garage)}
     found = []
     for number, node in enumerate(garage.lanes.nodes):
@@ -128,7 +128,7 @@ def road_nodes(garage: BuiltGarage) -> tuple[RoadNode, ...]:
 
 
 def _to_neighbours(lanes: LaneGraph, number: int) -> Iterator[Opening]:
-    """Two nodes meet where the columns stand back equally far on both."""
+    """Yield openings to neighbours; the columns stand back equally on both sides of an opening."""
     node, middle = lanes.nodes[number], map_point(lanes.nodes[number].position)
     for other in sorted({*lanes.beside[number]} - {number}):
         beyond = lanes.nodes[other]

@@ -1,4 +1,4 @@
-"""Which road an object of a map lies beside, and where along it."""
+"""Placement of map objects beside roads: the nearest road and the position along it."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -15,14 +15,14 @@ from garage2usd.maps.road_nodes import RoadNode
 __all__ = ["RoadPlaces"]
 
 _BEYOND_M = 0.5
-"""How far a line without lanes goes on beyond the objects on it."""
+"""Length by which auxiliary lines extend beyond their objects."""
 _NEAR_M = 25.0
-"""What has no road nearer than this lies beside the line along all of the garage."""
+"""Distance beyond which an object is placed beside the auxiliary line along the whole garage."""
 _WITHOUT_LANES = Lanes(0.0, 0.0, 0.0)
 
 
 class RoadPlaces:
-    """The straight roads of a garage, and lines without lanes for what lies beside none of them.
+    """The straight roads of a garage for placing objects, and auxiliary lines without lanes.
 
     Parameters
     ----------
@@ -31,20 +31,20 @@ class RoadPlaces:
     stalls
         All stalls.
     first_number
-        Of the lines without lanes.
+        First number of the auxiliary lines.
 
     Notes
     -----
-    Objects lie beside straight roads alone: programs that follow a road's arc as a polyline find other places. A stall
-    lies beside the straight road through the node that it opens onto, else beside a line through the middle of that
-    node along its mouth.
+    Objects are placed beside straight roads only, since programs that approximate arcs by polylines compute other
+    positions. A stall is placed beside the straight road through its access node, or else beside an auxiliary line
+    through that node's middle along its entry.
     """
 
     def __init__(self, network: Network, stalls: Iterable[Stall], *, first_number: int) -> None:
         self._roads = [road for road in network.roads if road.junction is None and road.line.is_straight]
         self._next = first_number
         self.lines: list[Road] = []
-        """The roads without lanes."""
+        """Auxiliary lines: roads without lanes."""
         self._of_stall: dict[Stall, Road] = {}
         self._add_stalls(stalls, network.nodes)
         self._straights = (*self._roads, *self.lines)
@@ -55,12 +55,12 @@ class RoadPlaces:
         self._lengths = np.array([arc.length_m for arc in arcs])
 
     def of_stall(self, stall: Stall) -> tuple[Road, float, float]:
-        """The road that a stall lies beside, with (s, t) of its middle."""
+        """Return the road of a stall and (s, t) of the stall's middle."""
         road = self._of_stall[stall]
         return road, *road.line.foot(map_point(stall.centre))
 
     def of_point(self, point: Point) -> tuple[Road, float, float]:
-        """The nearest straight road beside which a point lies, with its (s, t)."""
+        """Return the nearest straight road beside a point, with the point's (s, t)."""
         away = np.array(point) - self._starts
         s = (away * self._along).sum(axis=1)
         t = self._along[:, 0] * away[:, 1] - self._along[:, 1] * away[:, 0]
@@ -90,7 +90,7 @@ class RoadPlaces:
 
     @cached_property
     def _line_along_all(self) -> Road:
-        """A line under all of the garage and as much again on both sides."""
+        """An auxiliary line through the whole garage, extended by its length on both sides."""
         ends = self._starts + self._along * self._lengths[:, None]
         points = np.concatenate([self._starts, ends])
         low, high = points.min(axis=0), points.max(axis=0)
@@ -106,7 +106,7 @@ class RoadPlaces:
 
 
 def _line(middle: Point, along: Point, points: Sequence[Point]) -> ReferenceLine:
-    """A line through a point on which the feet of others lie."""
+    """Create an auxiliary line through a point that covers the projections of other points."""
     runs = [(x - middle[0]) * along[0] + (y - middle[1]) * along[1] for x, y in points]
     length = math.hypot(*along)
     low, high = min(0.0, *runs) - _BEYOND_M, max(0.0, *runs) + _BEYOND_M

@@ -1,4 +1,4 @@
-"""What a stage says of where it comes from."""
+"""Provenance of a stage."""
 
 from pxr import Usd
 
@@ -8,7 +8,7 @@ _FACTS = ("generator", "version", "seed", "configDigest", "structureDigest")
 
 
 def stage_facts(stage: Usd.Stage | None) -> dict[str, str | int]:
-    """Generator, version, seed and digests of a stage's default prim, as far as it says so."""
+    """Read generator, version, seed and digests from a stage's default prim, as far as given."""
     prim = stage.GetDefaultPrim() if stage else None
     data = prim.GetCustomData() if prim else {}
     return {name: data[name] for name in _FACTS if isinstance(data.get(name), str | int)}

@@ -1,4 +1,4 @@
-"""What a file says of stalls: number, use, and whether a car stands there."""
+"""Stall facts for map and scene files: number, use and occupancy."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -13,14 +13,14 @@ from garage2usd.reading.objects import Matrix
 __all__ = ["StallFacts"]
 
 _MOVED_M = 0.05
-"""How far a stall's prim may lie from the middle of its outline."""
+"""Greatest distance of a stall's prim from the middle of its outline."""
 
 
 class StallFacts:
-    """The stalls of a stage, and which cars stand in them."""
+    """The stalls of a stage with their parked cars."""
 
     def __init__(self, stalls: Iterable[Stall]) -> None:
-        """Take all stalls, without cars yet."""
+        """Create the facts of all stalls, without cars."""
         self.stalls = tuple(stalls)
         self._grounds = StallGrounds(self.stalls)
         self._middles = shapely.STRtree([shapely.Point(stall.centre) for stall in self.stalls])
@@ -28,20 +28,20 @@ class StallFacts:
 
     @property
     def by_name(self) -> dict[str, Stall]:
-        """Each stall by its id, those of an id that several have by their numbers too."""
+        """Stalls by id, and by painted number if several share an id."""
         names = [stall.name for stall in self.stalls]
         unique = [name if names.count(name) == 1 else f"{name}[{number}]" for number, name in enumerate(names)]
         return dict(zip(unique, self.stalls, strict=True))
 
     def park(self, cars: Sequence[str], grounds: Grounds) -> dict[str, Stall | None]:
-        """The stall that more than half of each car stands in, which counts as occupied from now on.
+        """Assign each car to the stall that contains more than half of its footprint, and mark it occupied.
 
         Parameters
         ----------
         cars
-            Their paths.
+            Prim paths of the cars.
         grounds
-            The ground of each.
+            Footprints of the cars.
         """
         homes = dict(zip(cars, self._grounds.homes_of(grounds), strict=True))
         for car, home in homes.items():
@@ -50,12 +50,12 @@ class StallFacts:
         return homes
 
     def at(self, place: Matrix) -> Stall | None:
-        """The stall whose middle lies where the origin of a matrix does."""
+        """Return the stall whose middle is at the origin of a matrix."""
         found = self._middles.query(shapely.Point(place[3, 0], place[3, 2]), predicate="dwithin", distance=_MOVED_M)
         return self.stalls[found[0]] if len(found) else None
 
     def facts(self, stall: Stall) -> dict[str, Any]:
-        """What is said of a stall wherever it is named."""
+        """Return the facts of a stall for every mention of it."""
         named = {"id": stall.name} if stall.number is None else {"id": stall.name, "number": stall.number}
         by = stall.blocked_by
         is_blocked = by is not None and any(of.name == by for of in self._car_of)
@@ -63,7 +63,7 @@ class StallFacts:
         return {**named, "use": str(stall.use), "occupied": is_blocked or stall in self._car_of, **blocked}
 
     def outline(self, stall: Stall) -> dict[str, Any]:
-        """What is said of a stall besides: its corners (x, y, z) as `Stall` says, lane node, and car."""
+        """Return the geometric facts of a stall: corners (x, y, z) as in `Stall`, lane node and car."""
         corners: Sequence[tuple[float, float, float]] = [(round(x, 4), 0, round(z, 4)) for x, z in stall.corners]
         car = self._car_of.get(stall)
         return {

@@ -1,4 +1,4 @@
-"""XML files of maps: elements with numbers as attributes, the same text for the same map."""
+"""Reproducible XML files of maps."""
 
 import re
 import xml.etree.ElementTree as ET
@@ -22,13 +22,13 @@ _TEXT_ESCAPES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;"})
 
 @lru_cache(maxsize=2**16)
 def number_text(value: float) -> str:
-    """A number to the nanometre, as short as it can be."""
+    """Format a number to the nanometre, as short as possible."""
     rounded = round(float(value), _DIGITS) + 0.0
     return str(int(rounded)) if rounded == int(rounded) else repr(rounded)
 
 
 def child(parent: ET.Element, tag: str, /, **attributes: float | str) -> ET.Element:
-    """A new element in another one; a name that Python keeps for itself ends in an underscore here."""
+    """Add a child element; Python keywords as attribute names end in an underscore."""
     texts = {
         name.rstrip("_"): value if isinstance(value, str) else number_text(value) for name, value in attributes.items()
     }
@@ -36,7 +36,7 @@ def child(parent: ET.Element, tag: str, /, **attributes: float | str) -> ET.Elem
 
 
 def tag_text(tag: str, attributes: Mapping[str, str]) -> str:
-    """A tag with its attributes, without the bracket that ends it."""
+    """Format a tag with its attributes, without the closing bracket."""
     text = "".join([f' {name}="{value}"' for name, value in attributes.items()])
     if _SPECIAL.search(text) or text.count('"') != 2 * len(attributes):
         text = "".join([f' {name}="{value.translate(_ESCAPES)}"' for name, value in attributes.items()])
@@ -44,16 +44,16 @@ def tag_text(tag: str, attributes: Mapping[str, str]) -> str:
 
 
 def element_lines(element: ET.Element, *, indent: str = _INDENT, end: str = _END) -> list[str]:
-    """The lines of an element whose tags have no namespaces, and of all within it.
+    """Format an element without namespaces, and its descendants, as lines.
 
     Parameters
     ----------
     element
-        It has either text or other elements.
+        Element with either text or children.
     indent
-        Before an element within another one.
+        Indentation of a child.
     end
-        Of an element without anything in it.
+        End of an empty element.
     """
     lines: list[str] = []
     _add_lines(lines, element, "", indent, end)
@@ -74,10 +74,10 @@ def _add_lines(lines: list[str], element: ET.Element, before: str, indent: str, 
 
 
 def write_xml(root: ET.Element, path: Path) -> None:
-    """Write a file as `write_lines` does."""
+    """Write an XML file in the form of `write_lines`."""
     write_lines(element_lines(root), path)
 
 
 def write_lines(lines: Iterable[str], path: Path) -> None:
-    """Write the lines of a file's one element, in UTF-8, with line feeds; what XML cannot have is a sign for that."""
+    """Write the lines of an XML file in UTF-8 with line feeds; characters invalid in XML are replaced."""
     path.write_bytes(_NOT_OF_XML.sub(_REPLACEMENT, "\n".join([_DECLARATION, *lines, ""])).encode())

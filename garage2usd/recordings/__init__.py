@@ -1,5 +1,4 @@
-"""What the sensors of a rig record along a drive: pictures with ground truth, points, masks and calibration."""
-# Over 300 lines: the road of a recording, and all that is refused before its work.
+"""Recordings of a rig's sensors along a drive: pictures with ground truth, point clouds, masks and calibration."""
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
@@ -51,9 +50,9 @@ class Recorded:
     Attributes
     ----------
     folder, frames
-        Where it stands, and the table of its frames in it.
+        Folder of the recording, and its table of frames.
     recording
-        What each sensor recorded when, as the formats of sequences take it.
+        Files and times of each sensor, as input of the sequence formats.
     """
 
     folder: Path
@@ -89,39 +88,40 @@ def record(  # noqa: PLR0915 - the road of a recording, step by step
     stage
         A stage of garage2usd, also one that other tools have edited.
     output
-        Folder that the recording goes to; files of the same names are replaced. Until it is finished, the frames that
-        are stand in ``<output>.unfinished``, and the same call goes on from there.
+        Folder of the recording; files of the same names are replaced. Finished frames are kept in
+        ``<output>.unfinished`` until the recording is complete, and the same call resumes from there.
     rig
         A `Rig`, the name of a shipped one, or a TOML file.
     along
-        ``ENTRANCE:STALL``, as ``1:A1-08``: the way that the design car is proven to drive from an entrance, by its
-        number from 1 on, to a stall, by its name or the number painted in it; without a number that of the shortest
-        way. The car that is parked in the stall is left out. Or the name of a camera of the stage that moves. None for
-        one place without a vehicle, where all sensors of the rig are mounted in the world.
+        ``ENTRANCE:STALL``, as ``1:A1-08``: the proven drive of the design car from an entrance, numbered from 1, to a
+        stall, given by its name or painted number. Without an entrance, the shortest drive is taken. A car parked in
+        the stall is hidden. Alternatively the name of a moving camera of the stage. None for one pose without a
+        vehicle; all sensors of the rig must then be mounted in the world.
     every_m
-        Between two places on the way.
+        Distance between two poses along the drive.
     scale
-        Of the sides of the pictures.
+        Scale of the sides of the pictures.
     samples, seed, pictures, slots, device, blender, announce
-        As `garage2usd.render.render_stage` has them; the seed is that of LiDARs' noise too. Without pictures the
-        cameras of a rig that has LiDARs are left out.
+        As for `garage2usd.render.render_stage`; the seed also determines the LiDARs' noise. Without pictures, the
+        cameras of a rig with LiDARs are ignored.
     birds_eye
-        Bird's-eye views at each place as well, with masks of free space and of the vehicle; None for none.
+        Settings of additional bird's-eye views at each pose, with masks of free space and of the vehicle; None for
+        none.
     points
-        What the points of LiDARs are written as.
+        File formats of the LiDARs' point clouds.
     sequences
-        What the whole is written as beside that, each in a folder of its name.
+        Additional sequence formats, each in a folder of its name.
     settings
-        How the car drives.
+        Limits of the car's motion.
     progress
-        Told of the drive, and of the samples that are done.
+        Receives the progress of the drive and the number of finished samples.
 
     Raises
     ------
     ConfigError
-        If the rig, the way or the output cannot be used, or there is no way to the stall.
+        If the rig, the drive or the output is invalid, or the stall cannot be reached.
     MissingExtraError
-        If Blender, which a rig without cameras does not need, what casts rays or what writes bags is not installed.
+        If Blender (needed for cameras only), the packages for ray casting or those for ROS bags are not installed.
     OutputError
         If the files cannot be written. They appear whole or not at all.
     RenderError
@@ -208,7 +208,7 @@ def check_recording(
     sequences: Collection[Sequence],
     blender: str | Path | None = None,
 ) -> tuple[tuple[Picture, ...], tuple[CloudFormat, ...]]:
-    """Find out before the work whether a rig can record what is asked for, which are arguments of `record`.
+    """Check before the work that a rig can record with the arguments of `record`.
 
     Returns
     -------
@@ -218,9 +218,9 @@ def check_recording(
     Raises
     ------
     ConfigError
-        If it cannot.
+        If the rig does not support a requested output.
     MissingExtraError
-        If what records or writes it is not installed.
+        If a required package is not installed.
     """
     kinds = tuple(kind for kind in Picture if kind in pictures) if rig.cameras else ()
     if rig.cameras and not kinds:
@@ -241,12 +241,12 @@ def check_recording(
 
 
 def _check_along(rig: Rig, along: str | None, birds_eye: BirdsEye | None) -> None:
-    """Find out before the work whether a rig records without a drive.
+    """Check before the work that a rig can record without a drive.
 
     Raises
     ------
     ConfigError
-        If there is none, and a sensor or a bird's-eye view goes with one.
+        If there is no drive, but a sensor or a bird's-eye view needs a vehicle.
     """
     if along is not None:
         return
@@ -259,9 +259,9 @@ def _check_along(rig: Rig, along: str | None, birds_eye: BirdsEye | None) -> Non
 
 
 def _modules_for(rig: Rig, sequences: Collection[Sequence], birds_eye: BirdsEye | None) -> Iterator[str]:
-    """What a rig needs of extras beside Blender.
+    """Yield the Python modules that recording with a rig requires besides Blender.
 
-    Rays also find the own car in pictures, the boxes that sequences tell, and whether a car finds room under something.
+    Ray casting is also needed for ego masks, the boxes of sequences, and the headroom of free space.
     """
     is_on_car = any(camera.mount == "vehicle" for camera in rig.cameras)
     if rig.lidars or sequences or is_on_car or birds_eye is not None:
@@ -271,9 +271,9 @@ def _modules_for(rig: Rig, sequences: Collection[Sequence], birds_eye: BirdsEye 
 
 
 def _write_calibrations(rig: Rig, finished: Path) -> list[Path]:
-    """Write the calibration of each camera, and the mask of the car that carries it.
+    """Write the calibration of each camera, and the ego mask of each camera on the car.
 
-    Also of those that are not recorded; around views have none of their own, as no format knows them.
+    Cameras that are not recorded are included. Around views have no calibration, since no format supports them.
     """
     folders = [finished / name for name in (EGO_FOLDER, _CALIBRATION)]
     for folder in folders:
@@ -300,7 +300,7 @@ def _write_sequences(
 def _recording(
     scene: Scene, sweeps: "Sweeps | None", path: Path, folder: Path, kinds: tuple[Picture, ...]
 ) -> Recording:
-    """What cameras and LiDARs recorded, place by place."""
+    """Combine the files of cameras and LiDARs to a recording, pose by pose."""
     pictures = scene.recording(path, folder, kinds)
     shots = [*pictures.shots, *(sweeps.shots(folder) if sweeps else ())]
     return replace(pictures, shots=tuple(sorted(shots, key=lambda shot: shot.pose)))

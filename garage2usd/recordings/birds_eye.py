@@ -1,4 +1,4 @@
-"""The bird's-eye views of a recording, with masks of free space and of the vehicle."""
+"""Bird's-eye views of a recording, with masks of free space and of the vehicle."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
@@ -29,17 +29,17 @@ if TYPE_CHECKING:
 __all__ = ["FREE_FOLDER", "BirdsEyeViews", "check_birds_eye"]
 
 FREE_FOLDER = "free_space"
-"""Of the masks of free space."""
+"""Folder of the free-space masks."""
 _NAME = "birds_eye"
 
 
 def check_birds_eye(rig: Rig, kinds: Collection[Picture]) -> None:
-    """Find out before anything is drawn whether bird's-eye views can be recorded.
+    """Check before rendering that bird's-eye views can be recorded.
 
     Raises
     ------
     ConfigError
-        If the rig has no cameras, beside whose pictures they are drawn, or no picture is that tells free space.
+        If the rig has no cameras, or a picture needed for free space is not rendered.
     """
     if not rig.cameras:
         raise ConfigError("birds_eye", rig.name, "bird's-eye views beside the pictures of a rig with cameras")
@@ -49,30 +49,30 @@ def check_birds_eye(rig: Rig, kinds: Collection[Picture]) -> None:
 
 
 class BirdsEyeViews:
-    """One view at each place of a way.
+    """The bird's-eye views of a recording, one at each pose of the drive.
 
     Attributes
     ----------
     views, hidden
-        The views, and the ids that each looks through.
+        The views, and the ids of the objects hidden from each.
     """
 
     def __init__(
         self, settings: BirdsEye, way: Way, labels: Labels, *, left_out: Sequence[int], ego_folder: str
     ) -> None:
-        """Place the views; `left_out` has ids that no view shows."""
+        """Create the bird's-eye views at all poses; `left_out` has ids hidden from every view."""
         self._settings, self._way, self._labels = settings, way, labels
         self._ego_mask = f"{ego_folder}/{_NAME}.png"
         self.views = [self._view(number, pose) for number, pose in enumerate(way.poses)]
         self.hidden = [[*looked_through(labels, settings), *left_out]] * len(self.views)
 
     def write_masks(self, finished: Path, car: CarBody) -> Path:
-        """Write the masks of free space beside the pictures, and that of the vehicle.
+        """Write the free-space masks of the bird's-eye views, and the mask of the vehicle.
 
         Returns
         -------
         Path
-            The folder of those of free space.
+            The folder of the free-space masks.
         """
         (finished / FREE_FOLDER).mkdir(exist_ok=True)
         ground = self._settings.ground_mask(_outlines_m(car))
@@ -101,23 +101,23 @@ class BirdsEyeViews:
         return replace(view, facts={**view.facts, **facts})
 
     def _classes(self, view: View, finished: Path) -> NDArray[np.uint8]:
-        """Id of the class that each pixel shows."""
+        """Read the class id of each pixel of a bird's-eye view."""
         instance = read_ids(finished / Picture.INSTANCE / f"{view.name}{Picture.INSTANCE.extension}")
         return classes_of(instance, self._labels.class_ids)
 
     def _seen_m(self, view: View, finished: Path) -> NDArray[np.float64]:
-        """The place in the stage that each pixel shows."""
+        """Compute the point of the stage that each pixel of a bird's-eye view shows."""
         depth_m = read_depth(finished / Picture.DEPTH / f"{view.name}{Picture.DEPTH.extension}")
         return seen_points(view.sensor_lens(), depth_m, np.linalg.inv(view.world_to_camera()))
 
     def _driven_surface(self) -> "DrivenSurface":
-        """The garage's surface that cars drive on, less what no view shows."""
+        """Return the drivable surface of the garage, without the hidden objects."""
         from garage2usd.sensors.rays.driven_surface import DrivenSurface  # noqa: PLC0415 - of an extra
 
         return DrivenSurface(self._way.garage, self._labels, without=self._way.absent(self._labels))
 
     def _cars_m(self, pose: VehiclePose) -> list[NDArray[np.float64]]:
-        """Grounds of the parked cars around, in the vehicle's frame."""
+        """Return the footprints of nearby parked cars in the vehicle's frame."""
         to_vehicle = np.linalg.inv(pose.vehicle_to_world) @ self._way.to_stage
         grounds = (ground for name, (ground, _) in self._way.garage.cars.items() if name not in self._way.left_out)
         corners = [np.asarray(shapely.get_coordinates(ground)) for ground in grounds]
@@ -125,6 +125,6 @@ class BirdsEyeViews:
 
 
 def _outlines_m(car: CarBody) -> list[NDArray[np.float64]]:
-    """Grounds of a car and its mirrors in ISO 8855's axes, from the middle of the rear axle."""
+    """Return the outlines of a car and its mirrors in ISO 8855 axes, origin at the rear axle's middle."""
     outlines = [np.array(outline) - (0.0, car.rear_axle_m) for outline in car_spec(car, DRIVEN_PAINT).outlines()]
     return [np.insert(each, 1, 0.0, axis=1) @ CAR_FROM_VEHICLE[:3, :2] for each in outlines]

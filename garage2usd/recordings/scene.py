@@ -1,4 +1,4 @@
-"""What a recording draws: its views, and the stage with the vehicle in it."""
+"""The scene of a recording: its views, and the stage with the vehicle in it."""
 
 import hashlib
 import json
@@ -30,13 +30,13 @@ from garage2usd.stage.ego_car import EGO_PATH, write_stage_with_car
 __all__ = ["EGO_FOLDER", "POINTS_FOLDER", "Scene"]
 
 EGO_FOLDER = "ego"
-"""Of the masks of the car that carries the cameras."""
+"""Folder of the ego masks of car-mounted cameras."""
 POINTS_FOLDER = "points"
-"""Holds a folder for each LiDAR, with its points at each place of the way."""
+"""Folder of the point clouds, with a subfolder for each LiDAR."""
 
 
 class Scene:
-    """The views of a recording, and what they look through."""
+    """The views of a recording, and the objects hidden from them."""
 
     def __init__(self, stage: Usd.Stage, labels: Labels, way: Way, rig: Rig, birds_eye: BirdsEye | None = None) -> None:
         self._stage, self._way, self._rig = stage, way, rig
@@ -57,7 +57,7 @@ class Scene:
         self.views = [*views, *(self.birds_eye.views if self.birds_eye else ())]
 
     def hidden(self) -> list[list[int]]:
-        """For each view the ids that it looks through: the car that carries its camera, and the one in the stall."""
+        """Return for each view the ids of hidden objects: its own car, and the car parked in the target stall."""
         shots = [
             self._left_out if self._sees_vehicle(camera) else [*self._left_out, self._ego_id]
             for camera, _, _ in self.shots
@@ -65,17 +65,17 @@ class Scene:
         return [*shots, *(self.birds_eye.hidden if self.birds_eye else ())]
 
     def needed(self, kinds: Collection[Picture]) -> tuple[Picture, ...]:
-        """What has to be drawn that colour is made of."""
+        """Return the kinds of pictures to render, including those that colour is developed from."""
         blurs = Picture.COLOUR in kinds and any(view.shows_motion for view in self.views)
         return MOTION_NEEDS if blurs else ()
 
     @property
     def _is_lit(self) -> bool:
-        """Whether a vehicle is there with its lamps on."""
+        """True if a vehicle is present and its lamps are on."""
         return self._way.has_vehicle and self._rig.lamps == "on"
 
     def _sees_vehicle(self, camera: Camera) -> bool:
-        """Whether the vehicle is before a camera: one that it does not carry, or that is to see what carries it."""
+        """Test if a camera may see the vehicle: it is mounted elsewhere, or the ego vehicle is set visible."""
         own = self._rig.ego_visible and not isinstance(camera, AroundViewCamera)
         return self._way.has_vehicle and (camera.mount != "vehicle" or own)
 
@@ -89,7 +89,7 @@ class Scene:
         seed: int,
         device: ComputeDevice,
     ) -> Drawing:
-        """How the views are drawn: the stage with the vehicle in it, which other cameras than its own see."""
+        """Create the render job of the recording's views, with the vehicle in the stage for other cameras."""
         with_car = work / "stage.usdc"
         with_car.unlink(missing_ok=True)
         write_stage_with_car(with_car, self._stage, self._rig.body, is_lit=self._is_lit)
@@ -114,7 +114,7 @@ class Scene:
         )
 
     def recording(self, path: Path, folder: Path, kinds: Sequence[Picture]) -> Recording:
-        """What was recorded, with the files of the pictures."""
+        """Return the recording with the files of its pictures."""
         return Recording(
             self._rig.name,
             path,
@@ -175,7 +175,7 @@ class Scene:
         )
 
     def key(self, path: Path, kinds: Sequence[Picture], *, samples: int, seed: int, device: ComputeDevice) -> str:
-        """Tells recordings apart whose frames differ."""
+        """Compute a digest that differs between recordings of different frames."""
         document: dict[str, Any] = {
             "version": VERSION,
             "stage": _digest(self._stage, path),
@@ -194,7 +194,7 @@ class Scene:
 
 
 def _digest(stage: Usd.Stage, path: Path) -> str:
-    """Of all files that a stage is read from, and of its table of labels."""
+    """Compute a digest of all files of a stage and of its table of labels."""
     layers, assets, _ = UsdUtils.ComputeAllDependencies(stage.GetRootLayer().identifier)
     names = [*(layer.realPath for layer in layers), *assets, str(path.with_name(f"{path.stem}_labels.json"))]
     files = {Ar.SplitPackageRelativePathOuter(name)[0] for name in names}

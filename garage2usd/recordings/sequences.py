@@ -1,4 +1,4 @@
-"""A recording in the formats of sequences: nuScenes' tables, a ROS 2 bag."""
+"""Recordings in sequence formats: nuScenes tables and ROS 2 bags."""
 
 import shutil
 from collections.abc import Collection
@@ -24,7 +24,7 @@ __all__ = ["Sequence", "check_sequences", "write_sequence"]
 
 
 class Sequence(StrEnum):
-    """What a recording is written as beside its own files."""
+    """Sequence formats of a recording."""
 
     NUSCENES = "nuscenes"
     """Tables of nuScenes."""
@@ -35,12 +35,12 @@ class Sequence(StrEnum):
 def check_sequences(
     asked: Collection[Sequence], rig: Rig, pictures: Collection[Picture], points: Collection[CloudFormat]
 ) -> None:
-    """Find out before the work whether what is recorded can be written as sequences.
+    """Check before the work that a recording can be written in sequence formats.
 
     Raises
     ------
     ConfigError
-        If a rig or what is recorded of it does not suit them.
+        If the rig or its recorded data do not fit the formats.
     """
     if not asked:
         return
@@ -61,18 +61,18 @@ def check_sequences(
 
 
 def write_sequence(kind: Sequence, recording: Recording, folder: Path, sweeps: "Sweeps") -> Path:
-    """Write a recording as a sequence.
+    """Write a recording in a sequence format: nuScenes tables or a ROS 2 bag.
 
     Parameters
     ----------
     kind
-        What it is written as; names its folder too.
+        The format, which also names the folder.
     recording
-        What was recorded.
+        The recording.
     folder
-        Where that folder goes; what is there of it is replaced.
+        Parent of that folder, which is replaced if it exists.
     sweeps
-        Of the LiDARs, and what they were cast at.
+        Sweeps of the LiDARs, and the surfaces that they hit.
     """
     place = folder / kind
     shutil.rmtree(place, ignore_errors=True)

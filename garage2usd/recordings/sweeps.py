@@ -1,4 +1,4 @@
-"""What the LiDARs of a rig record along a way."""
+"""LiDAR sweeps of a recording: point clouds at each pose of the drive."""
 
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
@@ -29,22 +29,22 @@ __all__ = ["Sweeps"]
 
 
 class Sweeps:
-    """The sweeps of a recording: one of each LiDAR at each place.
+    """The LiDAR sweeps of a recording: one for each LiDAR at each pose.
 
     Parameters
     ----------
     stage
-        What is recorded.
+        The recorded stage.
     labels
-        What its objects are, and the vehicle that drives, at `garage2usd.stage.ego_car.EGO_PATH`.
+        Table of labels of the stage, including the ego vehicle at `garage2usd.stage.ego_car.EGO_PATH`.
     way
-        Where the vehicle is.
+        Poses of the vehicle.
     rig
-        Its LiDARs and the car that carries it.
+        The rig with its LiDARs and car.
     formats
-        What points are written as.
+        File formats of the point clouds.
     seed
-        Of the noise.
+        Seed of the noise.
     """
 
     def __init__(
@@ -56,32 +56,32 @@ class Sweeps:
 
     @property
     def described(self) -> str:
-        """What is recorded, in words."""
+        """The recorded LiDAR sweeps in words."""
         places, lidars = len(self._way.poses), ", ".join(lidar.name for lidar in self._rig.lidars)
         count = places * len(self._rig.lidars)
         return f"{count} sweep{'s' if count > 1 else ''} of {lidars}: {', '.join(self._formats)}"
 
     @cached_property
     def solids(self) -> RayScene:
-        """What stands in the garage, less the car that is parked where the vehicle parks."""
+        """The solid surfaces of the garage, without the car parked in the target stall."""
         return read_ray_scene(self.stage, self.labels, without=self._way.absent(self.labels))
 
     def write(self, finished: Path, work: Path, progress: Progress) -> list[dict[str, Any]]:
-        """Cast all rays and write the points.
+        """Cast the rays of all LiDAR sweeps and write their point clouds.
 
         Parameters
         ----------
         finished
-            Folder that `POINTS_FOLDER` goes to; what is there of it is replaced.
+            Parent folder of `POINTS_FOLDER`, which is replaced if it exists.
         work
-            Folder for what is needed for a while.
+            Folder for temporary files.
         progress
-            Told of each sweep.
+            Receives each sweep.
 
         Returns
         -------
         list of dict
-            What ``frames.json`` says of each.
+            Entry of ``frames.json`` for each sweep.
         """
         shutil.rmtree(finished / POINTS_FOLDER, ignore_errors=True)
         for each in self._rig.lidars:
@@ -104,7 +104,7 @@ class Sweeps:
         return facts
 
     def shots(self, folder: Path) -> list[Shot]:
-        """What was recorded when, in the order of the times, with the files below a folder."""
+        """Return the LiDAR shots in order of time, with their files below a folder."""
         return [
             Shot(
                 _name(lidar, number),
@@ -123,7 +123,7 @@ class Sweeps:
                 yield lidar, number, pose
 
     def _watched(self, work: Path) -> MovedScene:
-        """The garage with the vehicle in it, which LiDARs that it does not carry see."""
+        """Read the garage with the moving vehicle, which LiDARs mounted elsewhere see."""
         path = work / "stage_of_lidars.usdc"
         path.unlink(missing_ok=True)
         write_stage_with_car(path, self.stage, self._rig.body)

@@ -1,4 +1,4 @@
-"""The way of a recording: where the vehicle is, and what it comes to."""
+"""The drive of a recording: poses of the vehicle, and the target stall."""
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property, partial
@@ -30,20 +30,20 @@ Matrix = NDArray[np.float64]
 
 
 class Way:
-    """Where the vehicle is, in steps along its way.
+    """The poses of a vehicle along the drive of a recording, in steps of equal distance.
 
     Attributes
     ----------
     poses
-        The places.
+        The poses.
     has_vehicle
-        Whether there is one; without, one place stands for all of the stage.
+        True if there is a vehicle; otherwise a single pose represents the stage.
     stall
-        What it parks in at the end, if it does.
+        The stall that the vehicle parks in at the end, if any.
     about
-        What is said of the way.
+        Description of the drive.
     to_stage
-        From metres with Y up to the stage's axes; shape (4, 4).
+        Transform from metres with Y up to the stage's axes; shape (4, 4).
     """
 
     poses: list[VehiclePose]
@@ -69,7 +69,7 @@ class Way:
 
     @cached_property
     def garage(self) -> BuiltGarage:
-        """The garage."""
+        """The garage as read from the stage."""
         return garage_of_stage(self._stage, source=self._source)
 
     def _drive_to(self, stall: str, entrance: str, along: str, every_m: float, settings: DriveConfig) -> None:
@@ -82,7 +82,7 @@ class Way:
         self.about = {"along": along, "every_m": every_m, **drive.facts}
 
     def _follow(self, camera: str, every_m: float) -> None:
-        """Follow a camera that moves: the floor below it is where the rear axle is."""
+        """Follow a moving camera as a vehicle, with the rear axle on the floor below the camera."""
         first, last = self._stage.GetStartTimeCode(), self._stage.GetEndTimeCode()
         views = find_views(self._stage, cameras=[camera], frames=f"{first:g}:{max(first, last):g}x1")
         if views[0].frame is None:
@@ -105,7 +105,7 @@ class Way:
         self.about = {"along": camera, "every_m": every_m}
 
     def mount_to_world(self, sensor: Sensor, pose: VehiclePose) -> Matrix:
-        """From the frame that a sensor's pose is in to the stage's axes."""
+        """Return the transform from the frame of a sensor's mount to the stage's axes."""
         if sensor.mount == "vehicle":
             return pose.vehicle_to_world
         if sensor.mount == "column":
@@ -114,17 +114,17 @@ class Way:
         return fixed
 
     def vehicle_facts(self, pose: VehiclePose) -> dict[str, object]:
-        """Where the vehicle is, if there is one."""
+        """Return the time and distance of the vehicle's pose, or nothing without a vehicle."""
         return {"vehicle_to_world": pose.vehicle_to_world.tolist()} if self.has_vehicle else {}
 
     def car_moved(self, pose: VehiclePose) -> Matrix:
-        """How a car is moved to a place that stands where `garage2usd.stage.ego_car` puts it; in the stage's axes."""
+        """Return the ego car's transform from its place in `garage2usd.stage.ego_car` to a pose; in the stage's axes."""
         matrix: Matrix = pose.vehicle_to_world @ self._from_rest
         return matrix
 
     @cached_property
     def _from_rest(self) -> Matrix:
-        """From the stage's axes to those of a vehicle in its origin, turned as Y up is."""
+        """The transform from the stage's axes to a vehicle at the origin, rotated for Y up."""
         return np.linalg.inv(self.to_stage @ CAR_FROM_VEHICLE)
 
     @cached_property
@@ -136,20 +136,20 @@ class Way:
 
     @cached_property
     def left_out(self) -> list[str]:
-        """Paths of the cars that are parked where the vehicle parks."""
+        """Paths of the cars parked in the target stall."""
         if self.stall is None:
             return []
         return [name for name, (_, home) in self.garage.cars.items() if home is not None and home == self.stall]
 
     def absent(self, labels: Labels) -> list[str]:
-        """Paths of what no sensor meets: what is left out, and a car that drives in the stage."""
+        """Return the paths of objects ignored by all sensors: the cars left out, and a car that drives in the stage."""
         roots = self._stage.GetPseudoRoot().GetChildren()
         driving = [str(root.GetPath().AppendChild(CAR_NAME)) for root in roots]
         return [*labels.with_plates(self.left_out), *driving]
 
 
 def _twist(eyes: Sequence[Matrix], seconds: Sequence[float], number: int) -> Twist:
-    """How the vehicle moves in a frame, from the one before to the one after, where there are such."""
+    """Compute a vehicle's twist in a frame from the previous and next frame, as far as they exist."""
     before, after = max(number - 1, 0), min(number + 1, len(eyes) - 1)
     if before == after:
         return Twist.at_rest()
@@ -157,7 +157,7 @@ def _twist(eyes: Sequence[Matrix], seconds: Sequence[float], number: int) -> Twi
 
 
 def _below(eye: Matrix) -> Matrix:
-    """From ISO 8855's axes to metres with Y up, level, on the floor below a driver's eye that looks along -Z."""
+    """Return the level pose in metres with Y up on the floor below a driver's eye that looks along -Z."""
     ahead = -eye[[0, 2], 2] / (np.hypot(*eye[[0, 2], 2]) or 1.0)
     matrix = np.eye(4)
     matrix[:3, 0] = ahead[0], 0.0, ahead[1]

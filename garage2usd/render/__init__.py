@@ -1,4 +1,4 @@
-"""Pictures of a stage by Blender's Cycles, with depth, normals, instances and classes: a data set."""
+"""Rendering: pictures of a stage by Blender's Cycles, with depth, normals, instances and classes as ground truth."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
@@ -35,12 +35,12 @@ _CEILING = frozenset({OBJECT_LABELS["ceiling"]})
 
 @dataclass(frozen=True)
 class Rendering:
-    """The files of a data set.
+    """The files of a rendered data set.
 
     Attributes
     ----------
     folder
-        Where it stands.
+        Folder of the data set.
     frames
         The table of its frames.
     names
@@ -73,7 +73,7 @@ def render_stage(
     progress: Progress = silent,
     announce: Announce = unheard,
 ) -> Rendering:
-    """Draw what the cameras of a stage see, and what it is, pixel by pixel.
+    """Render the cameras of a stage with pixel-wise ground truth.
 
     Parameters
     ----------
@@ -84,16 +84,16 @@ def render_stage(
     cameras, frames
         As for `garage2usd.render.cameras.find_views`.
     at_m, look_at_m
-        Where a camera of its own stands and what it looks at, as for `garage2usd.render.free_camera.free_view`; both or
-        none. It stands in place of all of the stage's cameras where none of them is chosen.
+        Position and target of an additional camera, as for `garage2usd.render.free_camera.free_view`; both or none. If
+        `cameras` is empty, it replaces all cameras of the stage.
     size_px
         Width and height; the width takes the cameras' horizontal aperture.
     samples
-        Of each pixel of the colour picture.
+        Samples per pixel of the colour picture.
     seed
-        Of the colour picture's samples.
+        Seed of the colour picture's samples.
     pictures
-        What is drawn.
+        The kinds of pictures to render.
     slots
         Formats in which the slots of each frame are told beside ``slots.json``; None for no slots. They are told from
         the depth and the instances.
@@ -167,7 +167,7 @@ def _views(
     look_at_m: tuple[float, float, float] | None,
     size_px: tuple[int, int],
 ) -> list[View]:
-    """The views of the stage's cameras, and of one that stands free."""
+    """Collect the views of the stage's cameras and of the free camera."""
     if at_m is None and look_at_m is None:
         return find_views(stage, cameras=cameras, frames=frames, size_px=size_px)
     if at_m is None:
@@ -179,7 +179,7 @@ def _views(
 
 
 def _hidden(stage: Usd.Stage, labels: Labels, views: Sequence[View]) -> list[list[int]]:
-    """For each view the ids of what hangs overhead, if its camera stands over the ceiling and would see only that."""
+    """Return for each view the ids of overhead objects, if its camera is above the ceiling; otherwise none."""
     boxes = UsdGeom.BBoxCache(Usd.TimeCode.EarliestTime(), [UsdGeom.Tokens.default_])
     up = 1 if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y else 2
     ceilings = [stage.GetPrimAtPath(path) for path in labels.paths_of(_CEILING)]

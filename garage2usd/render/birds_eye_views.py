@@ -1,4 +1,4 @@
-"""Bird's-eye views of a stage: the camera over a vehicle, and what it looks through."""
+"""Bird's-eye views of a stage: an orthographic camera over a vehicle, and the objects hidden from it."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,26 +14,26 @@ from garage2usd.stage.variants import SWITCHES
 __all__ = ["OVERHEAD", "birds_eye_view", "looked_through"]
 
 OVERHEAD = frozenset(OBJECT_LABELS[kind] for kind, switch in SWITCHES.items() if switch.variant_set == "ceiling")
-"""Classes of what hangs overhead, but for lights, which a stage switches by themselves."""
+"""Semantic classes of overhead objects, except for lights, which a stage switches by themselves."""
 _LIGHT = frozenset({OBJECT_LABELS["light"]})
 _CAR = CAR_LABELS | {OBJECT_LABELS["number_plate"]}
 _NAME = "birds_eye"
 _ASIDE_M = np.array([1.3e-5, 0.7e-5, 0.0])
-"""By which the camera stands aside, so that no row of rays runs down exactly where two tiles meet, and misses both."""
+"""Offset of the camera, so that no row of rays passes exactly between two floor tiles and misses both."""
 
 
 def birds_eye_view(name: str, settings: BirdsEye, vehicle_to_world: NDArray[np.float64]) -> View:
-    """The view from over a vehicle, forwards upwards.
+    """Create the bird's-eye view over a vehicle, forwards up.
 
     Parameters
     ----------
     name
-        Of its files.
+        Base name of the view's files.
     settings
-        What it shows.
+        Settings of the view.
     vehicle_to_world
-        From the vehicle's axes (ISO 8855, the middle of the rear axle on the ground) to the stage's, in metres;
-        float64, shape (4, 4).
+        Transform from the vehicle's axes (ISO 8855, the middle of the rear axle on the ground) to the stage's, in
+        metres; float64, shape (4, 4).
     """
     to_world = vehicle_to_world @ settings.sensor_to_vehicle() @ USD_FROM_OPENCV
     to_world[:3, 3] += to_world[:3, :3] @ _ASIDE_M
@@ -50,9 +50,9 @@ def birds_eye_view(name: str, settings: BirdsEye, vehicle_to_world: NDArray[np.f
 
 
 def looked_through(labels: Labels, settings: BirdsEye) -> list[int]:
-    """Ids of what a bird's-eye view does not show: what hangs overhead, and parked cars if they are not wanted.
+    """Return the ids of objects hidden from a bird's-eye view: overhead ones, and parked cars if switched off.
 
-    Lights still shine. What else hangs over the head of a car is found by its height, see `garage2usd.render.overhead`.
+    Hidden lights still shine. Other objects above a car are found by their height, see `garage2usd.render.overhead`.
     """
     return [labels.ids[path] for path in labels.paths_of(_hidden_classes(settings))]
 

@@ -1,11 +1,11 @@
-"""Run as a program of its own: draw the frames of a job with Blender's Cycles.
+"""Render the frames of a job with Blender's Cycles, as a separate program.
 
 Usage: python -P blender.py JOB.json
        blender --background --factory-startup --python blender.py -- JOB.json
 
-Blender's Python module brings a USD library of its own, which must not meet usd-core in one process, so nothing of
-garage2usd is imported; an installed Blender runs this file too. Each line of the file that the job names as its report
-is a number of samples done.
+Blender's Python module brings a USD library of its own, which must not be loaded in one process with usd-core, so
+nothing of garage2usd is imported. An installed Blender runs this file too. The report file of the job receives the
+number of finished samples, line by line.
 """
 # Over 300 lines: a program of its own, which finds no module beside it.
 
@@ -25,21 +25,21 @@ from mathutils import Matrix, Vector
 
 _PR_SET_PDEATHSIG = 1
 _INDEX_LIMIT = 32768
-"""Blender's object indices are below this; the ids of larger scenes are drawn digit by digit."""
+"""Limit of Blender's object indices; larger ids are rendered digit by digit."""
 _POINT_FILTER_PX = 0.01
 _BOUNCES, _DRAFT_BOUNCES = 6, 3
 _TRANSPARENT_BOUNCES = 64
 _OPAQUE = 0.5
 _LENS = "lens"
-"""Property of the camera that says which lens it has."""
+"""Custom property of a Blender camera that holds its lens."""
 _RAYS = Path(__file__).with_name("rays.osl")
 _PARTS = "parts"
-"""Folder of pictures that are being written."""
+"""Folder of unfinished pictures."""
 _SAMPLE = re.compile(r"Sample (\d+)/\d+")
 
 
 def main() -> None:
-    """Draw the job that the command line names."""
+    """Render the job named on the command line."""
     if sys.platform == "linux":  # whoever waits for the pictures may be killed
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     job = json.loads(Path(sys.argv[-1]).read_text(encoding="utf-8"))
@@ -78,16 +78,16 @@ def main() -> None:
 
 
 class _Drawn(NamedTuple):
-    """An object of the scene.
+    """A Blender object of the scene with its instance id.
 
     Attributes
     ----------
     item, number
-        The object, and the id of what it is a part of.
+        The Blender object, and the instance id of the object that it belongs to.
     hangs
-        Whether views from above look through it.
+        True if bird's-eye views hide the object.
     is_for_above
-        Whether it is drawn only in views from above, or only in others; None for both.
+        True if only bird's-eye views draw the object, False if only other views do; None for both.
     """
 
     item: bpy.types.Object
@@ -97,7 +97,7 @@ class _Drawn(NamedTuple):
 
 
 class _Reporter:
-    """Tells how many samples are done."""
+    """Reporter of finished samples to a file."""
 
     def __init__(self, path: Path) -> None:
         self._file = path.open("w", encoding="ascii", newline="\n", buffering=1)
@@ -106,11 +106,11 @@ class _Reporter:
         bpy.app.handlers.render_stats.append(self._on_statistics)
 
     def watch(self, samples: int) -> None:
-        """From now on samples of a picture are drawn."""
+        """Start counting the samples of a picture."""
         self._most = samples
 
     def finish(self, samples: int) -> None:
-        """A picture is drawn."""
+        """Add the samples of a finished picture."""
         self._done += samples
         self._most = 0
         print(self._done, file=self._file)
@@ -122,7 +122,7 @@ class _Reporter:
 
 
 def _build(job: dict[str, Any], to_blender: Matrix) -> tuple[bpy.types.Scene, list[_Drawn]]:
-    """Import each shape once and put copies of it, which share its mesh, at all of its places."""
+    """Import each shape once, and place copies that share its mesh."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.wm.usd_import(
         filepath=job["shapes"],
@@ -164,7 +164,7 @@ def _build(job: dict[str, Any], to_blender: Matrix) -> tuple[bpy.types.Scene, li
 
 
 def _cut(item: bpy.types.Object, to_world: Matrix, height_m: float) -> bpy.types.Object:
-    """What of an object is below a height, closed where it is cut off."""
+    """Cut an object at a height, keep the part below and close the cut."""
     import bmesh  # noqa: PLC0415 - which bpy brings into reach
 
     below = item.copy()
@@ -186,10 +186,10 @@ def _cut(item: bpy.types.Object, to_world: Matrix, height_m: float) -> bpy.types
 
 
 def _draw(scene: bpy.types.Scene, path: Path) -> None:
-    """Draw a picture whose file is there only when it is whole.
+    """Render a picture, whose file appears only when complete.
 
-    Blender is told a path within the working directory, as `#` and braces stand for other things in its paths, and
-    they may be in those of the user.
+    Blender receives a path within the working directory, since it interprets `#` and braces, which the user's path may
+    contain.
     """
     part = Path(_PARTS, path.name)
     part.parent.mkdir(exist_ok=True)
@@ -199,7 +199,7 @@ def _draw(scene: bpy.types.Scene, path: Path) -> None:
 
 
 def aim(scene: bpy.types.Scene, frame: dict[str, Any], to_blender: Matrix) -> None:
-    """Take the camera of a frame."""
+    """Set the Blender camera to the pose and lens of a frame."""
     if scene.camera is None:
         scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
         scene.collection.objects.link(scene.camera)
@@ -210,7 +210,7 @@ def aim(scene: bpy.types.Scene, frame: dict[str, Any], to_blender: Matrix) -> No
 
 
 def _take_lens(camera: bpy.types.Camera, lens: dict[str, Any], width: int, height: int) -> None:
-    """Give the camera a lens; for another camera the scene would be read anew, which takes a second."""
+    """Set the lens of the Blender camera; a second camera would reload the scene, which takes a second."""
     name = json.dumps([lens, width, height])
     if camera.get(_LENS) == name:
         return
@@ -229,10 +229,9 @@ def _take_lens(camera: bpy.types.Camera, lens: dict[str, Any], width: int, heigh
 
 
 def _look_along_rays(camera: bpy.types.Camera, lens: dict[str, Any], width: int, height: int) -> None:
-    """Have a camera look along the rays of a shader.
+    """Set a Blender camera's rays by an OSL shader.
 
-    Blender's own way to compile one needs a module that its Python package lacks, so that the compiled shader is handed
-    over here.
+    Blender's own compilation needs a module that its Python package lacks, so the shader is compiled here.
     """
     macros: dict[str, object] = {
         "WIDTH": float(width),
@@ -268,7 +267,7 @@ def _look_along_rays(camera: bpy.types.Camera, lens: dict[str, Any], width: int,
 
 
 def _move(moving: list[tuple[bpy.types.Object, Matrix]], moved: list[list[float]] | None, to_blender: Matrix) -> None:
-    """Take what moves to where it is in a frame, if the frame says so, by a matrix in the stage's axes."""
+    """Move the moving objects to their poses in a frame, given by a matrix in the stage's axes."""
     if moved is not None:
         matrix = to_blender @ Matrix(moved) @ to_blender.inverted()
         for item, place in moving:
@@ -278,7 +277,7 @@ def _move(moving: list[tuple[bpy.types.Object, Matrix]], moved: list[list[float]
 
 
 def _hide(drawn: list[_Drawn], frame: dict[str, Any], *, is_dark: bool) -> None:
-    """Hide what a camera looks through, which shines nevertheless, and in the dark the lights."""
+    """Hide objects from a frame's camera, though hidden lamps still shine; in the dark hide the lights."""
     looked_through, from_above = set(frame["hidden"]), frame["from_above"]
     for item, number, hangs, is_for_above in drawn:
         is_hidden = is_dark if item.type == "LIGHT" else number in looked_through
@@ -317,20 +316,20 @@ def _set_up_colour(scene: bpy.types.Scene, job: dict[str, Any]) -> None:
 
 
 def _write_png(scene: bpy.types.Scene) -> None:
-    """Write pictures as they are looked at."""
+    """Set Blender to write 8-bit PNG pictures."""
     scene.render.image_settings.file_format = "PNG"
     scene.render.image_settings.color_depth = "8"
 
 
 def _write_light(scene: bpy.types.Scene) -> None:
-    """Write linear light, of which a camera makes a picture elsewhere."""
+    """Set Blender to write linear light, from which a camera's picture is developed elsewhere."""
     scene.render.image_settings.file_format = "OPEN_EXR"
     scene.render.image_settings.color_depth = "32"
     scene.render.image_settings.exr_codec = "ZIP"
 
 
 def _set_up_data(scene: bpy.types.Scene, objects: list[bpy.types.Object]) -> None:
-    """One ray through the middle of each pixel, without light, so that nothing is ever a mixture of two objects."""
+    """Set Blender to one ray through the middle of each pixel, without light, so that no pixel mixes two objects."""
     _set_up(scene, samples=1, seed=0)
     scene.cycles.use_denoising = False
     scene.cycles.max_bounces = 0

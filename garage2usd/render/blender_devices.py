@@ -1,8 +1,8 @@
-"""Run as a program of its own: print the devices on which Blender's Cycles can draw, as JSON on a line.
+"""Print the devices on which Blender's Cycles can render, as one line of JSON, as a separate program.
 
 Usage: python -P blender_devices.py
 
-Each kind of device that Cycles knows has the names of those that are there.
+The JSON object maps each kind of device of Cycles to the names of the available devices.
 """
 
 import json
@@ -14,7 +14,7 @@ KINDS = ("CPU", "OPTIX", "CUDA", "HIP", "METAL", "ONEAPI")
 
 
 def main() -> None:
-    """Ask Cycles."""
+    """Print the devices of Cycles."""
     preferences = bpy.context.preferences.addons["cycles"].preferences
     sys.stdout.write("\n" + json.dumps({kind: _names(preferences, kind) for kind in KINDS}) + "\n")
 

@@ -1,4 +1,4 @@
-"""Blender in a process of its own: the Python module or an installed program."""
+"""Blender in a separate process: the Python module `bpy` or an installed program."""
 
 import functools
 import json
@@ -21,14 +21,14 @@ __all__ = ["BLENDER_MODULE", "WITHOUT_MODULE", "Blender", "find_blender", "modul
 _SCRIPT = Path(__file__).with_name("blender.py")
 _PATIENCE_S = 5.0
 _ANSWER_S = 120.0
-"""How long an installed program may take to say its version: it is a gigabyte, and read for the first time."""
+"""Timeout in seconds for an installed Blender to print its version; its first start reads a gigabyte."""
 _TOLD_LINES = 3
 _HEARTBEAT_S = 1.0
 _LOOK_S = 0.05
 _OLDEST = (5, 0)
 _OLDEST_WORDS = ".".join(map(str, _OLDEST))
 WITHOUT_MODULE = f"or a Blender {_OLDEST_WORDS} or later that is installed: --blender names its program"
-"""What does instead of the Python module."""
+"""Hint at an alternative to the Python module."""
 _REPORT = "report.txt"
 _VERSION = re.compile(r"^Blender (\d+)\.(\d+)", re.MULTILINE)
 
@@ -46,7 +46,7 @@ class Blender:
     program: Path | None = None
 
     def command(self, script: Path, *arguments: str) -> list[str]:
-        """Give the command line that runs a script, whose last arguments are these."""
+        """Return the command line that runs a script in Blender with arguments."""
         if self.program is None:
             # no file beside the script may take the place of a module
             return [sys.executable, "-P", str(script), *arguments]
@@ -55,26 +55,26 @@ class Blender:
 
 
 BLENDER_MODULE = Blender()
-"""The Python module."""
+"""The Python module `bpy`."""
 
 
 def find_blender(asked: str | Path | None = None) -> Blender:
-    """Find the Blender that draws: the one asked for, else the module `bpy`, else an installed program.
+    """Find the Blender for rendering: the requested one, else the module `bpy`, else an installed program.
 
     Parameters
     ----------
     asked
-        A program, or the folder or application that it is in. If None, the program is looked for on the path and where
-        the system usually has it, of version 5.0 or later.
+        A program, or the folder or application that contains it. If None, the program is looked for on the path and
+        where the system usually has it, of version 5.0 or later.
 
     Raises
     ------
     ConfigError
-        If what is asked for is no Blender of version 5.0 or later.
+        If the requested program is not a Blender of version 5.0 or later.
 
     Notes
     -----
-    Where there is none it is the module all the same; `modules_of` says what is missing then.
+    If no Blender is found, the module is returned; `modules_of` then names the missing packages.
     """
     if asked is not None:
         program = _program_in(Path(asked))
@@ -90,19 +90,19 @@ def find_blender(asked: str | Path | None = None) -> Blender:
 
 
 def modules_of(blender: Blender) -> tuple[str, ...]:
-    """Name the modules of extras that pictures of a Blender need."""
+    """Return the names of the Python modules that rendering with a Blender requires."""
     return BLENDER if blender.program is None else PICTURES
 
 
 def _program_in(path: Path) -> Path:
-    """The program of a path that names it, its folder or its application."""
+    """Return the Blender program of a path to the program, its folder or its application."""
     inner = (path / "blender", path / "blender.exe", path / "Contents" / "MacOS" / "Blender")
     return next((place for place in inner if place.is_file()), path).absolute()
 
 
 @functools.cache
 def _fault(program: Path) -> str | None:
-    """Say why a file is not a Blender that draws; None if it is one."""
+    """Explain why a file is not a usable Blender; None if it is one."""
     if not program.is_file():
         return "there is no such file"
     try:
@@ -130,24 +130,23 @@ def _fault(program: Path) -> str | None:
 def run_blender(
     job: Mapping[str, Any], folder: Path, done: Callable[[int], None], blender: Blender = BLENDER_MODULE
 ) -> None:
-    """Draw the pictures of a job (see ``blender.py``).
+    """Render the pictures of a job in a Blender process (see ``blender.py``).
 
     Parameters
     ----------
     job
-        Plain values.
+        The job as plain values.
     folder
-        Where the job and what Blender says are kept.
+        Folder for the job file and Blender's output.
     done
-        Called with the number of samples that are done: 0 when the scene is read, and at least once a second from then
-        on.
+        Called with the number of finished samples: 0 when the scene is read, then at least once a second.
     blender
-        What draws.
+        The Blender to run.
 
     Raises
     ------
     RenderError
-        If Blender fails. However this function ends, Blender has ended before.
+        If Blender fails. The Blender process has always ended when this function returns or raises.
     """
     path, log, report = folder / "job.json", folder / "blender.log", folder / _REPORT
     path.write_text(json.dumps({**job, "report": str(report)}), encoding="utf-8", newline="\n")
@@ -173,9 +172,9 @@ def run_blender(
 
 
 def _numbers(report: Path, has_ended: Callable[[], bool]) -> Iterator[int]:
-    """Yield the numbers that are written to a file line by line, and the last one again while none is written.
+    """Yield the numbers written line by line to a file, repeating the last one while none is written.
 
-    A file serves on every system: Windows waits for no pipe, and hands none of a number on to a child.
+    A file works on every system; Windows can neither wait for a pipe nor pass its descriptor to a child.
     """
     text, last, silent_s = b"", None, 0.0
     with report.open("rb") as reports:

@@ -1,4 +1,4 @@
-"""The cameras of a stage: where they stand in which frame, and what their lenses see."""
+"""Cameras of a stage as views: pose and lens at each frame."""
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -29,23 +29,23 @@ _NUMBER = r"(-?\d{1,9}(?:\.\d{1,6})?)"
 _SPAN = re.compile(rf"{_NUMBER}(?::{_NUMBER}(?:x{_NUMBER})?)?")
 _MM_PER_TENTH = 100.0
 _CLIP_M = (0.01, 2000.0)
-"""Of the sensors of a rig."""
+"""Clipping range of a rig's sensors."""
 USD_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
-"""From a camera that looks along +Z with +Y down to one that looks along -Z with +Y up, and back."""
+"""Rotation between an OpenCV camera (+Z forward, +Y down) and a USD camera (-Z forward, +Y up), in both directions."""
 
 
 @dataclass(frozen=True)
 class Lens:
-    """What a camera sees, without its place. A picture's width takes the whole horizontal aperture.
+    """The perspective lens of a USD camera; the picture's width takes the whole horizontal aperture.
 
     Attributes
     ----------
     focal_mm, aperture_mm
         Focal length and horizontal aperture.
     shift
-        How far the aperture's middle lies to the right of and over the axis, as shares of its width.
+        Offset of the aperture's middle to the right of and above the optical axis, as shares of its width.
     clip_m
-        From where to where it sees, along its axis.
+        Near and far clipping distance along the optical axis.
     """
 
     focal_mm: float
@@ -54,7 +54,7 @@ class Lens:
     clip_m: tuple[float, float]
 
     def matrix(self, size_px: tuple[int, int]) -> NDArray[np.float64]:
-        """The intrinsic matrix K for pixels whose corners are whole numbers; float64, shape (3, 3)."""
+        """Return the intrinsic matrix K, with pixel corners at whole numbers; float64, shape (3, 3)."""
         width, height = size_px
         focal_px = width * self.focal_mm / self.aperture_mm
         right, up = self.shift
@@ -63,31 +63,32 @@ class Lens:
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """One picture to take.
+    """A view to render: a camera with pose, lens and picture size.
 
     Attributes
     ----------
     name
-        Camera, and frame where it moves: the stem of the picture's files.
+        Name of the camera, with the frame if the camera moves; the stem of the picture's files.
     camera
         Path of the camera's prim, or name of the sensor.
     frame
-        Time code, None for a camera that stands still and for sensors.
+        Time code; None for static cameras and for sensors.
     lens
-        What it sees: that of a stage's camera, or of a rig's.
+        Lens of a stage's camera or of a rig's sensor.
     size_px
         Width and height of the picture.
     camera_to_world
-        From the camera, which looks along -Z with +Y up, to the stage's axes; metres; float64, shape (4, 4).
+        Transform from the camera's axes (-Z forward, +Y up) to the stage's, in metres; float64, shape (4, 4).
     facts
-        What else the table of frames says of it.
+        Further entries of the view in the table of frames.
     effects
-        How its colour differs from that of a perfect camera; None for one.
+        Imperfections of the camera's colour picture; None for a perfect camera.
     twist
-        How the camera moves, in axes that look along +Z with +Y down, from what moves in its picture; None where its
-        effects do not show that.
+        Motion of the camera relative to the moving objects, in axes with +Z forward and +Y down; None if the effects do
+        not show motion.
     is_carried
-        Whether the vehicle carries it: all but the vehicle moves in its picture, else the vehicle alone.
+        True if the camera is mounted on the vehicle, so that everything except the vehicle moves in its picture;
+        otherwise only the vehicle moves.
     """
 
     name: str
@@ -103,16 +104,16 @@ class View:
 
     @property
     def shows_motion(self) -> bool:
-        """Whether its colour depends on how it moves, and so on depth and instances."""
+        """True if the colour picture depends on the camera's motion, and so on depth and instances."""
         return self.twist is not None and self.effects is not None and self.effects.shows_motion
 
     def world_to_camera(self) -> NDArray[np.float64]:
-        """From the stage's axes to a camera that looks along +Z with +X right and +Y down; float64, shape (4, 4)."""
+        """Return the transform from the stage's axes to the camera's (+Z forward, +X right, +Y down); shape (4, 4)."""
         matrix: NDArray[np.float64] = USD_FROM_OPENCV @ np.linalg.inv(self.camera_to_world)
         return matrix
 
     def intrinsics(self) -> NDArray[np.float64] | None:
-        """The matrix K for pixels whose corners are whole numbers, float64, shape (3, 3); None for other lenses."""
+        """Return the intrinsic matrix K, pixel corners at whole numbers; None for lenses that are not pinholes."""
         if isinstance(self.lens, Lens):
             return self.lens.matrix(self.size_px)
         if isinstance(self.lens, Pinhole):
@@ -121,16 +122,16 @@ class View:
         return None
 
     def sensor_lens(self) -> SensorLens:
-        """Its lens as that of a sensor: the same for a stage's camera with its picture's size."""
+        """Return the view's lens as a sensor lens; a stage camera's lens is converted for the picture's size."""
         if isinstance(self.lens, SensorLens):
             return self.lens
         (focal_x, _, across), (_, focal_y, down), _ = self.lens.matrix(self.size_px).tolist()
         return Pinhole(size_px=self.size_px, centre_px=(across, down), focal_px=(focal_x, focal_y))
 
     def starts_m(self) -> NDArray[np.float64] | None:
-        """Where the rays of an around view start in the stage's axes; float64, shape (rows, columns, 3).
+        """Return the starting points of an around view's rays in the stage's axes; float64, shape (rows, columns, 3).
 
-        NaN for pixels that show nothing; None for other lenses.
+        Pixels without a ray are NaN. None for other lenses.
         """
         if not isinstance(self.lens, AroundView):
             return None
@@ -141,7 +142,7 @@ class View:
         return np.where(seen[:, None], starts, np.nan).reshape(*self.size_px[::-1], 3)
 
     def lens_job(self) -> dict[str, Any]:
-        """Its lens as plain values for Blender."""
+        """Return the view's lens as plain values for Blender."""
         lens = self.lens
         if isinstance(lens, Lens):
             return {"kind": "perspective", **asdict(lens)}
@@ -167,25 +168,24 @@ def find_views(
     frames: str | None = None,
     size_px: tuple[int, int] = (1280, 720),
 ) -> list[View]:
-    """The pictures that cameras of a stage take.
+    """Find the views of a stage's cameras and frames.
 
     Parameters
     ----------
     stage
         The stage.
     cameras
-        Names or paths of cameras, in letters of whatever case, in the order of the pictures; all of the stage's if
-        empty.
+        Names or paths of cameras, case-insensitive, in the order of the pictures; all cameras of the stage if empty.
     frames
-        Frames of the cameras that move, as usdrecord has them: ``0``, ``0:96``, ``0:960x24``, several with commas; from
-        first to last every 48th if left out.
+        Frames of moving cameras in usdrecord's notation: ``0``, ``0:96``, ``0:960x24``, several with commas; every 48th
+        from first to last if left out.
     size_px
-        Of the pictures.
+        Width and height of the pictures.
 
     Raises
     ------
     ConfigError
-        If there is no such camera or frame, or a camera is not in perspective.
+        If a camera or frame does not exist, or a camera is not perspective.
     """
     found = {
         prim.GetPath().pathString: UsdGeom.Camera(prim)

@@ -1,4 +1,4 @@
-"""The device that colour is drawn on: the processor, or a GPU that Cycles can use."""
+"""Render devices for the colour picture: the processor, or a GPU supported by Cycles."""
 
 import json
 import subprocess
@@ -15,30 +15,30 @@ _SCRIPT = Path(__file__).with_name("blender_devices.py")
 _PATIENCE_S = 120.0
 _CPU = "CPU"
 _TRACES_SHADERS = "OPTIX"
-"""The only kind of GPU on which Cycles runs the shaders that lenses of rigs are."""
+"""The only kind of GPU on which Cycles runs OSL shaders, which the lenses of rigs are."""
 
 
 class Device(StrEnum):
-    """What is asked for."""
+    """Choice of the render device."""
 
     AUTO = "auto"
-    """A GPU where Cycles finds one that can draw all views, else the processor."""
+    """A GPU if Cycles finds one that can render all views, otherwise the processor."""
     CPU = "cpu"
     GPU = "gpu"
 
 
 @dataclass(frozen=True)
 class ComputeDevice:
-    """A device of Cycles.
+    """A render device of Cycles.
 
     Attributes
     ----------
     kind
-        As Cycles has it: ``CPU``, ``OPTIX``, ``CUDA``, ``HIP``, ``METAL`` or ``ONEAPI``.
+        Kind of the device in Cycles: ``CPU``, ``OPTIX``, ``CUDA``, ``HIP``, ``METAL`` or ``ONEAPI``.
     name
-        Its name, and those of others of its kind, which draw as well.
+        Name of the device, and of further devices of its kind, which render as well.
     blender
-        The Blender that draws on it.
+        The Blender that renders on the device.
     """
 
     kind: str
@@ -47,32 +47,32 @@ class ComputeDevice:
 
     @property
     def words(self) -> str:
-        """Which one it is."""
+        """The device in words."""
         return "the CPU" if self.kind == _CPU else f"the GPU {self.name} ({self.kind})"
 
 
 CPU = ComputeDevice(_CPU, "")
-"""The processor, which is there without asking."""
+"""The processor, which is always available."""
 
 
 def find_device(asked: Device, *, has_rays: bool, blender: Blender = BLENDER_MODULE) -> ComputeDevice:
-    """The device to draw colour on.
+    """Find the device to render colour on.
 
     Parameters
     ----------
     asked
-        What is asked for.
+        The requested device.
     has_rays
-        Whether a lens is a shader, as those of rigs are.
+        True if a lens is an OSL shader, as those of rigs are.
     blender
-        The Blender that draws.
+        The Blender that renders.
 
     Raises
     ------
     ConfigError
-        If a GPU is asked for and there is none that can draw.
+        If a GPU is requested and none can render the views.
     RenderError
-        If Blender does not say what there is.
+        If Blender fails to list its devices.
     """
     processor = replace(CPU, blender=blender)
     if asked is Device.CPU:
@@ -93,7 +93,7 @@ def find_device(asked: Device, *, has_rays: bool, blender: Blender = BLENDER_MOD
 
 
 def _devices(blender: Blender = BLENDER_MODULE) -> dict[str, list[str]]:
-    """Names of the devices of each kind that Cycles knows."""
+    """Query the names of Cycles' devices by kind."""
     try:
         asked = subprocess.run(  # noqa: S603 - our own script
             blender.command(_SCRIPT),

@@ -1,4 +1,4 @@
-"""Views drawn by Blender, frame by frame: what is finished is kept, and never drawn again."""
+"""Rendering of views by Blender, frame by frame; finished frames are kept and never rendered again."""
 # Over 300 lines: what is drawn of a view, and in which order, is decided in one place.
 
 import json
@@ -47,42 +47,42 @@ _BLENDER_FROM = {
     UsdGeom.Tokens.y: np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),
     UsdGeom.Tokens.z: np.eye(3),
 }
-"""From the axes of a stage, by the one that is up, to Blender's."""
+"""Rotation from a stage's axes, by its up axis, to Blender's."""
 _SEEN = "seen"
 _EFFECTS = "effects"
 _LIGHT = "light"
 MOTION_NEEDS = Picture.DEPTH, Picture.INSTANCE
-"""What is drawn for the colour of views that show motion."""
+"""Kinds of pictures needed to develop the colour of views that show motion."""
 
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
-    """What is drawn, and how.
+    """A render job: the views of a stage, the kinds of pictures and the quality.
 
     Attributes
     ----------
     stage, labels
-        The stage, and what its objects are.
+        The stage, and its table of labels.
     views
-        The pictures' cameras; no two have one name.
+        The views to render, with unique names.
     hidden
-        For each view the ids of the objects that it looks through.
+        Ids of the objects hidden from each view.
     kinds
         The kinds of pictures.
     samples, seed
-        Of the colour picture.
+        Samples per pixel and seed of the colour picture.
     finished
-        Folder that has a folder for each kind of picture, with the frames that are finished.
+        Folder of finished frames, with a subfolder for each kind of picture.
     moving
         Ids of the objects that move from view to view.
     moved
-        For each view where they are: in the stage's axes, in metres, from where they stand in the stage; shape (4, 4),
-        None for a view that looks through them. Empty where nothing moves.
+        Rigid transform of the moving objects in each view, from their pose in the stage, in the stage's axes and
+        metres; shape (4, 4). None for a view that hides them. Empty if nothing moves.
     device
-        What colour is drawn on; all else is drawn by the processor.
+        Device that renders colour; all other pictures are rendered by the processor.
     is_draft
-        Whether colour is drawn in less time, which small pictures do not show: with fewer bounces of light, lights
-        taken evenly and quick denoising.
+        True for a faster colour picture, hardly visible in small pictures: fewer light bounces, uniform sampling of
+        lights and quick denoising.
     """
 
     stage: Usd.Stage
@@ -99,26 +99,26 @@ class Drawing:
     is_draft: bool = False
 
     def draw(self, work: Path, progress: Progress, announce: Announce = unheard) -> list[list[VisibleInstance] | None]:
-        """Draw the frames that are not finished.
+        """Render the unfinished frames.
 
         Parameters
         ----------
         work
-            A folder for what Blender reads and writes.
+            Folder for Blender's input and output.
         progress
-            Called with the number of samples that are done, of finished frames too.
+            Called with the number of finished samples, finished frames included.
         announce
-            Called with what is drawn, and with how long a picture takes when one is.
+            Called with a description of the job, and with the time per picture once one is finished.
 
         Returns
         -------
         list
-            For each view the objects that it shows; None where only colour is drawn.
+            Visible objects of each view; None if only colour is rendered.
 
         Raises
         ------
         RenderError
-            If Blender fails. Frames that were finished before stay.
+            If Blender fails. Finished frames are kept.
         """
         missing = sorted(set(MOTION_NEEDS) - set(self.kinds))
         if missing and self._has_colour and any(view.shows_motion for view in self.views):
@@ -153,7 +153,7 @@ class Drawing:
         return [self._read_seen(view) if self._has_data else None for view in self.views]
 
     def take_colour(self, view: View, drawn: Path) -> None:
-        """Keep a colour picture that Blender drew, or what the view's camera makes of the light."""
+        """Store a rendered colour picture, or the picture that the view's camera develops from the light."""
         if view.shows_motion:  # which is seen only with the depth, which Blender draws last
             with _whole(self._light_path(view)) as part:
                 shutil.copyfile(drawn, part)
@@ -166,7 +166,7 @@ class Drawing:
             write_colour(drawn, part, seeing=None if starts_m is None else np.isfinite(starts_m).all(axis=-1))
 
     def take_data(self, view: View, drawn: Sequence[Path]) -> None:
-        """Keep what Blender saw, as pictures; the list of what is visible comes last, and says that all are there."""
+        """Store Blender's depth, normals and ids as pictures; the list of visible objects marks completion."""
         surfaces = read_surfaces(drawn, self._axes.T, view.starts_m())
         if isinstance(view.lens, Pinhole):  # whose rays Blender measures along
             along = view.lens.rays(view.lens.middles())[:, 2].reshape(surfaces.depth_m.shape)
@@ -181,7 +181,7 @@ class Drawing:
         self._develop_kept(view)
 
     def _develop_kept(self, view: View) -> None:
-        """Develop light that waits for depth and instances, if they are there."""
+        """Develop stored light once its depth and instances are available."""
         light = self._light_path(view)
         if not light.exists() or not self._seen_path(view).exists():
             return
@@ -196,7 +196,7 @@ class Drawing:
         light.unlink()
 
     def facts(self, view: View) -> dict[str, object]:
-        """What the table of frames says of a finished view: its own facts, and what its camera did to the light."""
+        """Return a finished view's entry in the table of frames: its own facts, and those of its camera's exposure."""
         if view.effects is None or not self._has_colour:
             return dict(view.facts)
         did = json.loads((self.finished / _EFFECTS / f"{view.name}.json").read_text(encoding="utf-8"))
@@ -204,7 +204,7 @@ class Drawing:
         return {**view.facts, "effects": {**view.effects.model_dump(mode="json"), **did, **motion}}
 
     def _develop(self, view: View, light: NDArray[np.float32] | NDArray[np.float64]) -> None:
-        """Keep what the view's camera makes of light; the picture comes last, and says that all is there."""
+        """Develop light by the view's camera; the picture is written last, as a mark of completion."""
         if view.effects is None:
             raise TypeError(view.name)
         taken = develop(light, view.sensor_lens(), view.effects, camera=view.camera, frame=view.name, seed=self.seed)
@@ -214,7 +214,7 @@ class Drawing:
             write_pixels(taken.pixels, part)
 
     def _order(self) -> list[int]:
-        """The views in the order in which they are drawn: one lens after the other, as changing it takes a while."""
+        """Order the views for rendering by lens, since changing the lens is slow."""
         groups: dict[str, list[int]] = {}
         for number, (view, hide) in enumerate(zip(self.views, self.hidden, strict=True)):
             groups.setdefault(json.dumps([view.lens_job(), view.size_px, list(hide)]), []).append(number)
@@ -246,7 +246,7 @@ class Drawing:
         return [VisibleInstance(**{**entry, "box_px": tuple(entry["box_px"])}) for entry in entries]
 
     def _frame_job(self, view: View, hidden: Sequence[int], work: Path, digits: int) -> dict[str, Any]:
-        """What Blender is told of a frame, without what is finished."""
+        """Return a frame's job for Blender, without finished pictures."""
         is_there = self._path(view, Picture.COLOUR).exists() or self._light_path(view).exists()
         draws_colour = self._has_colour and not is_there
         draws_data = self._has_data and not self._seen_path(view).exists()
@@ -291,13 +291,13 @@ class Drawing:
         }
 
     def _overhead(self, scene: DrawnPrims) -> Overhead:
-        """What views from above look through, if there are any."""
+        """Find the overhead objects to hide from bird's-eye views, if there are such views."""
         if any(isinstance(view.lens, Orthographic) for view in self.views):
             return find_overhead(self.stage, scene)
         return Overhead(np.zeros(len(scene.shape), dtype=bool), np.full(len(scene.shape), np.nan))
 
     def _described(self, jobs: Sequence[Mapping[str, Any]]) -> str:
-        """What is drawn, in words."""
+        """Describe the render job in words."""
         sizes = Counter(f"{width} x {height}" for width, height in (view.size_px for view in self.views))
         told = [f"{count} of {size}" for size, count in sizes.items()]
         there = sum(not job["colour"] and not job["data"] for job in jobs)
@@ -311,7 +311,7 @@ class Drawing:
 
 
 class _Tempo:
-    """Says how long a picture takes as soon as the first one is drawn."""
+    """Announcer of the time per picture, as soon as the first one is rendered."""
 
     def __init__(self, samples: int, jobs: Sequence[Mapping[str, Any]], announce: Announce) -> None:
         self._samples, self._announce = samples, announce
@@ -320,7 +320,7 @@ class _Tempo:
         self._is_said = False
 
     def take(self, samples: int) -> None:
-        """Know that so many samples are drawn, and that the scene is read when this is called first."""
+        """Record the number of finished samples; the first call marks the scene as read."""
         now_s = time.monotonic()
         if self._begun_s is None:
             self._begun_s = now_s
@@ -332,7 +332,7 @@ class _Tempo:
 
 
 class _Waiting:
-    """What Blender has still to draw of each frame; what it has drawn is taken as soon as it is whole."""
+    """Pictures that Blender has yet to finish; each is stored as soon as it is complete."""
 
     def __init__(self, drawing: Drawing, pairs: Sequence[tuple[View, Mapping[str, Any]]]) -> None:
         self._drawing = drawing
@@ -340,7 +340,7 @@ class _Waiting:
         self._data = [(view, [Path(name) for name in job["data"]]) for view, job in pairs if job["data"]]
 
     def take(self) -> None:
-        """Take what is there; Blender draws the frames in their order, colour first."""
+        """Store the pictures that are complete; Blender renders frames in order, colour first."""
         while self._colour and self._colour[0][1].exists():
             view, drawn = self._colour.pop(0)
             self._drawing.take_colour(view, drawn)
@@ -358,7 +358,7 @@ def _listed(matrix: NDArray[np.float64] | None) -> list[list[float]] | None:
 
 @contextmanager
 def _whole(path: Path) -> Iterator[Path]:
-    """A name to write a file under that gets its own name when it is whole."""
+    """Yield a temporary path, which is renamed to the file's path once complete."""
     part = path.with_name(f".part-{path.name}")
     yield part
     part.replace(path)

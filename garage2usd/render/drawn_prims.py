@@ -1,4 +1,4 @@
-"""What a stage draws, taken apart: its different shapes, and each place where one of them is drawn."""
+"""Drawn prims of a stage: its distinct shapes, and all their placements."""
 
 from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from garage2usd.reading.walk import placed_objects
 __all__ = ["SHAPE_PROPERTY", "DrawnPrims", "read_drawn_prims", "write_shapes"]
 
 SHAPE_PROPERTY = "garage2usd_shape"
-"""Custom property by which Blender's objects are known again: the number of their shape."""
+"""Custom property that holds the shape's index on a Blender object."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,17 +26,17 @@ class DrawnPrims:
     Attributes
     ----------
     shapes
-        For each different mesh or light the path of a prim that is one; several prims of instances share it.
+        Path of one prim for each distinct mesh or light, shared by instances.
     materials
         Paths of the materials that the shapes are bound to.
     domes
-        Paths of the lights that stand for the surroundings.
+        Paths of the dome lights.
     shape
-        Number of the shape of each drawn prim; int32, shape (n,).
+        Shape index of each drawn prim; int32, shape (n,).
     instance
-        Id of the object that each drawn prim belongs to, 0 for none; int32, shape (n,).
+        Instance id of each drawn prim's object, 0 for none; int32, shape (n,).
     to_world
-        Local to world, metres, the stage's axes, for column vectors; float64, shape (n, 4, 4).
+        Transform from local space to the stage's axes, in metres, for column vectors; float64, shape (n, 4, 4).
     """
 
     shapes: tuple[Sdf.Path, ...]
@@ -51,19 +51,19 @@ _DOMES = (UsdLux.DomeLight, UsdLux.DomeLight_1)
 
 
 def read_drawn_prims(stage: Usd.Stage, ids: Mapping[str, int]) -> DrawnPrims:
-    """Find everything that a stage draws.
+    """Read all drawn prims of a stage.
 
     Parameters
     ----------
     stage
-        The stage, with all of its instances and point instancers.
+        The stage; instances and point instancers are expanded.
     ids
-        Instance id by the path of an object's prim; a point of an instancer has its number in brackets after the
-        instancer's path. What is drawn belongs to the nearest of its parents that is there.
+        Instance ids by prim path; a point of an instancer has its index in brackets after the instancer's path. A drawn
+        prim belongs to its nearest ancestor with an id.
 
     Notes
     -----
-    See `garage2usd.reading.walk.placed_objects` for what is drawn.
+    See `garage2usd.reading.walk.placed_objects` for the prims that are drawn.
     """
     metres = metres_per_unit(stage)
     numbers: dict[Hashable, int] = {}
@@ -73,7 +73,7 @@ def read_drawn_prims(stage: Usd.Stage, ids: Mapping[str, int]) -> DrawnPrims:
     drawn: list[tuple[int, int, NDArray[np.float64]]] = []
 
     def look_of(placed: PlacedObject) -> list[tuple[int, DrawnPart]]:
-        """The parts that stand somewhere, each with the number of its shape."""
+        """Return the placed drawable parts of an object, each with the index of its shape."""
         look = []
         for part in placed.parts:
             twin = Sdf.Path(placed.twin + part.path)
@@ -103,7 +103,7 @@ def read_drawn_prims(stage: Usd.Stage, ids: Mapping[str, int]) -> DrawnPrims:
 
 
 def write_shapes(stage: Usd.Stage, scene: DrawnPrims, path: Path) -> None:
-    """Write a layer over a stage in which no shape is an instance and each carries its number as a custom property."""
+    """Write an override layer in which no shape is an instance and each has its index as a custom property."""
     layer = Sdf.Layer.CreateAnonymous(path.suffix)
     layer.subLayerPaths.append(str(Path(stage.GetRootLayer().realPath)))
     over = Usd.Stage.Open(layer)

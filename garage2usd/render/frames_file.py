@@ -1,4 +1,4 @@
-"""``frames.json``: where the cameras stood, what their pictures are called, and what can be seen in them."""
+"""The table of frames, ``frames.json``: poses of the cameras, their picture files and visible objects."""
 
 import json
 from collections.abc import Collection, Mapping, Sequence
@@ -39,7 +39,7 @@ def write_frames(
     stage: Path,
     about: Mapping[str, object],
 ) -> Path:
-    """Write the table of frames.
+    """Write the table of frames of rendered views.
 
     Parameters
     ----------
@@ -48,13 +48,13 @@ def write_frames(
     entries
         View, visible objects (None where none were drawn) and hidden classes of each frame.
     labels
-        What the objects are.
+        Table of labels of the stage.
     kinds
-        The kinds of pictures there are.
+        The rendered kinds of pictures.
     stage
-        What was drawn.
+        Path of the rendered stage.
     about
-        What is said of all frames, by key.
+        Entries about all frames, by key.
     """
     name_of = {number: name for name, number in labels.ids.items()}
     document = {
@@ -92,7 +92,7 @@ def _optics(view: View) -> dict[str, Any]:
 
 
 def _seen(visible: Sequence[VisibleInstance], labels: Labels, name_of: dict[int, str]) -> dict[str, Any]:
-    """The objects that can be seen, and the number plates of cars, which belong to them."""
+    """List the visible objects of a frame, with number plates merged into their cars."""
     found: dict[int, VisibleInstance] = {}
     for each in visible:
         number = labels.instance_of(each.id)

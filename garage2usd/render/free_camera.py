@@ -1,4 +1,4 @@
-"""A camera that stands wherever somebody asks for it, without one in the stage."""
+"""A free camera at a given position and target, without a camera prim in the stage."""
 
 from collections.abc import Collection, Sequence
 
@@ -17,7 +17,7 @@ _FARTHEST_M = 1e5
 _NEAREST_M = 0.001
 _CLIP_M = (0.01, 2000.0)
 _UPRIGHT = 1e-6
-"""Sine of the angle between the axis of a camera and the vertical under which it counts as vertical."""
+"""Sine of the angle to the vertical below which a camera's axis counts as vertical."""
 
 _Vector = NDArray[np.float64]
 
@@ -29,25 +29,25 @@ def free_view(
     size_px: tuple[int, int],
     taken: Collection[str],
 ) -> View:
-    """What is seen from one place towards another, with the lens of the cameras that garages have.
+    """Create the view of a free camera from its position and target, with the lens of garage cameras.
 
     Parameters
     ----------
     stage
-        The stage, in whose axes the places are.
+        The stage, in whose axes the points are given.
     at_m, look_at_m
-        Where the camera stands, and the place in the middle of its picture; metres. What is up in the stage is up in
-        the picture; of a camera that looks straight up or down, the top of the picture is to -Z, or to +Y in a stage
+        Position of the camera and the point in the middle of its picture, in metres. The stage's up is up in the
+        picture. For a camera that looks straight up or down, the top of the picture points to -Z, or to +Y in a stage
         with Z up.
     size_px
         Width and height; the width takes the whole horizontal aperture.
     taken
-        Names of other views.
+        Names already used by other views.
 
     Raises
     ------
     ConfigError
-        If a place cannot be used, or the two are the same.
+        If a point is invalid, or both are equal.
     """
     eye, target = _place("at", at_m), _place("look_at", look_at_m)
     back = eye - target

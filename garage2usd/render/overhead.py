@@ -1,4 +1,4 @@
-"""What hangs over the head of a car: bird's-eye views look through it, whatever it is."""
+"""Overhead geometry: prims above the height of a car, which bird's-eye views hide."""
 
 from dataclasses import dataclass
 
@@ -17,22 +17,22 @@ from garage2usd.sensors.rig.poses import y_up_to_stage
 __all__ = ["Overhead", "find_overhead"]
 
 _ROUNDING_M = 0.01
-"""Of heights: ramps have grooves, and a stage keeps single precision."""
+"""Tolerance of heights, for grooves of ramps and single precision."""
 _LOOKS_DOWN = -0.5
-"""A face whose normal has less upwards than this is an underside."""
+"""Upper limit of the upward component of an underside's normal."""
 
 
 @dataclass(frozen=True, eq=False)
 class Overhead:
-    """What of the drawn prims of a stage hangs over the ground that cars drive on, at the height of a car or higher.
+    """Drawn prims of a stage that hang above a car's height over drivable ground.
 
     Attributes
     ----------
     hangs
-        Whether all of a prim does; bool, shape (n,).
+        Mask of prims that hang as a whole; bool, shape (n,).
     cut_m
-        Height in the world, along the axis that is up, over which the rest of a prim hangs, as the head of a door frame
-        does on its posts; NaN for most; float64, shape (n,).
+        World height along the up axis above which a prim hangs in part, as the head of a door frame on its posts; NaN
+        for prims without such a part; float64, shape (n,).
     """
 
     hangs: NDArray[np.bool_]
@@ -40,14 +40,14 @@ class Overhead:
 
 
 def find_overhead(stage: Usd.Stage, scene: DrawnPrims) -> Overhead:
-    """Find what hangs so high that the design car drives below it, on ramps too.
+    """Find geometry that hangs high enough for the design car to drive under, on ramps too.
 
     Parameters
     ----------
     stage
         The stage.
     scene
-        What it draws.
+        Drawn prims of the stage.
     """
     floor = DrivenFloor.of(read_lanes(stage).graph, read_contents(stage).things)
     to_y_up = np.linalg.inv(y_up_to_stage(stage))
@@ -67,7 +67,7 @@ def find_overhead(stage: Usd.Stage, scene: DrawnPrims) -> Overhead:
 
 
 def _heights(shape: Triangles, places: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Heights of the corners of a shape's box at each place, shape (places, 8)."""
+    """Compute the heights of the corners of a shape's bounding box at each placement, shape (places, 8)."""
     ends = np.stack([shape.positions_m.min(axis=0), shape.positions_m.max(axis=0)]).astype(np.float64)
     corners = np.stack(np.meshgrid(*ends.T, indexing="ij"), axis=-1).reshape(-1, 3)
     heights: NDArray[np.float64] = corners @ places[:, 1, :3].T + places[:, 1, 3]
@@ -75,7 +75,7 @@ def _heights(shape: Triangles, places: NDArray[np.float64]) -> NDArray[np.float6
 
 
 def _over_the_ground(shape: Triangles, place: NDArray[np.float64], floor: DrivenFloor) -> tuple[bool, float]:
-    """Whether all of a placed shape hangs over a car, and else the height from which on some of it does."""
+    """Test if a placed shape hangs entirely above a car; otherwise find the height above which part of it does."""
     points = shape.positions_m.astype(np.float64) @ place[:3, :3].T + place[:3, 3]
     over_m = points[:, 1] - floor.heights_m(points[:, 0], points[:, 2])
     is_high = over_m >= CAR_HEIGHT_M - _ROUNDING_M

@@ -1,4 +1,4 @@
-"""The pictures of one view as files: depth, normals, instances, classes."""
+"""Picture files of a view: colour, depth, normals, instances and classes."""
 
 import colorsys
 from collections.abc import Collection, Iterable, Mapping
@@ -33,15 +33,15 @@ __all__ = [
 ]
 
 INDEX_LIMIT = 32768
-"""Blender's object indices are below this; larger ids come as several digits."""
+"""Limit of Blender's object indices; larger ids are rendered as several digits."""
 _FARTHEST_M = 1e9
 _GOLDEN = 0.618034
 _SHIFTS = 0, 8, 16
-"""Bits of an id before red, green and blue."""
+"""Bit shifts of an id's red, green and blue byte."""
 
 
 class Picture(StrEnum):
-    """The kinds of pictures, each in a folder of its name."""
+    """Kinds of pictures; each kind has a folder of its name."""
 
     COLOUR = "colour"
     DEPTH = "depth"
@@ -52,28 +52,28 @@ class Picture(StrEnum):
 
     @property
     def extension(self) -> str:
-        """Of its files."""
+        """Extension of the picture's files."""
         return ".exr" if self in {Picture.DEPTH, Picture.NORMALS} else ".png"
 
 
 def with_needed(kinds: Collection[Picture], needed: Collection[Picture]) -> tuple[Picture, ...]:
-    """The kinds of pictures to draw where some are asked for and some are needed to tell something from."""
+    """Return the kinds of pictures to render: the requested ones and those that labels are derived from."""
     return tuple(kind for kind in Picture if kind in kinds or kind in needed)
 
 
 @dataclass(frozen=True, eq=False)
 class Surfaces:
-    """What the ray through the middle of each pixel meets first.
+    """First hit of the ray through the middle of each pixel.
 
     Attributes
     ----------
     depth_m
-        Distance as Blender measures it, or from the start of the ray where that is not the camera; infinite where there
-        is nothing; float32, shape (rows, columns).
+        Depth as measured by Blender, or distance from the start of the ray for rays that do not start at the camera;
+        infinite without a hit; float32, shape (rows, columns).
     normal
-        Towards the camera's side, in the stage's axes, 0 where there is nothing; float32, shape (rows, columns, 3).
+        Normal towards the camera's side in the stage's axes, 0 without a hit; float32, shape (rows, columns, 3).
     instance
-        Id of the object, 0 for none; int32, shape (rows, columns).
+        Instance id of the object, 0 for none; int32, shape (rows, columns).
     """
 
     depth_m: NDArray[np.float32]
@@ -83,16 +83,16 @@ class Surfaces:
 
 @dataclass(frozen=True)
 class VisibleInstance:
-    """An object that can be seen in a picture.
+    """A visible object of a picture, with its 2D bounding box.
 
     Attributes
     ----------
     id
-        Its instance id.
+        Instance id of the object.
     box_px
-        Left, top, right and bottom; the last two are the first that it does not reach.
+        Left, top, right and bottom of the bounding box; right and bottom are exclusive.
     pixels
-        How many show it.
+        Number of pixels that show the object.
     """
 
     id: int
@@ -100,16 +100,16 @@ class VisibleInstance:
     pixels: int
 
     def joined(self, part: "VisibleInstance") -> "VisibleInstance":
-        """The object together with another that is a part of it."""
+        """Merge a visible object with a part of it."""
         (left, top, right, bottom), (part_left, part_top, part_right, part_bottom) = self.box_px, part.box_px
         box = min(left, part_left), min(top, part_top), max(right, part_right), max(bottom, part_bottom)
         return VisibleInstance(self.id, box, self.pixels + part.pixels)
 
 
 def write_colour(drawn: Path, path: Path, *, seeing: NDArray[np.bool_] | None = None) -> None:
-    """Keep the pixels of a picture that Blender drew, without when and how long it drew.
+    """Copy the pixels of a picture rendered by Blender, without its metadata of time and duration.
 
-    Where an array of shape (rows, columns) is False they become black.
+    Pixels become black where `seeing`, of shape (rows, columns), is False.
     """
     with Image.open(drawn) as image:
         pixels = np.asarray(image)
@@ -117,12 +117,12 @@ def write_colour(drawn: Path, path: Path, *, seeing: NDArray[np.bool_] | None = 
 
 
 def write_pixels(pixels: NDArray[np.uint8], path: Path) -> None:
-    """Write a picture of red, green and blue; shape (rows, columns, 3)."""
+    """Write an RGB picture; shape (rows, columns, 3)."""
     Image.fromarray(pixels).save(path)
 
 
 def read_light(drawn: Path) -> NDArray[np.float32]:
-    """The linear red, green and blue of a picture that Blender drew; float32, shape (rows, columns, 3)."""
+    """Read the linear RGB light of a picture rendered by Blender; float32, shape (rows, columns, 3)."""
     import OpenEXR  # noqa: PLC0415 - of an extra
 
     with OpenEXR.File(str(drawn), separate_channels=True) as file:
@@ -134,16 +134,16 @@ def read_light(drawn: Path) -> NDArray[np.float32]:
 def read_surfaces(
     files: Iterable[Path], from_blender: NDArray[np.float64], starts_m: NDArray[np.float64] | None = None
 ) -> Surfaces:
-    """Read Blender's passes, one file for each digit of the ids.
+    """Read Blender's passes of depth, normals and instance ids, one file for each digit of the ids.
 
     Parameters
     ----------
     files
-        OpenEXR files of several layers, the least digit first.
+        Multilayer OpenEXR files, least significant digit first.
     from_blender
-        Turn from Blender's axes to the stage's; shape (3, 3).
+        Rotation from Blender's axes to the stage's; shape (3, 3).
     starts_m
-        Where the rays start in the stage's axes, from where their depth is measured; NaN for pixels that show nothing;
+        Starting points of the rays in the stage's axes, from which depth is measured; NaN for pixels without a ray;
         shape (rows, columns, 3). None for rays that start at the camera.
     """
     passes = [_passes(path) for path in files]
@@ -164,7 +164,7 @@ def read_surfaces(
 
 
 def _passes(path: Path) -> dict[str, NDArray[np.float32]]:
-    """Each pass of the file by its name; shape (rows, columns, channels), channels X, Y, Z as they are named."""
+    """Read the passes of an OpenEXR file by name; shape (rows, columns, channels), channels ordered X, Y, Z."""
     import OpenEXR  # noqa: PLC0415 - of an extra
 
     found: dict[str, dict[str, NDArray[np.float32]]] = {}
@@ -180,7 +180,7 @@ _NAMES = {"Object Index": "IndexOB"}
 
 
 def visible_instances(instance: NDArray[np.int32]) -> list[VisibleInstance]:
-    """The objects of an instance picture by their ids."""
+    """List the visible objects of an instance picture, ordered by id."""
     rows, columns = np.nonzero(instance)
     ids, which, counts = np.unique(instance[rows, columns], return_inverse=True, return_counts=True)
     boxes = np.empty((len(ids), 4), dtype=np.int64)
@@ -196,7 +196,7 @@ def visible_instances(instance: NDArray[np.int32]) -> list[VisibleInstance]:
 
 
 def class_colour(number: int) -> tuple[int, int, int]:
-    """Colour of a class in previews: hues a golden cut apart; black for 0."""
+    """Return the preview colour of a semantic class: hues spaced by the golden ratio; black for 0."""
     if number == 0:
         return 0, 0, 0
     value = (0.95, 0.75, 0.55)[number % 3]
@@ -205,18 +205,18 @@ def class_colour(number: int) -> tuple[int, int, int]:
 
 
 def write_picture(kind: Picture, path: Path, surfaces: Surfaces, labels: Labels) -> None:
-    """Write one kind of picture of what is seen.
+    """Write one kind of picture of the visible surfaces.
 
     Parameters
     ----------
     kind
-        Any but colour, which Blender writes.
+        Any kind except colour, which Blender writes.
     path
         The file.
     surfaces
-        What is seen.
+        Visible surfaces of the view.
     labels
-        Which object is what.
+        Table of labels of the stage.
     """
     if kind is Picture.DEPTH:
         _write_exr(path, {"Z": surfaces.depth_m})
@@ -234,13 +234,13 @@ def write_picture(kind: Picture, path: Path, surfaces: Surfaces, labels: Labels)
 
 
 def write_ids(ids: NDArray[np.int32], path: Path) -> None:
-    """Write ids, shape (rows, columns), as a picture: red + 256 green + 65536 blue."""
+    """Write an id picture, shape (rows, columns), as PNG with the id red + 256 green + 65536 blue."""
     digits = [(ids >> shift & 255).astype(np.uint8) for shift in _SHIFTS]
     Image.fromarray(np.stack(digits, axis=-1)).save(path, optimize=True)
 
 
 def read_ids(path: Path) -> NDArray[np.int32]:
-    """The ids of a picture that `write_ids` wrote; int32, shape (rows, columns)."""
+    """Read the ids of a picture written by `write_ids`; int32, shape (rows, columns)."""
     with Image.open(path) as picture:
         digits = np.asarray(picture).astype(np.int32)
     ids: NDArray[np.int32] = (digits << np.array(_SHIFTS, dtype=np.int32)).sum(axis=-1, dtype=np.int32)
@@ -248,7 +248,7 @@ def read_ids(path: Path) -> NDArray[np.int32]:
 
 
 def read_depth(path: Path) -> NDArray[np.float32]:
-    """The depth of a picture of it; float32, shape (rows, columns)."""
+    """Read a depth picture; float32, shape (rows, columns)."""
     import OpenEXR  # noqa: PLC0415 - of an extra
 
     with OpenEXR.File(str(path), separate_channels=True) as file:
@@ -256,12 +256,12 @@ def read_depth(path: Path) -> NDArray[np.float32]:
 
 
 def write_mask(mask: NDArray[np.bool_], path: Path) -> None:
-    """Write a mask, shape (rows, columns), as a grey picture: white where it holds, black elsewhere."""
+    """Write a mask, shape (rows, columns), as a grey picture: white for True, black for False."""
     Image.fromarray(np.where(mask, 255, 0).astype(np.uint8)).save(path, optimize=True)
 
 
 def classes_of(instance: NDArray[np.int32], class_ids: Mapping[int, int]) -> NDArray[np.uint8]:
-    """Id of the class of each pixel's object, 0 for none; uint8, shape (rows, columns)."""
+    """Return the class id of each pixel's object, 0 for none; uint8, shape (rows, columns)."""
     ids, which = np.unique(instance, return_inverse=True)
     classes: NDArray[np.uint8] = np.array([class_ids.get(number, 0) for number in ids.tolist()], dtype=np.uint8)
     return classes[which].reshape(instance.shape)

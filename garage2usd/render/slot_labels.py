@@ -1,4 +1,4 @@
-"""Slots in the frames of a data set: ``slots.json``, and what is derived from it for detectors."""
+"""Parking-slot labels of a rendered data set: ``slots.json`` and the formats derived for detectors."""
 
 import json
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -27,33 +27,33 @@ from garage2usd.sensors.slots import SlotFrame, SlotRecord, Slots, read_slots
 __all__ = ["NEEDED", "SlotFormat", "SlotLabels", "check_slots"]
 
 NEEDED = frozenset({Picture.DEPTH, Picture.INSTANCE})
-"""Kinds of pictures that slots are told from, which are drawn for them also where they are not asked for."""
+"""Kinds of pictures that slot labels are derived from, rendered even if not requested."""
 
 
 class SlotFormat(StrEnum):
-    """Formats of slots."""
+    """File formats of parking-slot labels."""
 
     JSON = "json"
-    """``slots.json``, which is written with any of them."""
+    """``slots.json``, written with every other format as well."""
     COCO = "coco"
-    """Keypoints: ``slots_coco.json``."""
+    """COCO keypoints: ``slots_coco.json``."""
     PANOPTIC = "panoptic"
-    """Panoptic segments of all that is seen: ``panoptic.json`` and the folder ``panoptic``."""
+    """COCO panoptic segments of all visible objects: ``panoptic.json`` and the folder ``panoptic``."""
     DMPR_PS = "dmpr-ps"
-    """Marking points, of bird's-eye and around views alone: the folder ``dmpr_ps``."""
+    """Marking points of bird's-eye and around views only: the folder ``dmpr_ps``."""
 
 
 _NEEDS = {SlotFormat.PANOPTIC: Picture.INSTANCE}
-"""Kinds of pictures that formats need, beside depth, which all need."""
+"""Kinds of pictures that slot formats need besides depth, which all need."""
 
 
 def check_slots(formats: Collection[SlotFormat], kinds: Collection[Picture], *, has_ground_view: bool) -> None:
-    """Find out before anything is drawn whether slots can be told in some formats.
+    """Check before rendering that parking-slot labels can be written in the requested formats.
 
     Raises
     ------
     ConfigError
-        If a kind of picture that they need is not drawn, or there is no bird's-eye or around view for DMPR-PS.
+        If a required kind of picture is not rendered, or there is no bird's-eye or around view for DMPR-PS.
     """
     needed = {Picture.DEPTH, *(_NEEDS[each] for each in formats if each in _NEEDS)}
     missing = sorted(needed.difference(kinds))
@@ -65,18 +65,19 @@ def check_slots(formats: Collection[SlotFormat], kinds: Collection[Picture], *, 
 
 @dataclass(frozen=True, eq=False)
 class SlotLabels:
-    """The slots of a data set.
+    """The parking-slot labels of a rendered data set.
 
     Attributes
     ----------
     stage, labels
-        The stage, and what its objects are.
+        The stage, and its table of labels.
     views
         The frames.
     finished
-        Folder of their pictures, a folder for each kind, among them those of `NEEDED`; the files are written there.
+        Folder of the frames' pictures, with a subfolder for each kind, including those of `NEEDED`; the label files are
+        written there.
     vacated
-        Names of the slots whose cars the pictures leave out.
+        Names of the slots whose cars are hidden in the pictures.
     """
 
     stage: Usd.Stage
@@ -86,12 +87,12 @@ class SlotLabels:
     vacated: Collection[str] = ()
 
     def write(self, formats: Collection[SlotFormat]) -> list[Path]:
-        """Write ``slots.json`` and some formats.
+        """Write ``slots.json`` and further formats of parking-slot labels.
 
         Returns
         -------
         list of Path
-            The files and folders.
+            The written files and folders.
 
         Raises
         ------
@@ -134,7 +135,7 @@ class SlotLabels:
         return SlotFrame(view.name, view.size_px, project, seen_m, self._shows_floor(view))
 
     def _shows_floor(self, view: View) -> NDArray[np.bool_]:
-        """Which pixels show the floor or its paint, or what has no class."""
+        """Mask the pixels that show the floor, its paint, or an unlabelled surface."""
         ids = read_ids(self.finished / Picture.INSTANCE / f"{view.name}{Picture.INSTANCE.extension}")
         floor = [number for number, entry in self.labels.classes.items() if entry.name in FLOOR_CLASSES]
         return np.isin(classes_of(ids, self.labels.class_ids), [0, *floor])
@@ -143,7 +144,7 @@ class SlotLabels:
         return CocoImage(f"{Picture.COLOUR}/{view.name}{Picture.COLOUR.extension}", view.size_px)
 
     def _panoptic(self, folder: Path) -> Iterator[tuple[CocoImage, str, list[dict[str, Any]]]]:
-        """Write the picture of each frame's segments; yields what is said of it."""
+        """Write the panoptic picture of each frame, and yield its COCO records."""
         for view in self.views:
             name = f"{view.name}{Picture.INSTANCE.extension}"
             segments, infos = panoptic_segments(read_ids(self.finished / Picture.INSTANCE / name), self.labels)
