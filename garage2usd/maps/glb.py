@@ -171,9 +171,7 @@ class _Looks:
         self._outline_of = cache(_outline)
 
     def of(self, placed: PlacedObject) -> _Look:
-        """Return an object's look with one piece for each surface; faceted triangles, which need no normals, are
-        separate.
-        """
+        """Return an object's look, one piece for each surface; faceted triangles, without normals, are separate."""
         alike: dict[tuple[int, bool, bool, bool], list[Triangles]] = {}
         surfaces = self._looks.surfaces.values
         left_out: list[tuple[str, DrawnPart]] = []

@@ -95,7 +95,7 @@ class GlbFile:
         return self._materials.number(piece.surface, double_sided=own.double_sided, has_colours=own.colours is not None)
 
     def _primitive(self, piece: Piece, material: int, mate: Piece | None) -> dict[str, Any]:
-        """Return a primitive, whose vertices are shared with its `mate`: a faceted with a smooth one of equal material."""
+        """Return a primitive that shares vertices with its `mate`: a faceted with a smooth one of equal material."""
         key = piece.triangles, None if mate is None else mate.triangles, material
         if key not in self._primitive_of:
             own, attributes = self._arrays(piece, material), {}
@@ -113,9 +113,7 @@ class GlbFile:
         return primitive_of(piece.triangles, sets=sets, normals_set=normals, is_faceted=piece.is_faceted)
 
     def _attributes(self, own: Primitive, within: Mapping[str, int]) -> dict[str, int]:
-        """Return the accessor indices of a primitive's attributes; those in `within` start at another accessor's
-        beginning.
-        """
+        """Return the accessor indices of a primitive's attributes; those in `within` share another accessor."""
         attributes = {}
         for name, array in own.named().items():
             if name in within:

@@ -49,7 +49,7 @@ class Materials:
 
     @property
     def extensions(self) -> set[str]:
-        """glTF extensions used by the materials."""
+        """Extensions of glTF used by the materials."""
         return self._extensions | self.textures.extensions
 
     def number(self, surface: SurfaceLook, *, double_sided: bool, has_colours: bool = False) -> int:
@@ -65,9 +65,7 @@ class Materials:
         return self._number_of[key]
 
     def sets_of(self, number: int) -> tuple[int, ...]:
-        """Return the indices of the surface's texture coordinates that a material reads, in order of its primitives'
-        sets.
-        """
+        """Return the indices of the surface's texture coordinates that a material reads, in order of sets."""
         return self._sets[number]
 
     def normals_of(self, number: int) -> int | None:

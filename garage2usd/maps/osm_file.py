@@ -96,7 +96,7 @@ class OsmFile:
         return number
 
     def polygon(self, points: Sequence[int], tags: Mapping[str, str]) -> int:
-        """The number of a new closed way, whose first point is not repeated at its end."""
+        """Create a closed OSM way, whose first point is not repeated at its end, and return its id."""
         return self.new_way(points, {**tags, "area": "yes"})
 
     def relation(self, members: Iterable[Member], tags: Mapping[str, str]) -> int:

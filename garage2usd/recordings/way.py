@@ -118,7 +118,7 @@ class Way:
         return {"vehicle_to_world": pose.vehicle_to_world.tolist()} if self.has_vehicle else {}
 
     def car_moved(self, pose: VehiclePose) -> Matrix:
-        """Return the ego car's transform from its place in `garage2usd.stage.ego_car` to a pose; in the stage's axes."""
+        """Return the ego car's transform from its place in `garage2usd.stage.ego_car` to a pose, in stage axes."""
         matrix: Matrix = pose.vehicle_to_world @ self._from_rest
         return matrix
 
