@@ -103,7 +103,7 @@ class RayScene:
         Notes
         -----
         Embree finds the triangle in single precision, the NumPy hierarchy in double precision
-        (`garage2usd.sensors.rays.ray_caster`); the intersection with the triangle's plane is computed in double precision.
+        (`garage2usd.sensors.rays.ray_caster`); the intersection with its plane is computed in double precision.
         Rays pass through texels that are less than half opaque.
         """
         directions = np.asarray(directions, dtype=np.float64).reshape(-1, 3)
