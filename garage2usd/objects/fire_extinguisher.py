@@ -33,7 +33,7 @@ class FireExtinguisherSpec(Spec, kind=KIND):
     """Two fire extinguishers on a wall; origin on the floor in the middle of their back, labels to +Z."""
 
     def asset(self) -> Asset:
-        """Make the meshes of two fire extinguishers on a rail under their sign (ISO 7010)."""
+        """Make the meshes of two fire extinguishers with valves, hoses and labels, on a rail below an ISO 7010 sign."""
         pieces = [_extinguisher(side) for side in _SIDES_M]
         faces = {name: [face for piece in pieces for face in piece[name]] for name in pieces[0]}
         bodies = [

@@ -22,7 +22,7 @@ KIND = Kind("hydrant_cabinet", number=27, label="hydrant_cabinet", cityscapes="s
 _WIDTH_M, _HEIGHT_M, _DEPTH_M = 0.65, 0.80, 0.24
 """Width, height and depth of the smallest cabinet of GB/T 14561-2019."""
 _FOOT_M = 0.88
-"""Height of the hydrant cabinet's bottom: its outlet is at 1.10 m, and its top below the zone plates' letters."""
+"""Height of the hydrant cabinet's bottom, which puts its outlet at 1.10 m and its top below zone plates' letters."""
 _OUTLET_M = 1.10
 _SHEET_M, _DOOR_M, _FRAME_M = 0.012, 0.022, 0.055
 _PANEL_M = 0.26

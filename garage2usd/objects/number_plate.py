@@ -79,6 +79,6 @@ class OwnPlateSpec(NumberPlateSpec):
 def plates_on(car: CarSpec, text: str, country: Country) -> NumberPlateSpec:
     """Return the number plates of a parked car, from the catalogue or from the user's model."""
     if isinstance(car, OwnCarSpec):
-        return OwnPlateSpec(car.body, text, country, car.measures)
+        return OwnPlateSpec(car.body, text, country, car.model.measures)
     of = OpenPlateSpec if isinstance(car, OpenCarSpec) else NumberPlateSpec
     return of(car.body, text, country)
