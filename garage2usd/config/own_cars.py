@@ -4,7 +4,7 @@
 import hashlib
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, NamedTuple
@@ -83,6 +83,11 @@ class OwnCar(CarBody):
     sha256: str
     to_car: tuple[tuple[float, float, float], ...]
     outlines: tuple[tuple[tuple[float, float], ...], ...]
+
+    @property
+    def measures(self) -> CarBody:
+        """Its measures without its file."""
+        return CarBody(**{each.name: getattr(self, each.name) for each in fields(CarBody)})
 
 
 class VehiclesConfig(Settings):

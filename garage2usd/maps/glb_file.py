@@ -1,4 +1,5 @@
 """Builder of a binary glTF 2.0 file: nodes, meshes, materials and one buffer of numbers and images."""
+# Over 300 lines: one class holds the buffer that nodes, meshes, materials and images are written into.
 
 import hashlib
 import struct

@@ -1,4 +1,5 @@
 """Recordings of a rig's sensors along a drive: pictures with ground truth, point clouds, masks and calibration."""
+# Over 300 lines: the one function that records, and the settings and results that it documents.
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace

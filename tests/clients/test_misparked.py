@@ -49,7 +49,7 @@ def test_each_stall_that_is_not_blocked_is_driven_to_with_the_cars_as_they_stand
 def test_slots_and_prims_of_stalls_are_taken_where_cars_stand_or_reach(made):
     built, _, taken = made
     stage = Usd.Stage.Open(str(built.stage))
-    assert {slot.name for slot in read_slots(stage).slots if slot.occupied} == taken
+    assert {slot.stall.name for slot in read_slots(stage).slots if slot.stall.is_occupied} == taken
     prims = Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies())
     said = {prim.GetAttribute("garage:stall:id").Get(): prim for prim in prims if prim.GetName().startswith("Stall_")}
     is_taken = {name: prim.GetAttribute("garage:stall:occupied").Get() for name, prim in said.items() if name}

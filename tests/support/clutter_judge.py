@@ -188,8 +188,8 @@ def entered(layout):
 
 def driven_lines(graph):
     """A car's width along the middle of each lane from square to square."""
-    for edge in graph.edges:
-        line = shapely.LineString(graph.middles_m[[edge.start, edge.end]])
+    for edge in graph.lanes.edges:
+        line = shapely.LineString(graph.lanes.positions_m[[edge.start, edge.end]])
         yield line.buffer(CAR_PATH_M / 2, cap_style="flat"), f"the lane from {edge.start} to {edge.end}", None
 
 

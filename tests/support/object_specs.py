@@ -136,7 +136,7 @@ SPECS = {
     "own_car": car_spec(own_car(), PAINTS[0]),
     "own_van": car_spec(replace(own_car(), semantic_class=VehicleClass.VAN), PAINTS[0]),
     "own_truck": car_spec(replace(own_car(), semantic_class=VehicleClass.TRUCK), PAINTS[0]),
-    "own_plate": OwnPlateSpec(own_car().name, "K47 M92", car=own_car()),
+    "own_plate": OwnPlateSpec(own_car().name, "K47 M92", car=own_car().measures),
     **{f"bin_{colour}": BinSpec(colour) for colour in BIN_COLOURS},
     "bicycle": BicycleSpec("red"),
     "motorbike": MotorbikeSpec("blue"),

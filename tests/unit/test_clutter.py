@@ -119,7 +119,7 @@ def test_the_judge_sees_what_stands_in_the_way():
     made = generate(GarageConfig(**clutter_judge.settings_of(7)))
     layout = made.layout
     person = PersonSpec(0)
-    stall, lane = layout.stalls[0], made.graph.middles_m[1]
+    stall, lane = layout.stalls[0], made.graph.lanes.positions_m[1]
     car = next(iter(layout.of_kind("car")))
     for point, height, met in (
         (stall.centre_m, 0.0, stall.name),

@@ -45,6 +45,8 @@ const COLOURS: Record<string, string> = {
   pram: "#ff9ad5",
   bag: "#7c4dff",
   person: "#ff2e2e",
+  van: "#ffd23f",
+  truck: "#a86c00",
   hydrant_cabinet: "#d81b1b",
   fire_extinguisher: "#ff5e5e",
 };
