@@ -47,7 +47,7 @@ def _aisle(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
 
 
 def _vans_are_told(_: BuiltGarage, profile: Profile) -> str:
-    """How many stalls take vans, and which ones do, are clauses of their own."""
+    """Explain why van-accessible stalls cannot be checked: the profile must state both their number and a width."""
     if profile.stalls_per_van_stall is None:
         return "the profile has no stalls_per_van_stall"
     if profile.van_stall_width is None and profile.van_access_aisle_width is None:

@@ -99,7 +99,7 @@ def _serving_edges(garage: BuiltGarage) -> list[LaneEdge]:
 
 
 def _clear_width(garage: BuiltGarage, way: _Way, carriageway_m: float) -> tuple[float, str]:
-    """Free width across a way, as told and as the columns, walls and cores in it leave, and what narrows it most."""
+    """Return an aisle's clear width between columns, walls and cores, at most as stated, and the narrowest obstacle."""
     half = carriageway_m / 2
     strip = way.strip(half)
     left, right, narrowest = half, half, ""

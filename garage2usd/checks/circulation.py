@@ -73,7 +73,7 @@ def _fields(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
 
 
 def _clear_m(block: Square, nodes: dict[str, LaneNode]) -> float:
-    """Metres from column to column across the narrower side of a block of two by two lanes; 0 where one is missing."""
+    """Return the width between columns across the narrower side of 2 x 2 lane squares; 0 where a lane is missing."""
     row, col = block
     corners = [nodes.get(_name((row + down, col + right))) for down, right in _BESIDE]
     known = [node for node in corners if node is not None]

@@ -22,7 +22,7 @@ _WALLS = {"wall", "obstacle"}
 _ONE_BAY = 1.5
 """Columns farther apart than so many times the grid are not those of one bay."""
 _FOOT_M = 0.5
-"""How high a column's lowest piece begins, and how far from the line of mouths it stands, at most."""
+"""Greatest height of a column's lower end, and greatest distance of a column from the line of stall mouths; metres."""
 
 
 @dataclass(frozen=True)

@@ -53,7 +53,7 @@ def _van_height(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
 
 
 def _over_van_routes(garage: BuiltGarage) -> Iterator[tuple[str, Point, float]]:
-    """Name, place and least height of what hangs over the ways to and from accessible stalls, and of their doors."""
+    """Yield name, place and least height of objects and doors over the routes of vans to and from accessible stalls."""
     stalls = [stall for stall in garage.stalls if stall.use is StallUse.ACCESSIBLE]
     driven = {node for stall in stalls for node in (*way_in(garage, stall), *way_out(garage, stall))}
     if not driven:

@@ -13,7 +13,7 @@ _ROUNDING = 0.99
 
 
 def _dark(what: str, garage: BuiltGarage) -> str:
-    """That something is too dark, and how many lamps are dead, which may be why."""
+    """Return the message that lanes or stalls are too dark, with the number of dead lamps as a possible cause."""
     because = f": {garage.dead_lamps} of {garage.lamps} lamps give no light" if garage.dead_lamps else ""
     return f"the {what} are too dark{because}"
 

@@ -17,7 +17,7 @@ __all__ = ["BOOK", "design_car"]
 BOOK = RuleBook()
 _Proofs = tuple[tuple[Stall, StallProof], ...]
 _PROVEN: WeakKeyDictionary[BuiltGarage, tuple[Profile, _Proofs]] = WeakKeyDictionary()
-"""What was proven last of each garage, as two rules speak of it."""
+"""Cache of each garage's last swept-path proofs, which two rules share."""
 _NAMED = 3
 _EXPLAINED = 10
 """For so many stalls without ways a single cause is looked for, which takes a second or two each."""

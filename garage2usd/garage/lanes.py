@@ -261,7 +261,7 @@ class LaneGraph:
         return tuple(map(tuple, following))
 
     def _spread(self, ways: Sequence[Sequence[int]], kind: LaneKind) -> frozenset[Arc]:
-        """The arcs off the portals of a kind, and those that follow them without turning round or through a portal."""
+        """Return the arcs out of portals of a kind and all arcs that follow them without a U-turn or another portal."""
         reached = {(start, other) for start in self.portals(kind) for other in ways[start]}
         waiting = deque(reached)
         while waiting:

@@ -96,17 +96,17 @@ def using(library: Path) -> Iterator[None]:
 
 
 def in_c(function: Callable[P, T]) -> Callable[P, T]:
-    """Have a function be the C function of the same name, less an underscore; its own body is never run.
+    """Bind a Python declaration to the C function of the same name without its leading underscore.
 
-    Named tuples go to C by the address of their fields, which `planning.h` declares in the same order, arrays by the
-    address of their first number, and numbers as they are. Arrays are annotated as `Int64s` and the like. Arguments are
-    given by position.
+    The body of the decorated function never runs. Named tuples are passed by the address of their fields, which
+    `planning.h` declares in the same order. Arrays are passed by the address of their first number, numbers by value.
+    Arrays are annotated as `Int64s` and the like. Arguments are positional.
 
     Raises
     ------
     TypeError
-        If an annotation is none of these; when called, if an argument is given by keyword, an array is not of the
-        annotated type, or its numbers do not lie side by side.
+        If an annotation is none of these; when called, if an argument is given by keyword, or if an array has another
+        type than annotated or is not contiguous.
     """
     hints = typing.get_type_hints(function, include_extras=True)
     returns = hints.pop("return")
