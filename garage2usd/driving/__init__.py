@@ -1,7 +1,8 @@
-"""Driving: the proof that the design car gets into each stall and out of it, and the ways that do it.
+"""Driving: swept-path proofs that the design car can enter and leave each stall, with the manoeuvres found.
 
-Plain geometry, for any program: `find_way` takes a `DesignCar`, a parked `Pose`, `Obstacles` and `LanePose`s. For a
-whole garage `prove_garage` takes a `DrivenGarage`, and `prove_stalls` a layout and its lane graph.
+The modules are plain geometry, for use in any program: `find_way` takes a `DesignCar`, a parked `Pose`, `Obstacles`
+and `LanePose`s. For a whole garage, `prove_garage` takes a `DrivenGarage`, and `prove_stalls` a layout and its lane
+graph.
 """
 
 from garage2usd.driving.car import DesignCar, Pose

@@ -1,4 +1,4 @@
-"""The garage that is driven in, assembled from its stalls, its lanes and what stands in it."""
+"""Assembly of a garage for driving from its stalls, its lanes and its obstacles."""
 
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -13,22 +13,22 @@ from garage2usd.objects import CAR_LABELS
 __all__ = ["BELONGINGS", "StandingThing", "assembled"]
 
 BELONGINGS = frozenset({*CAR_LABELS, "wheel_stop", "traffic_cone"})
-"""Classes of what is not in the way of the car whose stall it stands in."""
+"""Semantic classes of objects that do not obstruct a car parking in the stall around them."""
 
 
 class StandingThing(NamedTuple):
-    """Something on the floor that a car could touch.
+    """An object on the floor that a car could touch.
 
     Attributes
     ----------
     name
-        A name that nothing else there has.
+        Unique name in the garage.
     label
-        Its semantic class.
+        Semantic class.
     ground
-        What it covers of the floor, (x, z) in metres.
+        Footprint on the floor, (x, z) in metres.
     home
-        Name of the stall that it stands in, if it stands in one; counts for `BELONGINGS` alone.
+        Name of the stall that contains the object, if any; used for `BELONGINGS` only.
     """
 
     name: str
@@ -38,7 +38,7 @@ class StandingThing(NamedTuple):
 
 
 def assembled(stalls: Iterable[Stall], lanes: LaneGraph, standing: Iterable[StandingThing]) -> DrivenGarage:
-    """Assemble the garage that cars are driven in.
+    """Assemble the garage for driving.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def assembled(stalls: Iterable[Stall], lanes: LaneGraph, standing: Iterable[Stan
     lanes
         The lanes.
     standing
-        What a car could touch, the parked cars included.
+        Obstacles, including the parked cars.
     """
     # the proof names what is in the way in the order of the obstacles, and cars last
     things = sorted(standing, key=lambda thing: thing.label in CAR_LABELS)

@@ -1,4 +1,4 @@
-"""The design car, and where it stands: poses on the floor."""
+"""The design car, and its poses on the floor."""
 
 import math
 from dataclasses import dataclass
@@ -15,15 +15,15 @@ _WIDEST_M, _LONGEST_M, _WIDEST_TURN_M = 3.0, 12.0, 30.0
 
 @dataclass(frozen=True, slots=True)
 class Pose:
-    """Where a car is: the middle of its rear axle on the floor.
+    """Pose of a car: the middle of its rear axle on the floor, and its yaw.
 
     Attributes
     ----------
     x_m, z_m
-        Of the rear axle's middle.
+        Position of the rear axle's middle.
     yaw_rad
-        Right-handed turn about +Y, as a placement has it: at 0 the nose looks to -Z, and a turn to the driver's left
-        is positive.
+        Right-handed turn about +Y, as in a placement: at 0 the nose points to -Z, and a turn to the driver's left is
+        positive.
     """
 
     x_m: float
@@ -31,14 +31,14 @@ class Pose:
     yaw_rad: float
 
     def moved(self, length_m: float, curvature_per_m: float = 0.0) -> "Pose":
-        """The pose after a way along an arc, exactly.
+        """Return the exact pose after an arc.
 
         Parameters
         ----------
         length_m
-            Way of the rear axle's middle; negative in reverse.
+            Length of the rear axle's path; negative in reverse.
         curvature_per_m
-            Of that way, positive to the driver's left; 0 for a straight.
+            Curvature of that path, positive to the driver's left; 0 for a straight.
         """
         yaw = self.yaw_rad + length_m * curvature_per_m
         if length_m * curvature_per_m == 0.0:
@@ -51,24 +51,24 @@ class Pose:
 
 @dataclass(frozen=True, slots=True)
 class DesignCar:
-    """A rectangle on two axles that drives circles no tighter than its turning radius.
+    """The design car: a rectangle on two axles with a least turning radius.
 
     Attributes
     ----------
     length_m, width_m
-        Of the body without its mirrors: JGJ 100's small car.
+        Size of the body without mirrors: JGJ 100's small car.
     wheelbase_m, rear_overhang_m
-        Between the axles, and from the rear axle to the tail. The standard gives neither; these are common in cars of
-        that length.
+        Distance between the axles, and from the rear axle to the tail. The standard gives neither; these are common in
+        cars of that length.
     track_m
-        Between the middles of the front tyres.
+        Distance between the middles of the front tyres.
     turning_radius_m
-        Of the circle that the middle of the outer front tyre rolls at full lock, which is what JGJ 100 gives for cars.
+        Radius of the circle of the outer front tyre's middle at full lock, as JGJ 100 gives for cars.
 
     Raises
     ------
     ConfigError
-        If a measure is not positive, or such a car cannot turn so tightly.
+        If a dimension is not positive, or such a car has no such turning radius.
     """
 
     length_m: float = USUAL_CAR_LENGTH_M
@@ -79,7 +79,7 @@ class DesignCar:
     turning_radius_m: float = 6.0
 
     def __post_init__(self) -> None:
-        """Check the measures."""
+        """Validate the car's dimensions."""
         for name, most in (("length_m", _LONGEST_M), ("width_m", _WIDEST_M), ("turning_radius_m", _WIDEST_TURN_M)):
             value = getattr(self, name)
             if not 0 < value <= most:
@@ -95,7 +95,7 @@ class DesignCar:
 
     @property
     def front_overhang_m(self) -> float:
-        """From the front axle to the nose."""
+        """Distance from the car's front axle to its nose."""
         return self.length_m - self.wheelbase_m - self.rear_overhang_m
 
     @property
@@ -105,16 +105,16 @@ class DesignCar:
 
     @property
     def ahead_m(self) -> float:
-        """From the rear axle to the nose."""
+        """Distance from the car's rear axle to its nose."""
         return self.length_m - self.rear_overhang_m
 
     def centred(self, middle: Point, yaw_rad: float) -> Pose:
-        """The pose with which the middle of the footprint lies at `middle`."""
+        """Return the pose that puts the middle of the car's footprint at `middle`."""
         back = self.length_m / 2 - self.rear_overhang_m
         return Pose(middle[0] + math.sin(yaw_rad) * back, middle[1] + math.cos(yaw_rad) * back, yaw_rad)
 
     def corners(self, pose: Pose) -> tuple[Point, Point, Point, Point]:
-        """(x, z) of the footprint's corners: front left, front right, rear right, rear left."""
+        """Return (x, z) of the car's corners: front left, front right, rear right, rear left."""
         sin, cos = math.sin(pose.yaw_rad), math.cos(pose.yaw_rad)
         half = self.width_m / 2
 

@@ -1,6 +1,6 @@
-"""The proof for each stall of a garage that the design car drives in from an entrance and out to an exit.
+"""Proof for each stall of a garage that the design car can drive in from an entrance and out to an exit.
 
-A garage is plain geometry here: stalls, lanes by direction, and obstacles.
+The garage is plain geometry: stalls, lanes by direction, and obstacles.
 """
 # Over 300 lines: what is proven of a garage is declared beside what proves it.
 
@@ -31,44 +31,43 @@ _FURTHER_OUT_M = (0.0, 0.1, 0.2, 0.3)
 
 
 class Nose(StrEnum):
-    """How a car stands in its stall."""
+    """Orientation of a parked car: nose in or nose out."""
 
     IN = "in"
     OUT = "out"
 
     @property
     def turn_rad(self) -> float:
-        """From a stall's yaw to the car's."""
+        """Turn from a stall's yaw to the yaw of the parked car."""
         return 0.0 if self is Nose.IN else math.pi
 
 
 @dataclass(frozen=True, slots=True)
 class StallProof:
-    """How a car gets into a stall and out of it, or why it does not.
+    """Proof that a car can drive into a stall and out of it, or the obstacles that prevent it.
 
     Attributes
     ----------
     stall
         Name of the stall.
     nose
-        How the car stands in it; None where nothing was proven.
+        Nose in or nose out; None without a proof.
     way_in, way_out
-        From a lane pose that cars come to from an entrance, and to one that leads on to an exit.
+        Manoeuvres from a lane pose reachable from an entrance, and to one that leads to an exit.
     is_full
-        Whether the ways are clear with a car in every other stall, not only with those that stand there.
+        True if the manoeuvres are collision-free with a car in every other stall, not only with the parked cars.
     backs_out
-        Whether the way out ends on a dead-end aisle of at most 26 m with the nose to its end, to be backed out of.
+        True if the manoeuvre out ends nose first in a dead-end aisle of at most 26 m, to be backed out of.
     touched
-        Where nothing was proven: names of the objects of which each alone is in the way, so that without it there
-        were ways, in the order of the obstacles, cars last; where no single one is, of those that were
-        touched most often.
+        Without a proof: names of the objects that each block the stall alone, in the order of the obstacles, cars last.
+        If there is no such object, the names of the objects touched most often.
     is_single_cause
-        Whether `touched` are such.
+        True if each object of `touched` blocks the stall alone.
     is_undecided
-        Whether a search ended at its bound where nothing was proven: there may be ways nevertheless.
+        True if there is no proof because a search reached its bound: manoeuvres may exist.
     clearance_m
-        What is left between the car and the first of those causes on ways that are clear of all else, negative where
-        the car would go through it: a lower bound.
+        Lower bound of the clearance between the car and the first such object, on manoeuvres clear of all others;
+        negative if the car would intersect it.
     """
 
     stall: str
@@ -84,12 +83,12 @@ class StallProof:
 
     @property
     def is_proven(self) -> bool:
-        """Whether there are both ways."""
+        """True if both manoeuvres were found."""
         return self.way_in is not None and self.way_out is not None
 
     @property
     def outcome(self) -> Outcome:
-        """Reached, impossible at the search's resolution, or undecided: a search ended at its bound."""
+        """Outcome: reached, impossible at the search's resolution, or undecided because a search reached its bound."""
         if self.is_proven:
             return Outcome.REACHED
         return Outcome.UNDECIDED if self.is_undecided else Outcome.IMPOSSIBLE
@@ -97,21 +96,20 @@ class StallProof:
 
 @dataclass(frozen=True, eq=False)
 class DrivenGarage:
-    """A garage as far as a car drives in it.
+    """A garage for driving.
 
     Attributes
     ----------
     stalls
-        Those that take cars.
+        Stalls that take cars.
     lanes
-        Its lanes.
+        Lane graph.
     standing
-        What a car could touch, the parked cars included.
+        Obstacles, including the parked cars.
     taken
-        Names of the stalls in which cars stand.
+        Names of the stalls with a parked car.
     own
-        For the name of a stall, names of obstacles that are not in the way of a car that parks there: its car, wheel
-        stop and cones.
+        Names of a stall's own obstacles, ignored by a car that parks there: its car, wheel stop and cones.
     """
 
     stalls: tuple[Stall, ...]
@@ -122,20 +120,20 @@ class DrivenGarage:
 
     @cached_property
     def backing(self) -> frozenset[Arc]:
-        """Arcs into dead ends that cars may back out of."""
+        """Arcs into dead-end aisles that cars may back out of."""
         return self.lanes.into_dead_ends(DEAD_END_LIMIT_M)
 
     def near(self, node: int) -> list[Arc]:
-        """The arcs at most two edges from a node, the nearest first."""
+        """Return the arcs at most two edges from a lane node, the nearest first."""
         return self.lanes.near(node, _NEAR_EDGES)
 
     def unseen(self, stall: Stall) -> tuple[str, ...]:
-        """Names of what is not in the way of a car that parks in a stall: its belongings, and the car assumed there."""
+        """Return the obstacles ignored by a car that parks in a stall: the stall's own, and its assumed car; names."""
         own = self.own.get(stall.name, ())
         return own if stall.name in self.taken else (*own, _absent(stall))
 
     def absent_cars(self, car: DesignCar) -> Obstacles:
-        """A car in the middle of each stall that holds none."""
+        """Return a car in the middle of each empty stall as obstacles."""
         empty = [stall for stall in self.stalls if stall.name not in self.taken]
         corners = [car.corners(car.centred(middle_of(stall), stall.yaw_rad)) for stall in empty]
         grounds = shapely.polygons(np.array(corners).reshape(-1, 4, 2))
@@ -143,7 +141,7 @@ class DrivenGarage:
 
 
 def middle_of(stall: Stall) -> Point:
-    """(x, z) of the middle of a stall, to a tenth of a millimetre, as single precision keeps it."""
+    """Return (x, z) of the middle of a stall, rounded to 0.1 mm, which single precision preserves."""
     x, z = stall.centre
     return round(x, _DIGITS), round(z, _DIGITS)
 
@@ -162,22 +160,22 @@ def prove_garage(
     most_explained: int | None = None,
     progress: Progress = silent,
 ) -> tuple[StallProof, ...]:
-    """Drive a car into each stall and out again.
+    """Prove for each stall of a garage that a car can drive in and out.
 
     Parameters
     ----------
     garage
         The garage.
     stalls
-        Those of its stalls that are asked for; left out, all.
+        Stalls to prove; the default is all.
     car, limits
-        The car, and what is asked of its driver.
+        The car, and the limits of its manoeuvres.
     with_all_taken_only
-        Whether ways that are clear only while other stalls are free do not count.
+        True to reject manoeuvres that need other stalls to be empty.
     most_explained
-        For how many stalls without ways a single cause is looked for; None for all.
+        Number of stalls without manoeuvres for which a single cause is sought; None for all.
     progress
-        Told of each stall.
+        Function called for each stall.
 
     Returns
     -------
@@ -186,9 +184,9 @@ def prove_garage(
 
     Notes
     -----
-    Each other stall holds the car that stands there or else `car` in its middle; where no ways are found, the same is
-    tried with only the cars that stand there. Nose in goes before nose out, and driving on before backing out of a
-    dead end.
+    Each other stall holds its parked car, or else `car` in its middle. If no manoeuvres are found, the search is
+    repeated with the parked cars only. Nose in is tried before nose out, and driving on before backing out of a dead
+    end.
     """
     prover = _Prover(garage, car or DesignCar(), limits or Limits())
     asked = garage.stalls if stalls is None else tuple(stalls)
@@ -204,7 +202,7 @@ def prove_garage(
 
 
 class _Prover:
-    """What the proofs of one garage share."""
+    """Prover of a garage's stalls, with shared caches."""
 
     def __init__(self, garage: DrivenGarage, car: DesignCar, limits: Limits) -> None:
         self.car, self.limits = car, limits
@@ -214,7 +212,7 @@ class _Prover:
         self.poses_at = lru_cache(maxsize=None)(self._poses_at)
 
     def _poses_at(self, node: int, *, to_leave: bool, backing: bool) -> tuple[list[LanePose], list[LanePose]]:
-        """Lane poses near a node: those that serve both ways, and those that serve the asked one alone."""
+        """Return the lane poses near a node: those for both manoeuvres, and those for the requested one."""
         lanes = self.garage.lanes
         arriving = lanes.arriving
         leaving = lanes.leaving | (self.garage.backing if backing else frozenset())
@@ -226,7 +224,7 @@ class _Prover:
         return poses(arriving & leaving), poses(leaving if to_leave else arriving)
 
     def proof_of(self, stall: Stall, *, with_all_taken_only: bool) -> StallProof:
-        """The ways of one stall, or what was touched."""
+        """Prove one stall; without a proof, report the objects touched."""
         by_steps = self._proof_by(find_way_by_steps, stall, with_all_taken_only=with_all_taken_only)
         if by_steps.is_proven or not self.limits.is_thorough:
             return by_steps
@@ -254,7 +252,7 @@ class _Prover:
         return StallProof(stall.name, touched=tuple(dict.fromkeys(touched)), is_undecided=is_undecided)
 
     def explained(self, stall: Stall, proof: StallProof) -> StallProof:
-        """The failed proof of a stall with what alone is in the way, if there is such a thing."""
+        """Add to the failed proof of a stall the objects that block it alone, if any."""
         full, suspects = self._seen_from(stall, self.full), proof.touched
         without = {name: self._ways_without(stall, name, full) for name in suspects[:_SUSPECTS]}
         causes = tuple(sorted((name for name, ways in without.items() if ways), key=self.full.names.index))
@@ -265,7 +263,7 @@ class _Prover:
         return replace(proof, touched=causes, is_single_cause=True, clearance_m=clearance_m)
 
     def _has_backing(self, stall: Stall) -> bool:
-        """Whether backing out of a dead end gives more lane poses near a stall."""
+        """Return True if backing out of a dead end adds lane poses near a stall."""
         forward, backing = (self.poses_at(stall.access, to_leave=True, backing=backing)[1] for backing in (False, True))
         return len(backing) > len(forward)
 
@@ -274,7 +272,7 @@ class _Prover:
         return near.without(self.garage.unseen(stall))
 
     def _ways_without(self, stall: Stall, name: str, obstacles: Obstacles) -> tuple[Manoeuvre, ...]:
-        """The ways in and out where one thing is left out, looked for roughly; none if there are not both."""
+        """Search both manoeuvres coarsely with one obstacle removed; empty if either is missing."""
         limits = replace(self.limits, is_thorough=False)
         for nose in Nose:
             ways = self._ways(stall, nose, obstacles.without([name]), limits, backing=True, find=find_way_by_steps)
@@ -283,7 +281,7 @@ class _Prover:
         return ()
 
     def _parked(self, stall: Stall, nose: Nose, obstacles: Obstacles) -> Pose:
-        """In the middle of the stall, or as little further out as keeps the car off what stands behind."""
+        """Return the parked pose in the middle of the stall, moved out as little as obstacles behind require."""
         (x, z), yaw_rad = middle_of(stall), stall.yaw_rad
         sin, cos = math.sin(yaw_rad), math.cos(yaw_rad)
         poses = [
@@ -295,7 +293,7 @@ class _Prover:
     def _ways(
         self, stall: Stall, nose: Nose, obstacles: Obstacles, limits: Limits, *, backing: bool, find: Find
     ) -> "_Ways":
-        """The way in and the way out; where one is missing, what was touched, and whether a search was undecided."""
+        """Search the manoeuvres into and out of a stall."""
         parked = self._parked(stall, nose, obstacles)
 
         def way(poses: list[LanePose]) -> Search:
@@ -323,7 +321,7 @@ class _Prover:
 
 @dataclass(frozen=True, slots=True)
 class _Ways:
-    """A way into a stall and out of it; where one is missing, what was touched, and whether a search was undecided."""
+    """Manoeuvres into and out of a stall; if one is missing, also the touched objects and the search outcome."""
 
     into: Manoeuvre | None
     out: Manoeuvre | None

@@ -1,4 +1,4 @@
-"""The lane poses that a way to a stall begins at, and that a way out of it ends at."""
+"""Lane poses at which manoeuvres into a stall begin and manoeuvres out of it end."""
 
 import math
 from collections.abc import Iterable
@@ -16,13 +16,13 @@ _ASKEW_RAD, _SAME_RAD = 1e-4, 1e-9
 
 
 def lane_poses(lanes: LaneGraph, arcs: Iterable[Arc], car: DesignCar) -> list[LanePose]:
-    """Where a car may be in line with some arcs, its middle on the arc and its body within the carriageway."""
+    """Return the poses of a car in line with lane arcs, its middle on the arc and its body within the carriageway."""
     poses = (_pose(lanes, arc, car) for arc in arcs)
     return [pose for pose in poses if pose is not None and min(pose.length_m, pose.width_m) >= 0]
 
 
 def _pose(lanes: LaneGraph, arc: Arc, car: DesignCar) -> LanePose | None:
-    """Along the middle line, and as far as the car stays on the ground of both nodes."""
+    """Return the lane pose along an arc's centre line, as far as the car stays on the ground of both nodes."""
     start, end = (lanes.nodes[number] for number in arc)
     way = end.position[0] - start.position[0], end.position[1] - start.position[1]
     length = math.hypot(*way)
@@ -37,7 +37,7 @@ def _pose(lanes: LaneGraph, arc: Arc, car: DesignCar) -> LanePose | None:
 
 
 def families(poses: Iterable[LanePose]) -> list[list[LanePose]]:
-    """Poses whose directions differ by quarter turns, but for rounding, together; their directions then do exactly."""
+    """Group lane poses whose directions differ by quarter turns, and round those differences to exact quarter turns."""
     families: list[list[LanePose]] = []
     for pose in poses:
         for family in families:
@@ -54,5 +54,5 @@ def families(poses: Iterable[LanePose]) -> list[list[LanePose]]:
 
 
 def _yaw_rad(along: Point) -> float:
-    """Yaw of a direction; without the sign of zeros, so that a direction has one yaw."""
+    """Return the yaw of a direction, with negative zeros removed so that the yaw is unique."""
     return math.atan2(-along[0] + 0.0, -along[1] + 0.0)

@@ -1,4 +1,4 @@
-"""Smooth paths over lanes between a way into a stall or out of it and the portals: A* over the places of a roadmap."""
+"""Smooth paths over lanes between a stall's manoeuvre and the portals: A* over the poses of a roadmap."""
 
 import heapq
 import math
@@ -15,14 +15,14 @@ from garage2usd.garage import Arc
 __all__ = ["path_from_entrance", "path_to_exit"]
 
 _ASIDE_COST_M, _EDGE_COST_M = 2.0, 3.0
-"""What a place beside the middle costs, and each further edge between two, so that paths keep to the middle lines."""
+"""Cost in metres of a spot off the lane's centre line, and of each further edge, so that paths keep to centre lines."""
 
 _Place = Spot | int | None
-"""A spot, a portal by its square, or the pose at which a search begins."""
+"""Node of the A* search: a spot, a portal by its square, or the start pose."""
 
 
 def path_to_exit(roadmap: Roadmap, start: Pose, exits: Sequence[Portal], grain: Grain) -> tuple[Path, Portal] | None:
-    """The shortest path found from a pose in line with a lane to where a car stands after one of some exits."""
+    """Return the shortest path found from a pose in line with a lane to the pose outside one of some exits."""
     edges = roadmap.edges_at(start, roadmap.lanes.leaving)
     return _Growth(roadmap, start, exits, grain, is_back=False).grown(edges)
 
@@ -30,25 +30,25 @@ def path_to_exit(roadmap: Roadmap, start: Pose, exits: Sequence[Portal], grain: 
 def path_from_entrance(
     roadmap: Roadmap, end: Pose, entrances: Sequence[Portal], grain: Grain
 ) -> tuple[Path, Portal] | None:
-    """The shortest path found to a pose in line with a lane from where a car stands before one of some entrances."""
+    """Return the shortest path found from the pose outside one of some entrances to a pose in line with a lane."""
     edges = roadmap.edges_at(end, roadmap.lanes.arriving)
     return _Growth(roadmap, end, entrances, grain, is_back=True).grown(edges)
 
 
 @dataclass(order=True, slots=True)
 class _Candidate:
-    """A piece of road that may be driven next.
+    """A candidate edge in the queue of the A* search over lanes.
 
     Attributes
     ----------
     estimate_m
-        Way from the root over it to the nearest portal, at least.
+        Lower bound of the path from the root through the candidate to the nearest portal.
     number
-        Which one it is.
+        Sequence number.
     target, origin
-        Where it leads, and from where.
+        Places at its end and start.
     driven_m
-        Way until its target.
+        Length of the path up to its target.
     """
 
     estimate_m: float
@@ -59,7 +59,7 @@ class _Candidate:
 
 
 class _Growth:
-    """An A* from a pose at a stall to a portal, or back to one; a piece of road is looked at when its turn comes."""
+    """A* search between a pose at a stall and a portal; collisions are tested only when a node is expanded."""
 
     def __init__(self, roadmap: Roadmap, root: Pose, portals: Sequence[Portal], grain: Grain, *, is_back: bool) -> None:
         self._roadmap, self._grain, self._is_back = roadmap, grain, is_back
@@ -70,7 +70,7 @@ class _Growth:
         self._numbers = count()
 
     def grown(self, edges: Iterable[Arc]) -> tuple[Path, Portal] | None:
-        """The path, and the portal that it begins or ends at."""
+        """Run the search; return the path and the portal at its end or start."""
         self._done[None] = ()
         self._grow_from(None, edges, 0.0)
         while self._waiting:
@@ -91,7 +91,7 @@ class _Growth:
         return None
 
     def _pieces(self, candidate: _Candidate) -> tuple[Piece, ...] | None:
-        """What is driven between the root and a target; None if the last of it is not clear."""
+        """Return the path from the root to a candidate's target; None if its last part collides."""
         there = self._done[candidate.origin]
         ends = self._poses[candidate.origin], self._poses[candidate.target]
         pieces = self._roadmap.joined(*(reversed(ends) if self._is_back else ends))
@@ -118,7 +118,7 @@ class _Growth:
                     self._offer(spot, origin, over_m, walk[:-1])
 
     def _offer(self, target: "_Place", origin: "_Place", driven_m: float, over: Sequence[Arc] = ()) -> None:
-        """Wait for a target, over edges all of which are driven whole."""
+        """Queue a candidate path to a target over lane edges that are driven in full."""
         if target in self._done:
             return
         driven_m += max(_apart_m(self._poses[origin], self._poses[target]), self._over_m(origin, target, over))
@@ -127,7 +127,7 @@ class _Growth:
         heapq.heappush(self._waiting, _Candidate(estimate_m, next(self._numbers), target, origin, driven_m))
 
     def _over_m(self, origin: "_Place", target: "_Place", over: Sequence[Arc]) -> float:
-        """Way along the middle lines, from turn to turn."""
+        """Return the length along the lanes' centre lines, from turn to turn."""
         turns = [self._roadmap.middle_m(edge[0 if self._is_back else 1]) for edge in over]
         ends = [(pose.x_m, pose.z_m) for pose in (self._poses[origin], self._poses[target])]
         return sum(math.dist(one, other) for one, other in pairwise([ends[0], *turns, ends[1]]))

@@ -1,4 +1,4 @@
-"""A layout and its lane graph as a garage that is driven in."""
+"""A layout and its lane graph as a garage for driving: proofs of stalls, unreachable stalls, and clutter."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
@@ -29,7 +29,7 @@ __all__ = [
 ]
 
 _CLEAR_M = 0.1
-"""What clutter leaves beside proven ways: the margin of the proof and as much again."""
+"""Distance in metres between clutter and proven manoeuvres: twice the margin of the proof."""
 _STEP_M = 0.25
 
 
@@ -42,7 +42,7 @@ def prove_stalls(
     most_explained: int | None = None,
     progress: Progress = silent,
 ) -> tuple[StallProof, ...]:
-    """Drive a car into each stall of a layout that takes one and out again.
+    """Prove for each stall of a layout that a car can drive in and out.
 
     Parameters
     ----------
@@ -63,19 +63,19 @@ def prove_stalls(
 def without_unreachable(
     layout: Layout, graph: LaneSquares, config: GarageConfig, *, progress: Progress = silent
 ) -> Layout:
-    """The layout anew, with the stalls marked or left out that cars do not get into and out of.
+    """Repeat the layout with unreachable stalls marked or removed.
 
     Parameters
     ----------
     layout, graph, config
-        The garage, and whether ``plan.unreachable_stalls`` marks them or leaves them out.
+        The garage; ``plan.unreachable_stalls`` selects marking or removal.
     progress
         As for `garage2usd.driving.prove_garage`.
 
     Raises
     ------
     ConfigError
-        If none is left, or the configuration names a stall that is left out.
+        If no stall is left, or the configuration names a removed stall.
     """
     unreachable: set[str] = set()
     undecided: set[str] = set()
@@ -99,7 +99,7 @@ def without_unreachable(
 def with_truth_of_misparked(
     layout: Layout, graph: LaneSquares, config: GarageConfig, *, progress: Progress = silent
 ) -> Layout:
-    """The layout with what is proven of the stalls that cars reach into from the next stall.
+    """Return the layout with proven reachability of the stalls next to misparked cars.
 
     Parameters
     ----------
@@ -111,8 +111,8 @@ def with_truth_of_misparked(
     Returns
     -------
     Layout
-        Where the design car does not get in while all other stalls are taken, a car that stands a little over its line
-        stands between its lines instead; where it does not get in beside a misparked car, the stall is `blocked`.
+        If the design car cannot drive into a stall while all others are taken, cars that slightly overhang its lines
+        are moved between their own lines. A stall that stays unreachable beside a misparked car is `blocked`.
     """
     held_back: set[str] = set()
     while layout.reaching:
@@ -132,7 +132,7 @@ def with_truth_of_misparked(
 
 
 def _with_cars_between_lines(config: GarageConfig) -> GarageConfig:
-    """The same settings, but that no car stands over a line."""
+    """Return the configuration without parked cars that overhang a line."""
     parking = config.parking
     if not (parking.over_line or parking.misparked):
         return config
@@ -147,20 +147,20 @@ def with_clutter(
     cars: Iterable[DesignCar] = (DesignCar(),),
     progress: Progress = silent,
 ) -> Layout:
-    """The layout anew with the people and things that stand about, none of them on a proven way.
+    """Repeat the layout with people and clutter, none of them on a proven manoeuvre.
 
     Parameters
     ----------
     layout, graph, config
-        The garage without them, and how many of them there are.
+        The garage without clutter, and the amount of clutter.
     cars
-        The cars whose ways are kept clear.
+        The cars whose manoeuvres are kept clear.
     progress
         As for `garage2usd.driving.prove_garage`.
 
     Notes
     -----
-    What the ways of all proven stalls sweep is kept clear with a margin, so that these ways stay clear.
+    The swept paths of all proven stalls are kept clear with a margin, so that the proofs remain valid.
     """
     swept: dict[str, list[shapely.Geometry]] = {}
     for car in dict.fromkeys(cars):
@@ -188,7 +188,7 @@ def with_clutter(
 
 
 def _swept(way: Manoeuvre, car: DesignCar) -> Grounds:
-    """What a car sweeps on a way, in convex pieces from each pose to the next."""
+    """Return a car's swept path along a manoeuvre as one convex hull per step."""
     poses, _ = way.poses(_STEP_M)
     corners = np.array([car.corners(Pose(*pose)) for pose in poses.tolist()])
     pairs = np.concatenate([corners[:-1], corners[1:]], axis=1)
@@ -197,12 +197,12 @@ def _swept(way: Manoeuvre, car: DesignCar) -> Grounds:
 
 
 def layout_garage(layout: Layout, graph: LaneSquares) -> DrivenGarage:
-    """The stalls that take cars, the lanes, and what stands on the floor, each by its `object_name`."""
+    """Convert a layout to a garage for driving: stalls that take cars, lanes, and obstacles by `object_name`."""
     return assembled(garage_stalls(layout.stalls, graph), graph.lanes, _standing(layout))
 
 
 def object_name(place: Placement) -> str:
-    """A name that no other object of the garage has: ``r03_c07/Car_2`` on a square, else its own."""
+    """Return the unique name of an object in a layout: ``r03_c07/Car_2`` on a square, else its own."""
     if place.square is None:
         return place.name
     row, col = place.square
@@ -210,12 +210,12 @@ def object_name(place: Placement) -> str:
 
 
 def _standing(layout: Layout) -> Iterator[StandingThing]:
-    """Everything that a car could touch.
+    """Return all obstacles of a layout.
 
     Notes
     -----
-    Wheel stops count, as no tyre goes over them; the arms of all gates are down; speed bumps do not count, nor does
-    what hangs over the cars or is painted.
+    Wheel stops are included, since no tyre crosses them; the arms of gates are down. Speed bumps, overhead objects and
+    paint are not included.
     """
     objects = layout.placements
     is_touched = np.array([bool(spec.outlines()) for spec in objects.specs])

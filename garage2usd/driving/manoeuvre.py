@@ -1,4 +1,4 @@
-"""A way that a car drives: arcs and straights with their gears, from one pose to another."""
+"""A parking manoeuvre: arcs and straights with their gears, from one pose of the car to another."""
 
 import math
 from collections.abc import Iterator
@@ -16,34 +16,34 @@ __all__ = ["Gear", "Manoeuvre", "Move", "Waypoint"]
 
 
 class Gear(StrEnum):
-    """Which way a car drives."""
+    """Gear of the car: forward or reverse."""
 
     FORWARD = "forward"
     REVERSE = "reverse"
 
     @property
     def sign(self) -> int:
-        """1 forward, -1 in reverse."""
+        """1 for forward, -1 for reverse."""
         return 1 if self is Gear.FORWARD else -1
 
     @property
     def other(self) -> "Gear":
-        """The opposite one."""
+        """The opposite gear."""
         return Gear.REVERSE if self is Gear.FORWARD else Gear.FORWARD
 
 
 @dataclass(frozen=True, slots=True)
 class Move:
-    """One arc or straight.
+    """One arc or straight of a manoeuvre.
 
     Attributes
     ----------
     gear
-        Which way.
+        Gear of the car.
     curvature_per_m
-        Of the rear axle's way, positive to the driver's left; 0 on a straight.
+        Curvature of the rear axle's path, positive to the driver's left; 0 on a straight.
     length_m
-        Of the rear axle's way, positive in both gears.
+        Length of the rear axle's path, positive in both gears.
     """
 
     gear: Gear
@@ -53,16 +53,16 @@ class Move:
 
 @dataclass(frozen=True, slots=True)
 class Waypoint:
-    """A pose on the way, with how the car comes on from there.
+    """A pose along a manoeuvre, with the gear and curvature that follow.
 
     Attributes
     ----------
     pose
-        Where the car is.
+        Pose of the car.
     arc_m
-        Way of the rear axle's middle since the start.
+        Distance driven since the start, of the rear axle's middle.
     gear, curvature_per_m
-        Of the move that the pose lies on; of the last one at the end.
+        Gear and curvature of the move at the pose; at the end, of the last move.
     """
 
     pose: Pose
@@ -73,16 +73,16 @@ class Waypoint:
 
 @dataclass(frozen=True, slots=True)
 class Manoeuvre:
-    """A way without a touch.
+    """A collision-free parking manoeuvre.
 
     Attributes
     ----------
     start
-        Where it begins.
+        First pose of the car.
     moves
-        What is driven, in order.
+        Arcs and straights, in order.
     clearance_m
-        What is left at least between the car's body and everything else on the whole way: a lower bound.
+        Lower bound of the distance between the car's body and all obstacles along the manoeuvre.
     """
 
     start: Pose
@@ -91,7 +91,7 @@ class Manoeuvre:
 
     @property
     def end(self) -> Pose:
-        """Where it ends."""
+        """Last pose of the manoeuvre."""
         pose = self.start
         for move in self.moves:
             pose = pose.moved(move.gear.sign * move.length_m, move.curvature_per_m)
@@ -99,21 +99,21 @@ class Manoeuvre:
 
     @property
     def length_m(self) -> float:
-        """Way of the rear axle's middle."""
+        """Length of the path of the rear axle's middle in metres."""
         return sum(move.length_m for move in self.moves)
 
     @property
     def gear_changes(self) -> int:
-        """How often the car stops to go the other way."""
+        """Number of gear changes in the manoeuvre."""
         return sum(one.gear is not other.gear for one, other in pairwise(self.moves))
 
     def reversed(self) -> "Manoeuvre":
-        """The same way backwards in time: from its end to its start, over the same ground."""
+        """Return the manoeuvre backwards in time: from its end to its start, over the same ground."""
         moves = (Move(move.gear.other, move.curvature_per_m, move.length_m) for move in reversed(self.moves))
         return Manoeuvre(self.end, tuple(moves), self.clearance_m)
 
     def waypoints(self, step_m: float = 0.25) -> Iterator[Waypoint]:
-        """Poses at most `step_m` apart along the way, with those at the ends of each move; the last is the end."""
+        """Return poses at most `step_m` apart along the manoeuvre, including the ends of each move."""
         pose, driven = self.start, 0.0
         for move in self.moves:
             count = _steps(move, step_m)
@@ -127,12 +127,12 @@ class Manoeuvre:
             yield Waypoint(pose, driven, self.moves[-1].gear, self.moves[-1].curvature_per_m)
 
     def poses(self, step_m: float) -> tuple[Floats, NDArray[np.int64]]:
-        """The poses of `waypoints` as an array, for a way that has moves.
+        """Return the poses of `waypoints` as an array, for a manoeuvre with at least one move.
 
         Returns
         -------
         tuple
-            x, z and yaw of each, shape (n + 1, 3), and the number of the move that each but the last lies on.
+            x, z and yaw of each pose, shape (n + 1, 3), and the number of the move at each pose but the last.
         """
         starts = [self.start]
         for move in self.moves:
@@ -155,5 +155,5 @@ class Manoeuvre:
 
 
 def _steps(move: Move, step_m: float) -> int:
-    """In how many steps of at most a length a move is driven."""
+    """Return the number of steps of at most a given length that divide a move."""
     return max(math.ceil(move.length_m / step_m - 1e-9), 1)

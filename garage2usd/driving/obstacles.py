@@ -1,4 +1,4 @@
-"""What a car must not touch, as named convex pieces in arrays."""
+"""Obstacles to a car, as named convex polygons in arrays."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -19,16 +19,16 @@ _ROUNDING_M2 = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Obstacles:
-    """Named shapes on the floor, cut into convex pieces of at most four corners.
+    """Named obstacles on the floor, cut into convex pieces of at most four corners.
 
     Attributes
     ----------
     names
-        One for each shape, all different.
+        One name per obstacle, all different.
     owner
-        Number of the name that each piece belongs to; shape (pieces,).
+        Index of the name of each piece; shape (pieces,).
     pieces
-        Corners (x, z) of each piece in order, the last repeated where there are fewer than four; shape (pieces, 4, 2).
+        Corners (x, z) of each piece in order, the last repeated if there are fewer than four; shape (pieces, 4, 2).
     """
 
     names: tuple[str, ...]
@@ -37,11 +37,11 @@ class Obstacles:
 
     @classmethod
     def of(cls, shapes: Iterable[tuple[str, shapely.Geometry]]) -> "Obstacles":
-        """Cut shapes in (x, z), metres, into pieces: polygons, lines as their segments, points.
+        """Cut shapes in (x, z), metres, into convex pieces: polygons, lines as their segments, and points.
 
         Notes
         -----
-        A hole in a polygon stays one. Empty shapes keep their name and have no piece.
+        Holes of polygons are kept. An empty shape keeps its name and has no piece.
         """
         named = list(shapes)
         parts, owner = shapely.get_parts(np.array([shape for _, shape in named], dtype=object), return_index=True)
@@ -50,30 +50,30 @@ class Obstacles:
 
     @cached_property
     def boxes(self) -> Floats:
-        """Left, top, right and bottom of each piece; shape (pieces, 4)."""
+        """Left, top, right and bottom of each obstacle piece; shape (pieces, 4)."""
         return np.concatenate([self.pieces.min(axis=1), self.pieces.max(axis=1)], axis=1)
 
     def met_by(self, car: DesignCar) -> Scene:
-        """The pieces as a car meets them."""
+        """Return the obstacles as the scene of a car's sweep test."""
         return Scene(self.pieces, self.boxes, np.array([car.ahead_m, car.rear_overhang_m, car.width_m / 2]))
 
     def named(self, pieces: Iterable[int]) -> tuple[str, ...]:
-        """Names of what some pieces belong to, each once, in order."""
+        """Return the distinct names of the obstacles of some pieces, in order."""
         return tuple(dict.fromkeys(self.names[self.owner[piece]] for piece in pieces))
 
     def near(self, point: tuple[float, float], reach_m: float) -> "Obstacles":
-        """Those of the pieces that come within a square around a point."""
+        """Return the obstacle pieces that overlap a square around a point."""
         x, z = point
         left, top, right, bottom = self.boxes.T
         is_near = (left < x + reach_m) & (right > x - reach_m) & (top < z + reach_m) & (bottom > z - reach_m)
         return self.kept(is_near)
 
     def without(self, names: Iterable[str]) -> "Obstacles":
-        """The same but for some names."""
+        """Return the obstacles except those of some names."""
         return self.kept(~self._is_of(names))
 
     def only(self, *names: str) -> "Obstacles":
-        """Nothing but some names."""
+        """Return the obstacles of some names."""
         return self.kept(self._is_of(names))
 
     def _is_of(self, names: Iterable[str]) -> NDArray[np.bool_]:
@@ -83,23 +83,23 @@ class Obstacles:
         )
 
     def kept(self, is_kept: NDArray[np.bool_]) -> "Obstacles":
-        """Some of the pieces, with all names."""
+        """Return some of the obstacle pieces, with all names."""
         return Obstacles(self.names, self.owner[is_kept], self.pieces[is_kept])
 
     def joined(self, others: "Obstacles") -> "Obstacles":
-        """These and others."""
+        """Return the union of these and other obstacles."""
         owner = np.concatenate([self.owner, others.owner + len(self.names)])
         return Obstacles(self.names + others.names, owner, np.concatenate([self.pieces, others.pieces]))
 
     def seen_from(self, x_m: float, z_m: float, yaw_rad: float) -> "Obstacles":
-        """The same in the frame with its origin in a point and its axes turned by a yaw about +Y."""
+        """Transform the obstacles into a frame with its origin at a point and its axes turned by a yaw about +Y."""
         cos, sin = np.cos(yaw_rad), np.sin(yaw_rad)
         x, z = self.pieces[..., 0] - x_m, self.pieces[..., 1] - z_m
         return Obstacles(self.names, self.owner, np.stack([x * cos - z * sin, x * sin + z * cos], axis=-1))
 
 
 def _convex(parts: NDArray[np.object_]) -> tuple[NDArray[np.int64], Floats]:
-    """Shapes of one part each in convex pieces: the number of the shape of each, shape (pieces,), and its corners."""
+    """Decompose single-part shapes; return the shape number of each convex piece, shape (pieces,), and its corners."""
     kinds, counts = shapely.get_type_id(parts), shapely.get_num_coordinates(parts)
     are_areas = (kinds == shapely.GeometryType.POLYGON) & (counts > 0)
     are_convex = are_areas & (shapely.area(shapely.convex_hull(parts)) - shapely.area(parts) <= _ROUNDING_M2)
@@ -126,5 +126,5 @@ def _convex(parts: NDArray[np.object_]) -> tuple[NDArray[np.int64], Floats]:
 
 
 def _padded(corners: Floats) -> Floats:
-    """Corners of pieces, shape (n, up to 4, 2), the last repeated where there are fewer than four."""
+    """Pad the corners of pieces, shape (n, up to 4, 2), to four by repeating the last."""
     return np.concatenate([corners, np.repeat(corners[:, -1:], _CORNERS - corners.shape[1], axis=1)], axis=1)

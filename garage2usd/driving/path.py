@@ -1,4 +1,4 @@
-"""A path of the rear axle's middle: pieces whose curvature changes steadily, so clothoids, arcs and straights."""
+"""A smooth path of the rear axle's middle: clothoids, arcs and straights, whose curvature changes linearly."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -16,25 +16,25 @@ __all__ = ["GAUSS", "WEIGHTS", "Path", "PathPoints", "Piece"]
 
 Floats = NDArray[np.float64]
 GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(12)  # type: ignore[no-untyped-call]
-"""Places from -1 to 1, and weights, of a quadrature that is exact but for rounding on the pieces of paths."""
+"""Nodes on [-1, 1] and weights of a Gauss quadrature, exact to rounding on the pieces of paths."""
 _STEP_M = 0.1
-"""Between the poses at which a path's clearance is looked at."""
+"""Distance in metres between the poses at which the clearance of a path is evaluated."""
 
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A clothoid; with equal curvatures an arc, with none a straight.
+    """A piece of a path: a clothoid, an arc if its curvatures are equal, or a straight if they are 0.
 
     Attributes
     ----------
     gear
-        Which way it is driven.
+        Gear of the car.
     length_m
-        Of the rear axle's way, positive in both gears.
+        Length of the rear axle's path, positive in both gears.
     start_per_m, end_per_m
         Curvature at its ends, positive to the driver's left in both gears.
     is_parking
-        Whether it is a part of the way between aisle and stall.
+        True if the piece belongs to the manoeuvre between aisle and stall.
     """
 
     gear: Gear
@@ -44,7 +44,7 @@ class Piece:
     is_parking: bool = False
 
     def reversed(self) -> "Piece":
-        """The same ground backwards in time."""
+        """Return the piece backwards in time, over the same ground."""
         return Piece(self.gear.other, self.length_m, self.end_per_m, self.start_per_m, self.is_parking)
 
 
@@ -57,7 +57,7 @@ class PathPoints:
     x_m, z_m, yaw_rad
         Pose of the rear axle; the yaw is continuous along the path.
     curvature_per_m
-        Of the path there; of the later piece where two pieces meet.
+        Curvature of the path; where two pieces meet, of the later one.
     """
 
     x_m: Floats
@@ -68,14 +68,14 @@ class PathPoints:
 
 @dataclass(frozen=True)
 class Path:
-    """Pieces one after another; a pose follows from the start and the pieces alone, so that there are no jumps of pose.
+    """A path of consecutive pieces; poses are integrated from the start, so that they have no jumps.
 
     Attributes
     ----------
     start
-        Where it begins.
+        First pose.
     pieces
-        What is driven, in order.
+        Clothoids, arcs and straights, in order.
     """
 
     start: Pose
@@ -83,7 +83,7 @@ class Path:
 
     @classmethod
     def of_way(cls, way: Manoeuvre) -> "Path":
-        """A proven way between a lane and a stall."""
+        """Convert a proven manoeuvre between a lane and a stall to a path."""
         return cls(
             way.start,
             tuple(
@@ -94,29 +94,29 @@ class Path:
 
     @cached_property
     def length_m(self) -> float:
-        """Way of the rear axle's middle."""
+        """Length of the path of the rear axle's middle in metres."""
         return float(self._ends[-1])
 
     @property
     def end(self) -> Pose:
-        """Where it ends."""
+        """Last pose of the path."""
         return self.pose_at(self.length_m)
 
     def pose_at(self, arc_m: float) -> Pose:
-        """The pose after a way."""
+        """Return the pose at a distance along the path."""
         at = self.at([arc_m])
         return Pose(float(at.x_m[0]), float(at.z_m[0]), float(at.yaw_rad[0]))
 
     def then(self, pieces: Iterable[Piece]) -> "Path":
-        """The path with pieces after it."""
+        """Return the path with further pieces appended."""
         return Path(self.start, (*self.pieces, *pieces))
 
     def reversed(self) -> "Path":
-        """The same ground backwards in time."""
+        """Return the path backwards in time, over the same ground."""
         return Path(self.end, tuple(piece.reversed() for piece in reversed(self.pieces)))
 
     def at(self, arc_m: ArrayLike) -> PathPoints:
-        """Points after ways from the start, shape (n,), in any order; exact but for rounding."""
+        """Evaluate points at distances from the path's start, shape (n,), in any order; exact to rounding."""
         arc = np.asarray(arc_m, dtype=np.float64)
         number = np.clip(np.searchsorted(self._ends, arc, side="right") - 1, 0, max(len(self.pieces) - 1, 0))
         if not self.pieces:
@@ -127,12 +127,12 @@ class Path:
 
     @cached_property
     def _ends(self) -> Floats:
-        """Way driven at the start of each piece and at the end; shape (pieces + 1,)."""
+        """Distance along the path at the start of each piece and at the end; shape (pieces + 1,)."""
         return np.concatenate([[0.0], np.cumsum([piece.length_m for piece in self.pieces])])
 
     @cached_property
     def _table(self) -> Floats:
-        """Length, sign, curvature at the start and its change by metre, of each piece; shape (pieces, 4)."""
+        """Length, sign, curvature at the start and curvature rate per metre of each piece; shape (pieces, 4)."""
         return np.array(
             [
                 (
@@ -147,7 +147,7 @@ class Path:
 
     @cached_property
     def _starts(self) -> tuple[NDArray[np.complex128], Floats]:
-        """Place (x - iz) and yaw at the start of each piece."""
+        """Position (x - iz) and yaw at the start of each piece."""
         lengths, signs, curvatures, rates = self._table.T
         turns = signs * lengths * (curvatures + rates * lengths / 2)
         yaws = self.start.yaw_rad + np.concatenate([[0.0], np.cumsum(turns)[:-1]])
@@ -163,13 +163,13 @@ class Path:
         return PathPoints(place.real, -place.imag, yaw, curvatures + rates * into)
 
     def clearance_m(self, car: DesignCar, obstacles: Obstacles, *, most_m: float = 1.0) -> float:
-        """What is left at least between a car and all obstacles: a lower bound, at most `most_m`.
+        """Compute a lower bound of the clearance between a car and all obstacles along the path, at most `most_m`.
 
         Notes
         -----
-        Looked at every 0.1 m. Between two poses a point of the body at distance b from the rear axle strays off its
-        chord by at most step^2 / 8 times its second derivative along the way, which is at most
-        k + k' b + k^2 b with the curvature k and its change by metre k'.
+        Evaluated every 0.1 m. Between two poses, a point of the body at distance b from the rear axle deviates from its
+        chord by at most step^2 / 8 times its second derivative along the path, which is at most
+        k + k' b + k^2 b with the curvature k and its rate k' per metre.
         """
         counts = np.maximum(np.ceil(self._table[:, 0] / _STEP_M).astype(np.int64), 1)
         owner = np.repeat(np.arange(len(counts)), counts)
@@ -187,7 +187,7 @@ class Path:
 
 
 def _moved(into: Floats, signs: Floats, curvatures: Floats, rates: Floats, yaws: Floats) -> NDArray[np.complex128]:
-    """How far pieces lead (x - iz) within some of their lengths, by Gauss's quadrature of the heading."""
+    """Integrate the heading of pieces up to some of their lengths by Gauss quadrature; displacements (x - iz)."""
     moved: NDArray[np.complex128] = signs * into * np.exp(1j * (np.pi / 2 + yaws))
     bends = (curvatures != 0) | (rates != 0)
     if bends.any():

@@ -1,4 +1,4 @@
-"""What is asked of a way between a stall and a lane and what was found, and how near a car comes to obstacles."""
+"""Limits and result of a manoeuvre search between a stall and a lane, and the clearance of a car to obstacles."""
 
 import math
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ _FINE_M = 0.5
 
 @dataclass(frozen=True, slots=True)
 class LanePose:
-    """Where on a lane a car may begin or end: in line with it, anywhere on a rectangle along it.
+    """Poses in line with a lane at which a manoeuvre may start or end, within a rectangle along the lane.
 
     Attributes
     ----------
@@ -28,7 +28,7 @@ class LanePose:
     yaw_rad
         Direction of driving, right-handed about +Y; at 0 to -Z.
     length_m, width_m
-        Of the rectangle in which the middle of the car's footprint lies, along the direction and across it.
+        Size of the rectangle for the middle of the car's footprint, along and across the direction of driving.
     """
 
     middle_m: Point
@@ -39,18 +39,18 @@ class LanePose:
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What a driver is asked for.
+    """Limits of a manoeuvre search.
 
     Attributes
     ----------
     margin_m
-        What is kept clear around the car all the way.
+        Clearance kept around the car along the whole manoeuvre.
     gear_changes
-        Most of them, between lane and stall.
+        Greatest number of gear changes between lane and stall.
     reach_m
-        How far from the stall the rear axle goes along either axis of the lanes.
+        Greatest distance of the rear axle from the stall along either axis of the lanes.
     is_thorough
-        Whether fine steps, and then a guided search, are tried where coarse steps found nothing; it takes seconds.
+        True to repeat a failed coarse search with fine steps, and then with a guided search; takes seconds.
     """
 
     margin_m: float = 0.05
@@ -60,7 +60,7 @@ class Limits:
 
 
 class Outcome(StrEnum):
-    """What a search came to."""
+    """Outcome of a manoeuvre search."""
 
     REACHED = "reached"
     UNDECIDED = "undecided"
@@ -69,16 +69,16 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Search:
-    """What a search for a way out found.
+    """Result of a search for a manoeuvre out of a stall.
 
     Attributes
     ----------
     way
-        The way from the stall to the lane, if there is one.
+        Manoeuvre from the stall to the lane; None if none was found.
     touched
-        Names of what stood in the way, most often first.
+        Names of the obstacles that the car touched, the most frequent first.
     is_exhausted
-        Whether there is no way at the search's resolution; False where the search ended at its bound or succeeded.
+        True if no manoeuvre exists at the search's resolution; False if the search succeeded or reached its bound.
     """
 
     way: Manoeuvre | None
@@ -87,21 +87,21 @@ class Search:
 
     @property
     def outcome(self) -> Outcome:
-        """Reached, impossible at the search's resolution, or undecided: the search ended at its bound."""
+        """Reached, impossible at the search's resolution, or undecided because the search reached its bound."""
         if self.way is not None:
             return Outcome.REACHED
         return Outcome.IMPOSSIBLE if self.is_exhausted else Outcome.UNDECIDED
 
 
 def touched_parked(car: DesignCar, parked: Pose, obstacles: Obstacles, margin_m: float) -> tuple[str, ...]:
-    """Names of what comes nearer than a margin to a car where it is parked."""
+    """Return the names of the obstacles closer than a margin to a parked car."""
     near = obstacles.near((parked.x_m, parked.z_m), car.length_m + margin_m)
     pose = np.array([parked.x_m, parked.z_m, parked.yaw_rad])
     return near.named(touched_shapes(near.met_by(car), pose, margin_m))
 
 
 def least_clearance_m(car: DesignCar, way: Manoeuvre, obstacles: Obstacles, *, most_m: float = 1.0) -> float:
-    """What is left at least between a car and all obstacles on a way: a lower bound, at most `most_m`."""
+    """Compute a lower bound of the clearance between a car and all obstacles along a manoeuvre, at most `most_m`."""
     scene = obstacles.met_by(car)
     step_m = min(_FINE_M, _FINE_RAD * car.rear_axle_radius_m)
     if not way.moves:

@@ -1,4 +1,4 @@
-"""Refusal of a garage with stalls that no car gets into, proven where that is in doubt."""
+"""Refusal of a garage with unreachable stalls, with a proof for the stalls in doubt."""
 
 from collections.abc import Sequence
 
@@ -25,7 +25,7 @@ def refuse_undrivable(
     *,
     progress: Progress = silent,
 ) -> None:
-    """Refuse a garage if a car does not get into one of the stalls in doubt, and out again.
+    """Raise an error if a car cannot drive into one of the stalls in doubt and out of it.
 
     Parameters
     ----------
@@ -34,12 +34,12 @@ def refuse_undrivable(
     tight
         The stalls in doubt; at most 24 of them, spread evenly, are tried.
     progress
-        Told of each stall.
+        Function called for each stall.
 
     Raises
     ------
     ConfigError
-        With the setting of the aisle's width and the stalls without ways.
+        With the setting of the aisle's width and the stalls without manoeuvres.
     """
     every = max(1, -(-len(tight) // _MOST_TRIED))
     garage = layout_garage(layout, graph)
@@ -69,7 +69,7 @@ def _named(stalls: Sequence[str]) -> str:
 
 
 def _setting(config: GarageConfig, stall: PlacedStall) -> tuple[str, object]:
-    """The setting that made the aisle of a stall, and its value."""
+    """Return the setting that determines the aisle of a stall, and its value."""
     bay = config.bay
     key = "row_depths_m" if stall.edge.name in {"UP", "DOWN"} else "column_widths_m"
     if getattr(bay, key) is not None:

@@ -1,4 +1,4 @@
-"""The road of a garage: where cars stand before its portals, what is in their way, and the heights of its floor."""
+"""The road of a garage: poses of cars outside its portals, obstacles, and heights of the floor."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,18 +18,18 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Portal:
-    """An entrance or an exit.
+    """An entrance or exit of the garage, as start or end of a route.
 
     Attributes
     ----------
     node
-        Number of its node.
+        Number of its lane node.
     name
-        Its name.
+        Name of the portal.
     kind
-        Which of the two it is.
+        Entrance or exit.
     pose
-        Where a car stands before it enters or after it has left.
+        Pose of a car before it enters or after it has left.
     """
 
     node: int
@@ -45,13 +45,13 @@ class RampFloor:
     Attributes
     ----------
     foot_m
-        (x, z) of a point on its middle line, from which runs are measured.
+        (x, z) of a point on the ramp's centre line, the origin of its runs.
     uphill
         Unit vector (x, z).
     half_width_m
-        From its middle line to its sides.
+        Distance from the centre line to the sides.
     runs_m, heights_m
-        Its profile from its foot on, the runs ascending; shape (n,).
+        Height profile from the foot, the runs ascending; shape (n,).
     """
 
     foot_m: Point
@@ -62,25 +62,25 @@ class RampFloor:
 
     @property
     def top_m(self) -> Point:
-        """(x, z) where it ends on its middle line."""
+        """(x, z) of the ramp's top on its centre line."""
         run = float(self.runs_m[-1])
         return self.foot_m[0] + run * self.uphill[0], self.foot_m[1] + run * self.uphill[1]
 
 
 @dataclass(frozen=True, eq=False)
 class DrivenRoad:
-    """A garage that is driven through from portal to portal.
+    """A garage as a road from portal to portal.
 
     Attributes
     ----------
     garage
-        Its stalls and lanes, and what stands in it; there the arms of gates count as down.
+        Stalls, lanes and obstacles; the arms of gates are down.
     standing
-        What is in the way on lanes and ramps: the arms of all gates are up, as they open to who drives in or out.
+        Obstacles on lanes and ramps; the arms of gates are up, since they open to each car.
     portals
         Entrances and exits.
     ramps
-        The floors of its ramps; all other floor lies at 0.
+        Floors of the ramps; all other floor is at height 0.
     """
 
     garage: DrivenGarage
@@ -90,7 +90,7 @@ class DrivenRoad:
 
 
 def heights_m(ramps: Sequence[RampFloor], x_m: ArrayLike, z_m: ArrayLike, *, level_m: float = 0.0) -> Floats:
-    """Heights of the floor at points; float64, their shape. `level_m` is that of the floor beside ramps."""
+    """Return the floor's heights at points; float64, their shape. `level_m` is the height beside ramps."""
     x, z = np.asarray(x_m, dtype=np.float64), np.asarray(z_m, dtype=np.float64)
     heights: Floats = np.full(np.broadcast(x, z).shape, level_m)
     for ramp in ramps:

@@ -1,4 +1,4 @@
-"""Places on lanes and ramps that smooth paths lead through, and which of them a car drives between clear of all."""
+"""A roadmap of the lanes and ramps: poses for smooth paths, and collision-free paths between them."""
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
@@ -19,29 +19,29 @@ from garage2usd.garage import Arc, LaneGraph, Point
 __all__ = ["GRAINS", "Grain", "Roadmap", "Spot"]
 
 _MOST_EDGES = 4
-"""Of a piece of road that is driven in two turns."""
+"""Greatest number of lane edges that a path with two turns may span."""
 _SAME_WAY = 0.999
 _ROOM_KEPT_M = 0.2
 _MOST_ASIDE_M = 1.2
 _ROOM_TO_TURN_M = 0.1
 _BESIDE_M = 0.8
-"""Width of where a car may stand to turn."""
+"""Greatest width of the rectangle of poses from which a car may turn; metres."""
 _DOOR_SPOTS_M, _DOOR_SPOT_M = 12.0, 2.0
-"""Within the door, and how far apart."""
+"""Length inside a door that has roadmap poses, and their spacing; metres."""
 _DIGITS = 4
 
 
 class Spot(NamedTuple):
-    """A place that paths lead through: the middle of a square, or a place beside it, in line with an edge.
+    """A pose of the roadmap: the middle of a square, or a point beside it, in line with a lane edge.
 
     Attributes
     ----------
     square
-        Its number.
+        Number of the square's node.
     along
         Direction of driving, a unit vector (x, z).
     aside_m, ahead_m
-        How far it lies to the right of the middle, and beyond it.
+        Offset from the middle to the right and ahead.
     """
 
     square: int
@@ -52,14 +52,14 @@ class Spot(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Grain:
-    """How finely places are spread.
+    """Density of the roadmap's poses.
 
     Attributes
     ----------
     asides
-        Places across a lane, as shares of the room beside a car.
+        Lateral offsets of poses on a lane, as shares of the room beside a car.
     is_fine
-        Whether there are some between the middles of squares too.
+        True to add poses between the middles of squares.
     """
 
     asides: tuple[float, ...]
@@ -67,24 +67,24 @@ class Grain:
 
 
 GRAINS = (Grain((0.0,), is_fine=False), Grain((0.0, 1.0, -1.0), is_fine=True))
-"""The middles of squares alone, and many places more."""
+"""Coarse and fine roadmap: middles of squares only, and with lateral and intermediate poses."""
 
 
 class Roadmap:
-    """Places on the lanes of a garage and smooth paths between them; what was found once is kept.
+    """Poses on the lanes of a garage and smooth paths between them; results are cached.
 
     Parameters
     ----------
     road
         The garage.
     standing
-        What is in the way.
+        Obstacles.
     car
-        Which car drives.
+        The car.
     steerings
-        How it may turn, the most comfortable way first.
+        Steerings of the car, the most comfortable first.
     margin_m
-        What is kept clear around it.
+        Clearance kept around the car.
     """
 
     def __init__(
@@ -96,11 +96,11 @@ class Roadmap:
 
     @property
     def lanes(self) -> LaneGraph:
-        """The garage's lanes."""
+        """The garage's lane graph."""
         return self._lanes
 
     def edges_at(self, pose: Pose, edges: Iterable[Arc]) -> list[Arc]:
-        """Those of some edges that a car is in line with and on."""
+        """Return the lane edges, of some given ones, that a car is on and in line with."""
         x, z = _middle(self._car, pose)
         found = []
         for edge in edges:
@@ -115,12 +115,12 @@ class Roadmap:
         return found
 
     def roomy_poses(self, edges: Iterable[Arc], *, is_back: bool) -> list[LanePose]:
-        """Where a car has room to turn at the end of some edges, or has turned at their starts, its middle on them.
+        """Return rectangles of poses on lane edges with room to turn before the edge's end, or after its start.
 
         Notes
         -----
-        Rectangles as long as that room, with the tightest turn of a quarter; none where an edge is too short. Where
-        traffic may drive straight on, or come straight, the whole edge counts.
+        The room is that of the tightest quarter turn; an edge too short for it has no rectangle. The whole edge counts
+        where traffic may continue straight, or arrive straight.
         """
         tangent_m = float(abs(self._steerings[-1].chords(np.array([math.pi / 2]))[0])) / math.sqrt(2) + _ROOM_TO_TURN_M
         used = self._lanes.arriving if is_back else self._lanes.leaving
@@ -143,7 +143,7 @@ class Roadmap:
 
     @cached_property
     def _along(self) -> dict[Arc, tuple[Point, float]]:
-        """Direction and length of each edge."""
+        """Direction and length of each lane edge."""
         along = {}
         for edge in self._lanes.arcs:
             (x, z), (to_x, to_z) = (self._lanes.nodes[number].position for number in edge)
@@ -153,7 +153,7 @@ class Roadmap:
 
     @cached_property
     def _joins(self) -> tuple[dict[Arc, tuple[Arc, ...]], ...]:
-        """The edges that follow each, and those that it follows, without turning round or through a portal."""
+        """Successors and predecessors of each lane edge, without U-turns and routes through a portal."""
         entering: dict[int, list[Arc]] = {}
         leaving: dict[int, list[Arc]] = {}
         for edge in self._lanes.arcs:
@@ -170,7 +170,7 @@ class Roadmap:
         )
 
     def walks(self, first: Arc, *, is_back: bool) -> Iterator[list[Arc]]:
-        """Walks over few edges that begin with one, or end with it where they are walked back."""
+        """Yield walks over a few lane edges that begin with one edge, or end with it in a backward search."""
         waiting = [[first]]
         while waiting:
             walk = waiting.pop()
@@ -179,11 +179,11 @@ class Roadmap:
                 waiting += [[*walk, following] for following in self._joins[is_back][walk[-1]]]
 
     def is_straight(self, walk: Sequence[Arc]) -> bool:
-        """Whether a walk turns nowhere."""
+        """Return True if a walk over lane edges has no turn."""
         return len({self._along[edge][0] for edge in walk}) == 1
 
     def spots(self, edge: Arc, grain: "Grain", *, is_back: bool) -> Iterator[tuple[Spot, Pose]]:
-        """The places on an edge and at its end, or at its start where it is walked back."""
+        """Yield the roadmap's poses on a lane edge and at its end, or at its start in a backward search."""
         room_m = min((self._lanes.arcs[edge].width_m - self._car.width_m) / 2 - _ROOM_KEPT_M, _MOST_ASIDE_M)
         along, length_m = self._along[edge]
         for share in grain.asides:
@@ -193,7 +193,7 @@ class Roadmap:
                 yield self._placed(Spot(edge[0], along, aside_m, round(length_m / 2, _DIGITS)))
 
     def door_spots(self, portal: Portal) -> Iterator[tuple[Spot, Pose]]:
-        """Places between the middle of a portal's square and where cars stand outside, in line with that."""
+        """Yield roadmap poses in line with the pose of cars outside a portal, up to the middle of its square."""
         x, z = self._lanes.nodes[portal.node].position
         along = -math.sin(portal.pose.yaw_rad), -math.cos(portal.pose.yaw_rad)
         length_m = (portal.pose.x_m - x) * along[0] + (portal.pose.z_m - z) * along[1]
@@ -207,16 +207,16 @@ class Roadmap:
         return spot, Pose(x + aside_m * -along_z + ahead_m * along_x, z + aside_m * along_x + ahead_m * along_z, yaw)
 
     def edges_from(self, spot: Spot, *, is_back: bool) -> list[Arc]:
-        """The edges in line with a place that lead on from it, or to it where they are walked back."""
+        """Return the lane edges in line with a spot that start there, or that end there in a backward search."""
         at = 1 if is_back and not spot.ahead_m else 0
         return [edge for edge, (along, _) in self._along.items() if edge[at] == spot.square and along == spot.along]
 
     def middle_m(self, square: int) -> Point:
-        """(x, z) of the middle of a square."""
+        """Return (x, z) of the middle of a square."""
         return self._lanes.nodes[square].position
 
     def joined(self, start: Pose, end: Pose) -> tuple[Piece, ...] | None:
-        """A clear path from pose to pose in at most two turns."""
+        """Return a collision-free path between two poses with at most two turns."""
         key = (start, end)
         if key not in self._known:
             self._known[key] = next(self._clear(start, end), None)
@@ -230,6 +230,6 @@ class Roadmap:
 
 
 def _middle(car: DesignCar, pose: Pose) -> Point:
-    """(x, z) of the middle of a car's footprint."""
+    """Return (x, z) of the middle of a car's footprint."""
     ahead = car.length_m / 2 - car.rear_overhang_m
     return pose.x_m - math.sin(pose.yaw_rad) * ahead, pose.z_m - math.cos(pose.yaw_rad) * ahead

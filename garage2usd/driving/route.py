@@ -1,4 +1,4 @@
-"""Whole routes: from before an entrance into a stall, and from the stall to behind an exit."""
+"""Complete routes of a car: from outside an entrance into a stall, and from the stall to outside an exit."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -22,25 +22,25 @@ from garage2usd.garage import LaneKind, Stall
 __all__ = ["Route", "Router"]
 
 _MORE_CHANGES, _FURTHER_M = 6, 20.0
-"""Gear changes and reach of a way between lane and stall where the usual ones leave no room to turn on the lanes."""
+"""Gear changes and reach of a second manoeuvre search, for stalls without room to turn on the lanes."""
 
 
 @dataclass(frozen=True, eq=False)
 class Route:
-    """From before an entrance into a stall, and out of it to behind an exit.
+    """A route from outside an entrance into a stall, and out of it to outside an exit.
 
     Attributes
     ----------
     stall
         Name of the stall.
     nose
-        How the car stands in it.
+        Nose in or nose out.
     entrance, exit
-        Where it comes from, and where it leaves.
+        Portals of the route.
     arrival, departure
-        The paths; the second begins where the first ends.
+        The two paths; the departure begins where the arrival ends.
     is_full
-        Whether they are clear with a car in every other stall.
+        True if the paths are collision-free with a car in every other stall.
     """
 
     stall: str
@@ -53,16 +53,16 @@ class Route:
 
 
 class Router:
-    """What the routes of one garage share.
+    """Router of one garage, with shared caches.
 
     Parameters
     ----------
     road
         The garage.
     steerings
-        How the car may turn on lanes, the most comfortable way first.
+        Steerings of the car on lanes, the most comfortable first.
     car, limits
-        The car, and what is asked of its driver.
+        The car, and the limits of its manoeuvres.
     """
 
     def __init__(
@@ -79,7 +79,7 @@ class Router:
         self._roadmap = lru_cache(maxsize=2)(self._mapped)
 
     def portals(self, kind: LaneKind) -> tuple[Portal, ...]:
-        """The entrances or the exits, in reading order."""
+        """Return the entrances or the exits, in reading order."""
         return tuple(portal for portal in self._road.portals if portal.kind is kind)
 
     def route(
@@ -90,16 +90,16 @@ class Router:
         entrances: Iterable[Portal] | None = None,
         exits: Iterable[Portal] | None = None,
     ) -> Route | StallProof:
-        """The shortest route found into a stall and out of it, or the proof that there are no ways or what they lack.
+        """Return the shortest route found into a stall and out of it, or the proof that explains why there is none.
 
         Parameters
         ----------
         stall
             A stall of the garage.
         proof
-            Its proof, where it is known.
+            Proof of the stall, if known.
         entrances, exits
-            Those that may be used; left out, all.
+            Permitted portals; the default is all.
         """
         if proof is None:
             (proof,) = prove_garage(self._road.garage, [stall], car=self._car, limits=self._limits)
@@ -118,7 +118,7 @@ class Router:
     def _led(
         self, stall: Stall, proof: StallProof, proven: Manoeuvre, portals: Sequence[Portal], *, is_back: bool
     ) -> tuple[Path, Portal] | None:
-        """The proven way led on to a portal, or back to one; else another way from the same parked pose."""
+        """Extend the proven manoeuvre to a portal, or back to one; otherwise find another from the same parked pose."""
         roadmap = self._roadmap(proof.is_full)
         parked = proven.end if is_back else proven.start
         garage = self._road.garage
@@ -164,7 +164,7 @@ class Router:
 def _joined(
     roadmap: Roadmap, way: Manoeuvre, portals: Sequence[Portal], grain: Grain, *, is_back: bool
 ) -> tuple[Path, Portal] | None:
-    """A way between a lane and a stall with the path over lanes before it or after it."""
+    """Join a manoeuvre between a lane and a stall with the path over lanes before or after it."""
     parking = Path.of_way(way)
     if is_back:
         found = path_from_entrance(roadmap, parking.start, portals, grain)

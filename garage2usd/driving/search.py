@@ -1,4 +1,4 @@
-"""Weighted A* over arcs at full lock and straights, from a parked pose to a lane. In C, `search.c`."""
+"""Weighted A* over arcs at full lock and straights, from a parked pose to a lane; implemented in C in `search.c`."""
 
 from typing import NamedTuple
 
@@ -10,36 +10,36 @@ from garage2usd.native import Int64s, in_c
 __all__ = ["HEADINGS", "Found", "Task", "reeds_shepp_words", "search"]
 
 HEADINGS = 120
-"""How many headings there are in a full turn."""
+"""Number of discrete headings in a full turn."""
 _NO_MEMORY = -2
 _MOST_PIECES, _MOST_WORDS = 5, 64
 
 
 class Task(NamedTuple):
-    """What is asked of a search.
+    """Input of the A* search for a parking manoeuvre.
 
     Attributes
     ----------
     scene
-        The car, and what it must not touch.
+        The car and its obstacles.
     start
         x, z, yaw.
     goals
-        Heading number, and the least x and z and the most x and z of the rear axle's middle; shape (n, 5).
+        Heading number, and the least x and z and the greatest x and z of the rear axle's middle; shape (n, 5).
     radius
-        Of the arcs.
+        Radius of the arcs.
     margin
-        What is kept clear all the way.
+        Clearance kept around the car.
     reach
-        How far from the start the rear axle may come along either axis.
+        Greatest distance of the rear axle from the start along either axis.
     straight_m
         Length of a straight step.
     max_changes, max_nodes
-        Of gear, and of places looked at, at least one.
+        Greatest number of gear changes, and of expanded nodes, at least one.
     headings
-        In a full turn: a multiple of 4.
+        Number of headings in a full turn: a multiple of 4.
     is_guided
-        Whether words of Reeds and Shepp are tried, and what stands in the way counts in what is left of it.
+        True to try Reeds-Shepp words, and to account for obstacles in the remaining cost.
     """
 
     scene: Scene
@@ -56,16 +56,16 @@ class Task(NamedTuple):
 
 
 class Found(NamedTuple):
-    """What a search came to.
+    """Result of the A* search for a parking manoeuvre.
 
     Attributes
     ----------
     outcome
-        1 where a way was found, 0 where there is none, -1 where `max_nodes` did not do.
+        1 if a manoeuvre was found, 0 if there is none, -1 if `max_nodes` was reached.
     steps
-        Of the way, as gear (1 or -1), steering (1 to the left, -1 or 0) and metres of way; shape (steps, 3).
+        Steps as gear (1 or -1), steering (1 to the left, -1 or 0) and length in metres; shape (steps, 3).
     places
-        How many were reached.
+        Number of nodes reached.
     """
 
     outcome: int
@@ -74,19 +74,19 @@ class Found(NamedTuple):
 
 
 def search(task: Task, touched: Int64s) -> Found:
-    """Look for a way of little cost from a pose to a goal.
+    """Search a low-cost manoeuvre from a parked pose to a goal by weighted A*.
 
     Parameters
     ----------
     task
-        What is asked.
+        Input of the search.
     touched
-        Counts for each shape how often it stood in the way.
+        Counter of collisions for each shape.
 
     Raises
     ------
     MemoryError
-        If there is no memory for `max_nodes` places.
+        If there is no memory for `max_nodes` nodes.
     """
     steps = np.empty((task.max_nodes + _MOST_PIECES, 3))
     places = np.zeros(1, np.int64)
@@ -102,13 +102,13 @@ def _find_steps(task: Task, touched: Int64s, places: Int64s, steps: Floats) -> i
 
 
 def reeds_shepp_words(start: Floats, end: Floats, radius: float) -> Floats:
-    """All ways of Reeds and Shepp between two poses (x, z, yaw), where nothing stands in the way.
+    """Enumerate all Reeds-Shepp words between two poses (x, z, yaw), without obstacles.
 
     Returns
     -------
     array
-        Steering (1 to the left, -1, 0) and metres (negative in reverse) of up to five pieces, zeros where there are
-        fewer; shape (words, 5, 2).
+        Steering (1 to the left, -1, 0) and metres (negative in reverse) of up to five pieces, padded with zeros;
+        shape (words, 5, 2).
     """
     rows = np.empty((_MOST_WORDS, _MOST_PIECES, 2))
     return rows[: _write_words(start, end, radius, rows)].copy()

@@ -1,4 +1,4 @@
-"""Whether a rectangle that drives a short arc or straight keeps off convex shapes. In C, `sweep.c`."""
+"""Collision test of a rectangle on a short arc or straight against convex shapes; implemented in C in `sweep.c`."""
 
 from typing import NamedTuple
 
@@ -12,16 +12,16 @@ Floats = Float64s
 
 
 class Scene(NamedTuple):
-    """A car and what it must not touch.
+    """A car and its obstacles.
 
     Attributes
     ----------
     shapes
-        Corners of convex polygons in order, the last perhaps repeated; shape (m, k, 2).
+        Corners of convex polygons in order, the last possibly repeated; shape (m, k, 2).
     boxes
         Left, top, right and bottom of each; shape (m, 4).
     body
-        From the rear axle to nose and tail, and half the width.
+        Distances from the rear axle to nose and tail, and half the width.
     """
 
     shapes: Floats
@@ -31,12 +31,12 @@ class Scene(NamedTuple):
 
 @in_c
 def bulge(radius: float, turn: float, body: Floats) -> float:
-    """How far the way of any point of the body lies off its chord, at most, on an arc of the rear axle's middle."""
+    """Bound the deviation of any point of the car's body from its chord, on an arc of the rear axle's middle."""
     raise NotImplementedError
 
 
 def touched_shapes(scene: Scene, pose: Floats, margin: float) -> Int64s:
-    """Numbers of the shapes that a car that stands at a pose (x, z, yaw) comes nearer to than a margin."""
+    """Return the numbers of the shapes closer than a margin to a car at a pose (x, z, yaw)."""
     is_touched = np.zeros(len(scene.shapes), np.bool_)
     _mark_touched(scene, pose, margin, is_touched)
     return np.flatnonzero(is_touched)
@@ -48,7 +48,7 @@ def _mark_touched(scene: Scene, pose: Floats, margin: float, is_touched: Bools) 
 
 
 def least_clearance(scene: Scene, poses: Floats, bulges: Floats, most: float) -> float:
-    """Least distance, or less, to any shape along poses (x, z, yaw), `bulges` a step; `most` where all is farther."""
+    """Return a lower bound of the distance to shapes along poses (x, z, yaw) with a bulge per step, at most `most`."""
     return _least_along(scene, poses, len(poses) - 1, bulges, most)
 
 

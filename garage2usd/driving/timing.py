@@ -1,4 +1,4 @@
-"""When a car is where on a path: as fast as the settings allow, standing where the steering or the gear jumps."""
+"""Timing of a car's path: as fast as the settings allow, with a stop where steering or gear changes abruptly."""
 
 import math
 from collections.abc import Sequence
@@ -17,29 +17,29 @@ from garage2usd.driving.trajectory import Trajectory
 __all__ = ["Motion", "timed"]
 
 _NODE_M, _LEAST_NODES = 0.05, 8
-"""Between the nodes of a run, in each of whose intervals the acceleration is constant, and how many at least."""
+"""Distance in metres between the nodes of a run, with constant acceleration in between, and their least number."""
 _SAME_PER_M = 1e-9
 _SHORTEST_M = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
 class _Run:
-    """A stretch from standstill to standstill, in one gear.
+    """A stretch of path from standstill to standstill, in one gear.
 
     Attributes
     ----------
     path
-        What is driven.
+        Path of the run.
     plan_m
-        Way at each node as seen from above; shape (nodes,).
+        Distance at each node as seen from above; shape (nodes,).
     way_m
-        Way along the floor; shape (nodes,).
+        Distance along the floor; shape (nodes,).
     speed_m_s
-        Without sign; shape (nodes,).
+        Unsigned speed; shape (nodes,).
     time_s
-        Since its start; shape (nodes,).
+        Time since the run's start; shape (nodes,).
     acceleration_m_s2
-        Of each interval, negative where the car brakes; shape (nodes - 1,).
+        Acceleration of each interval, negative where the car brakes; shape (nodes - 1,).
     """
 
     path: Path
@@ -56,22 +56,22 @@ class _Run:
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """A car on its path in time; `timed` makes it.
+    """Motion of a car along its path over time; created by `timed`.
 
     Attributes
     ----------
     runs
-        The stretches between standstills.
+        Runs between standstills.
     starts_s
-        When each begins.
+        Start time of each run.
     ends_s
-        When the whole ends.
+        End time of the motion.
     car
         The car.
     ramps
-        The floors that do not lie at 0.
+        Floors that are not at height 0.
     steering_rate_rad_s
-        Of the front wheels at a standstill.
+        Steering rate of the front wheels at a standstill.
     """
 
     runs: tuple[_Run, ...]
@@ -83,19 +83,19 @@ class Motion:
 
     @property
     def events_s(self) -> Floats:
-        """When the car starts or stops, or has turned its wheels at a standstill; ascending, without repetitions."""
+        """Times at which the car starts, stops, or ends steering at a standstill; ascending, distinct."""
         stops = [start + run.seconds for start, run in zip(self.starts_s, self.runs, strict=True)]
         steered = [stop + self._steering_s(number) for number, stop in enumerate(stops[:-1])]
         events: Floats = np.unique(np.round([0.0, *self.starts_s, *stops, *steered, self.ends_s], 9))
         return events
 
     def sampled(self, step_s: float) -> Trajectory:
-        """At a fixed step, and at all events; steps that nearly coincide with an event are left out.
+        """Sample the car's motion at a fixed step and at all events, without steps that nearly coincide with events.
 
         Parameters
         ----------
         step_s
-            More than 0.
+            Time step, more than 0.
         """
         events = self.events_s
         steps = np.arange(0.0, self.ends_s, step_s)
@@ -106,7 +106,7 @@ class Motion:
         return self.at(np.sort(np.concatenate([events, steps[nearest > step_s / 10]])))
 
     def at(self, time_s: ArrayLike) -> Trajectory:
-        """The states at some times, shape (n,), ascending; before the first run and after the last the car stands."""
+        """Return the car's states at ascending times, shape (n,); it rests before the first run and after the last."""
         times = np.asarray(time_s, dtype=np.float64)
         number = np.clip(np.searchsorted(self.starts_s, times + 1e-9, side="right") - 1, 0, len(self.runs) - 1)
         parts = [
@@ -116,7 +116,7 @@ class Motion:
         return Trajectory(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
 
     def _part(self, index: int, times: Floats, driven_m: float) -> tuple[NDArray[np.float64], ...]:
-        """The columns of a trajectory for times from the start of a run to the start of the next."""
+        """Return the trajectory's columns for times from the start of a run to the start of the next."""
         run = self.runs[index]
         since = np.clip(times - self.starts_s[index], 0.0, None)
         stands = since >= run.seconds
@@ -161,7 +161,7 @@ class Motion:
         return math.atan(self.car.wheelbase_m * curvature_per_m)
 
     def _steering_s(self, number: int) -> float:
-        """How long the wheels are turned after a run."""
+        """Return the duration of steering at a standstill after a run."""
         return _steering_s(self.runs[number].path, self.runs[number + 1].path, self.car, self.steering_rate_rad_s)
 
 
@@ -173,27 +173,26 @@ def timed(
     ramps: Sequence[RampFloor] = (),
     parked_after: int | None = None,
 ) -> Motion:
-    """The motion along a path that begins and ends at a standstill.
+    """Time the motion of a car along a path that begins and ends at a standstill.
 
     Parameters
     ----------
     path
-        What is driven.
+        Path of the car.
     settings
-        Its limits.
+        Limits of speed, acceleration and steering.
     car
-        Which car.
+        The car.
     ramps
-        The floors that do not lie at 0.
+        Floors that are not at height 0.
     parked_after
-        Number of the piece before which the car stands parked for as long as the settings say.
+        Number of the piece before which the car stays parked for as long as the settings say.
 
     Notes
     -----
-    Where the curvature of two pieces differs, the car stands while its wheels turn; where the gear does, at least as
-    long as shifting takes. In between it is as fast as its limits allow: node by node the speed is the least of those
-    of lane or parking, of the acceleration across the path, and of the steering; then the acceleration is limited
-    forwards and backwards along the way.
+    Where the curvatures of two pieces differ, the car stops while its wheels turn; where the gears differ, at least as
+    long as shifting takes. In between, the speed at each node is the least of the limits of lane or parking, of the
+    lateral acceleration, and of the steering. A forward and a backward pass then limit the acceleration.
     """
     car = car or DesignCar()
     groups, pauses = _groups(path, settings, parked_after)
@@ -213,7 +212,7 @@ def timed(
 
 
 def _groups(path: Path, settings: DriveConfig, parked_after: int | None) -> tuple[list[tuple[Piece, ...]], list[float]]:
-    """The pieces between standstills, and how long the car stands at least between these."""
+    """Group the pieces between standstills; return the groups and the least duration of each stop."""
     groups: list[list[Piece]] = [[]]
     pauses = []
     for number, piece in enumerate(path.pieces):
@@ -231,7 +230,7 @@ def _groups(path: Path, settings: DriveConfig, parked_after: int | None) -> tupl
 
 
 def _steering_s(one: Path, other: Path, car: DesignCar, rate_rad_s: float) -> float:
-    """How long the wheels take from the end of a path to the start of another."""
+    """Return the time in which the wheels turn from the end of one path to the start of another."""
     angles = [
         math.atan(car.wheelbase_m * curvature) for curvature in (one.pieces[-1].end_per_m, other.pieces[0].start_per_m)
     ]
@@ -239,7 +238,7 @@ def _steering_s(one: Path, other: Path, car: DesignCar, rate_rad_s: float) -> fl
 
 
 def _run(path: Path, settings: DriveConfig, car: DesignCar, ramps: Sequence[RampFloor]) -> _Run:
-    """The fastest run over pieces that join smoothly."""
+    """Compute the fastest run over pieces that join smoothly."""
     plan, limits = [0.0], []
     for piece in path.pieces:
         count = max(math.ceil(piece.length_m / _NODE_M), _LEAST_NODES)
@@ -266,7 +265,7 @@ def _run(path: Path, settings: DriveConfig, car: DesignCar, ramps: Sequence[Ramp
 
 
 def _most_m_s(one: float, other: float, piece: Piece, count: int, settings: DriveConfig, car: DesignCar) -> float:
-    """The most speed between two curvatures of a piece that is cut into so many intervals."""
+    """Return the greatest speed between two curvatures of a piece that is divided into some number of intervals."""
     most = settings.parking_speed_m_s if piece.is_parking else settings.lane_speed_m_s
     tightest, widest = max(abs(one), abs(other)), min(abs(one), abs(other))
     if tightest > 0:

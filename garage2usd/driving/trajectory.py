@@ -1,4 +1,4 @@
-"""A trajectory: the states of a car at times, as CSV and JSON."""
+"""A trajectory of a car: its states over time, as CSV and JSON."""
 
 import csv
 import json
@@ -20,30 +20,30 @@ _DIGITS = 6
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """A car's states; all arrays are float64 of shape (n,).
+    """Trajectory of a car; all arrays are float64 of shape (n,).
 
     Attributes
     ----------
     time_s
-        Ascending, from 0 on.
+        Ascending, from 0.
     x_m, y_m, z_m
         The middle of the rear axle on the floor, in the stage's frame: Y is up.
     yaw_rad
-        Right-handed about +Y, 0 looks to -Z; continuous in time.
+        Right-handed about +Y, 0 points to -Z; continuous in time.
     pitch_rad
-        Of the floor under the axles, positive with the nose up.
+        Pitch of the floor under the axles, positive with the nose up.
     speed_m_s
-        Along the floor, negative in reverse.
+        Speed along the floor, negative in reverse.
     acceleration_m_s2
-        Its change from there on.
+        Rate of the speed from that time on.
     curvature_per_m
-        That the front wheels stand at, positive to the driver's left.
+        Curvature set by the front wheels, positive to the driver's left.
     steering_rad
-        Angle of a front wheel between both, positive to the left: atan(wheelbase * curvature).
+        Mean angle of the front wheels, positive to the left: atan(wheelbase * curvature).
     gear
         1 forward, -1 in reverse.
     arc_m
-        Way driven along the floor, in both gears.
+        Distance driven along the floor, in both gears.
     """
 
     time_s: Floats
@@ -60,7 +60,7 @@ class Trajectory:
     arc_m: Floats
 
     def columns(self) -> dict[str, list[float] | list[int]]:
-        """Its columns by name, rounded to a micrometre or the like."""
+        """Columns of the trajectory by name, rounded to a micrometre or similar."""
         rounded = {
             field.name: (np.round(getattr(self, field.name), _DIGITS) + 0.0).tolist() for field in fields(Trajectory)
         }
@@ -69,7 +69,7 @@ class Trajectory:
 
 
 def write_trajectory_csv(path: Path, trajectory: Trajectory) -> None:
-    """Write the columns as text, one row a state, under their names."""
+    """Write a trajectory as CSV: a header, then one row per state."""
     columns = trajectory.columns()
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
@@ -78,6 +78,6 @@ def write_trajectory_csv(path: Path, trajectory: Trajectory) -> None:
 
 
 def write_trajectory_json(path: Path, trajectory: Trajectory, car: DesignCar, facts: Mapping[str, object]) -> None:
-    """Write the columns with the car and what else is to be said of the drive."""
+    """Write a trajectory as JSON, with the car and further properties of the drive."""
     document = {"version": VERSION, **facts, "car": asdict(car), "columns": trajectory.columns()}
     path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8", newline="\n")

@@ -19,7 +19,7 @@ from garage2usd.driving.path import GAUSS, WEIGHTS, Floats, Piece
 __all__ = ["Steering", "joining_pieces"]
 
 _MOST_RAD = 2.4
-"""Most that a car turns on one of the two turns."""
+"""Greatest angle of each of the two turns."""
 _SCAN_RAD = math.radians(2.0)
 _SAME_M, _SAME_RAD = 1e-6, 1e-9
 _PLACES, _WEIGHTS = GAUSS.tolist(), WEIGHTS.tolist()
@@ -27,21 +27,21 @@ _PLACES, _WEIGHTS = GAUSS.tolist(), WEIGHTS.tolist()
 
 @dataclass(frozen=True, slots=True)
 class Steering:
-    """How turns are steered.
+    """Curvature limits of a car's turns.
 
     Attributes
     ----------
     curvature_per_m
-        The most on any turn.
+        Greatest curvature of a turn.
     sharpness_per_m2
-        Change of the curvature by metre of way on the clothoids.
+        Curvature rate per metre on the clothoids.
     """
 
     curvature_per_m: float
     sharpness_per_m2: float
 
     def turn(self, deflection_rad: float) -> tuple[Piece, ...]:
-        """A turn driven forward, straight at both ends; positive to the left."""
+        """Return a forward turn with zero curvature at both ends; positive to the left."""
         peak, arc_m = (float(value[0]) for value in self._shape(np.array([abs(deflection_rad)])))
         if peak == 0.0:
             return ()
@@ -55,9 +55,9 @@ class Steering:
         return tuple(piece for piece in pieces if piece.length_m > 0)
 
     def chords(self, deflections_rad: Floats) -> NDArray[np.complex128]:
-        """Where turns lead to from the origin, heading along the real axis; complex, shape (n,).
+        """Return the displacements of turns from the origin, heading along the real axis; complex, shape (n,).
 
-        A turn is symmetric, so its chord lies at half its deflection.
+        A turn is symmetric, so its chord is at half its deflection.
         """
         size = np.abs(deflections_rad)
         peak, arc_m = self._shape(size)
@@ -74,7 +74,7 @@ class Steering:
         return chords
 
     def chord(self, deflection_rad: float) -> complex:
-        """The same for one turn: where roots are looked for, arrays of one number take most of the time."""
+        """Return the displacement of a single turn; faster than `chords` in a root search."""
         size = abs(deflection_rad)
         sharpness, most = self.sharpness_per_m2, self.curvature_per_m
         peak = min(math.sqrt(size * sharpness), most)
@@ -88,7 +88,7 @@ class Steering:
         return cmath.rect(length, deflection_rad / 2)
 
     def _shape(self, size_rad: Floats) -> tuple[Floats, Floats]:
-        """Greatest curvature and length of the arc for turns of some size."""
+        """Return the greatest curvature and the length of the arc of turns by some angles."""
         peak = np.minimum(np.sqrt(size_rad * self.sharpness_per_m2), self.curvature_per_m)
         arc_turn = np.maximum(size_rad - peak**2 / self.sharpness_per_m2, 0.0)
         return peak, np.where(peak < self.curvature_per_m, 0.0, arc_turn / self.curvature_per_m)
@@ -96,7 +96,7 @@ class Steering:
 
 @lru_cache(maxsize=1024)
 def _easing(peak_per_m: float, sharpness_per_m2: float) -> complex:
-    """Where a clothoid leads to on which the curvature grows from 0 to its peak; all long turns have the same."""
+    """Return the displacement along a clothoid from curvature 0 to its peak; all long turns share one."""
     half_m = peak_per_m / sharpness_per_m2 / 2
     headings = [sharpness_per_m2 / 2 * (half_m * (1 + place)) ** 2 for place in _PLACES]
     return half_m * sum(cmath.rect(weight, heading) for weight, heading in zip(_WEIGHTS, headings, strict=True))
@@ -106,7 +106,7 @@ def _easing(peak_per_m: float, sharpness_per_m2: float) -> complex:
 def _scanned(
     steering: Steering, turned_rad: float
 ) -> tuple[Floats, NDArray[np.complex128], NDArray[np.complex128], NDArray[np.complex128]]:
-    """First turns at which roots are looked for, their chords, what turns to the heading there, and the second chords.
+    """Sample the angle of the first turn for a root search; return angles, chords, rotations and the second chords.
 
     Nearly all paths turn by a quarter or not at all.
     """
@@ -118,14 +118,14 @@ def _scanned(
 
 
 def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple[Piece, ...]]:
-    """Paths driven forward from pose to pose, the shortest first: a turn, a straight and a turn, any of them left out.
+    """Yield forward paths between two poses, the shortest first: a turn, a straight and a turn, each optional.
 
     Parameters
     ----------
     start, end
-        The poses, where the wheels are straight.
+        The poses, with the wheels straight.
     steering
-        How it turns.
+        Curvature limits of the turns.
     """
     across = complex(end.x_m - start.x_m, start.z_m - end.z_m) * cmath.rect(1.0, -(start.yaw_rad + math.pi / 2))
     turned = math.remainder(end.yaw_rad - start.yaw_rad, math.tau)
@@ -135,7 +135,7 @@ def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple
         return
 
     def straight_at(first_rad: float) -> complex:
-        """The straight between the turns, along the heading there; real where the path meets the end."""
+        """Return the straight between the two turns in the heading's frame; real if the path reaches the end pose."""
         ahead = (across - steering.chord(first_rad)) * cmath.rect(1.0, -first_rad)
         return ahead - steering.chord(turned - first_rad)
 

@@ -1,4 +1,4 @@
-"""Searches for a way between a parked pose and a lane: by steps, and guided by what stands."""
+"""Manoeuvre searches between a parked pose and a lane: by uniform steps, and guided around obstacles."""
 
 import math
 from collections.abc import Sequence
@@ -21,40 +21,40 @@ _QUARTER = math.pi / 2
 _HEADING_ERROR = 1e-6
 _SAME = 1e-9
 _PASSES = ((0.36, 16_384), (0.24, 65_536), (0.12, 131_072))
-"""Length of a straight step in metres and most places looked at: coarse first, then fine."""
+"""Length of a straight step in metres and greatest number of nodes of each search pass: coarse first."""
 
 
 _GUIDED_PASSES = ((0.24, 120), (0.06, 240), (0.02, 480))
-"""Length of a straight step in metres and headings in a full turn of guided searches: coarse first, then fine."""
+"""Length of a straight step in metres and number of headings of each guided search pass: coarse first."""
 _PLACES_PER_M2, _FEWEST_PLACES, _MOST_PLACES = 125, 32_768, 1_000_000
-"""How many places a guided search looks at: so many for each square metre within reach."""
+"""Node limit of a guided search: per square metre within reach, at least, and at most."""
 _MORE_PLACES = 64
-"""How many times as many places there are with the next finer steps: too many, and no finer ones are tried."""
+"""Assumed growth of the number of nodes per finer guided pass; a pass that would exceed the node limit is skipped."""
 _NOTHING = Found(0, np.empty((0, 3)), 0)
 
 
 def find_way(
     car: DesignCar, parked: Pose, obstacles: Obstacles, lanes: Sequence[LanePose], limits: Limits | None = None
 ) -> Search:
-    """Find a way from a parked pose to any of some lane poses.
+    """Find a manoeuvre from a parked pose to any of some lane poses.
 
     Parameters
     ----------
     car
         The car.
     parked
-        Where it stands.
+        Parked pose.
     obstacles
-        What it must not touch.
+        Obstacles to the car.
     lanes
-        Where the way may end; directions differ by quarter turns.
+        Lane poses at which the manoeuvre may end; directions differ by quarter turns.
     limits
         Margin, gear changes, reach and effort.
 
     Returns
     -------
     Search
-        Driven backwards in time, `Manoeuvre.reversed`, the way leads in, from the lane in the same direction.
+        Result of the search. `Manoeuvre.reversed` leads from the lane, in the same direction, into the stall.
 
     Raises
     ------
@@ -63,8 +63,8 @@ def find_way(
 
     Notes
     -----
-    Steps come first, as they are fast where a lane is long. A lane shorter and narrower than a step is a place that
-    steps hardly meet: the guided search comes first there.
+    The search by steps runs first, since it is fast on long lanes. Steps rarely hit a lane pose shorter
+    and narrower than a step; there the guided search runs first.
     """
     limits = limits or Limits()
     is_place = all(max(lane.length_m, lane.width_m) < _PASSES[0][0] for lane in lanes)
@@ -78,7 +78,7 @@ def find_way(
 
 
 def _reached(later: Search, earlier: Search) -> Search:
-    """The later of two searches; where neither found a way, what both say."""
+    """Return the later of two manoeuvre searches if it succeeded, else a merged failure."""
     if later.way:
         return later
     return Search(None, earlier.touched or later.touched, earlier.is_exhausted and later.is_exhausted)
@@ -87,7 +87,7 @@ def _reached(later: Search, earlier: Search) -> Search:
 def find_way_by_steps(
     car: DesignCar, parked: Pose, obstacles: Obstacles, lanes: Sequence[LanePose], limits: Limits
 ) -> Search:
-    """Find a way by steps alone, without a guide; otherwise like `find_way`."""
+    """Find a manoeuvre by uniform steps, without a guide; parameters as for `find_way`."""
     task = _task(car, parked, obstacles, lanes, limits)
     if isinstance(task, Search):
         return task
@@ -112,7 +112,7 @@ def find_way_by_steps(
 def find_guided_way(
     car: DesignCar, parked: Pose, obstacles: Obstacles, lanes: Sequence[LanePose], limits: Limits
 ) -> Search:
-    """Find a way by words of Reeds and Shepp and with a guide round what stands; otherwise like `find_way`."""
+    """Find a manoeuvre by Reeds-Shepp words and a heuristic around obstacles; parameters as for `find_way`."""
     task = _task(car, parked, obstacles, lanes, limits)
     if isinstance(task, Search):
         return task
@@ -129,14 +129,14 @@ def find_guided_way(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _LocalTask:
-    """A search in the frame of the lanes, with the parked rear axle at its origin, and what is touched in it.
+    """A manoeuvre search in the frame of the lanes, with the parked rear axle at the origin, and its collisions.
 
     Attributes
     ----------
     goals
-        Number of the heading, of 120, and least and most x and z; shape (lanes, 5).
+        Number of the heading, of 120, and least and greatest x and z; shape (lanes, 5).
     near, local
-        What stands within reach, in the garage's frame and in that of the search.
+        Obstacles within reach, in the garage's frame and in that of the search.
     """
 
     car: DesignCar
@@ -149,7 +149,7 @@ class _LocalTask:
     touched: Int64s
 
     def look(self, straight_m: float, effort: int, *, only: float | None = None, guided_by: int | None = None) -> Found:
-        """Search for any of the goals, or those of one heading; guided, with so many headings."""
+        """Run the search for any goal, or for the goals of one heading; a guided one with some number of headings."""
         goals = self.goals if only is None else self.goals[self.goals[:, 0] == only]
         headings = guided_by or HEADINGS
         task = Task(
@@ -168,7 +168,7 @@ class _LocalTask:
         return search(task, self.touched)
 
     def search_of(self, found: Found) -> Search:
-        """What a search found, with the clearance of the way."""
+        """Convert the result of an A* search, with the clearance of its manoeuvre."""
         if found.outcome <= 0:
             order = np.argsort(-self.touched, kind="stable")
             touched = self.local.named(order[self.touched[order] > 0])
@@ -180,7 +180,7 @@ class _LocalTask:
 def _task(
     car: DesignCar, parked: Pose, obstacles: Obstacles, lanes: Sequence[LanePose], limits: Limits
 ) -> _LocalTask | Search:
-    """What is to be searched; what was found already where there is no lane or the car touches where it stands."""
+    """Return the local search task, or a finished search if there is no lane or the parked car touches an obstacle."""
     if not lanes:
         return Search(None, (), is_exhausted=True)
     frame = lanes[0].yaw_rad
@@ -196,7 +196,7 @@ def _task(
 
 
 def _goal(car: DesignCar, parked: Pose, lane: LanePose, frame: float) -> tuple[float, float, float, float, float]:
-    """Heading number, and least and most x and z of the rear axle's middle, in the frame of the search."""
+    """Return heading number, and least and greatest x and z of the rear axle's middle, in the frame of the search."""
     turned = lane.yaw_rad - frame
     quarters = round(turned / _QUARTER)
     if abs(turned - quarters * _QUARTER) > _HEADING_ERROR:
@@ -213,7 +213,7 @@ def _goal(car: DesignCar, parked: Pose, lane: LanePose, frame: float) -> tuple[f
 
 
 def _moves(steps: Floats, radius_m: float) -> tuple[Move, ...]:
-    """Steps as moves: equal ones in a row are one."""
+    """Convert search steps to moves, merging equal consecutive steps."""
     moves: list[Move] = []
     previous = None
     for gear, steering, length in steps.tolist():

@@ -1,4 +1,4 @@
-"""The ways of a garage's proof as JSON, for programs that drive or draw them."""
+"""The manoeuvres of a garage's swept-path proof as JSON, for programs that drive or draw them."""
 
 import json
 import math
@@ -22,14 +22,14 @@ _DIGITS = 6
 def write_witness(
     path: Path, proofs: Sequence[StallProof], *, car: DesignCar | None = None, limits: Limits | None = None
 ) -> None:
-    """Write what was proven for each stall.
+    """Write the swept-path proof of each stall as JSON.
 
     Notes
     -----
-    ``moves`` are gear, curvature (1/m, positive to the driver's left) and length (m) in order from ``start``; they are
-    the way itself. ``poses`` sample it at most 0.25 m apart: way driven (m), x, z (m), yaw (right-handed about +Y,
-    0 looks to -Z), gear (1 or -1) and curvature. All are of the middle of the rear axle. Stalls without ways say what
-    was touched, and those for which the search ended at its bound are ``undecided``.
+    ``moves`` are gear, curvature (1/m, positive to the driver's left) and length (m) in order from ``start``; they
+    define the manoeuvre. ``poses`` sample it at most 0.25 m apart: distance driven (m), x, z (m), yaw (right-handed
+    about +Y, 0 points to -Z), gear (1 or -1) and curvature. All refer to the middle of the rear axle. Stalls without
+    manoeuvres list the touched objects; those for which the search reached its bound are ``undecided``.
     """
     car = car or DesignCar()
     document = {
