@@ -1,4 +1,4 @@
-"""Grids with a border around them, so that every square has neighbours on all sides."""
+"""Grids padded with a border, so that every square has neighbours on all sides."""
 
 from typing import Any, TypeVar
 
@@ -11,14 +11,14 @@ Number = TypeVar("Number", bound=np.generic)
 
 
 def bordered(grid: NDArray[Number], value: Any = 0) -> NDArray[Number]:  # noqa: ANN401 - whatever the grid holds
-    """A grid with one line more on each side.
+    """Pad a grid with a border of one square on each side.
 
     Parameters
     ----------
     grid
         Shape (rows, cols).
     value
-        What the border holds.
+        Value of the border.
 
     Returns
     -------
@@ -27,7 +27,7 @@ def bordered(grid: NDArray[Number], value: Any = 0) -> NDArray[Number]:  # noqa:
 
     Notes
     -----
-    As `numpy.pad`, which takes ten times as long for grids as small as those of most garages.
+    Equivalent to `numpy.pad`, which takes ten times as long on grids of the size of most garages.
     """
     rows, cols = grid.shape
     wide = np.full((rows + 2, cols + 2), value, dtype=grid.dtype)

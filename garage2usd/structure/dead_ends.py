@@ -1,4 +1,4 @@
-"""Aisles that end in nothing, and which of them are too long to back out of."""
+"""Dead-end aisles of a structure, and those too long to back out of."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -18,16 +18,16 @@ Square = tuple[int, int]
 
 @dataclass(frozen=True)
 class DeadEnd:
-    """An aisle that ends in nothing.
+    """A dead-end aisle of lane squares.
 
     Attributes
     ----------
     squares
-        (row, col) of its lanes from the last one on, walking back to the next junction or portal.
+        (row, col) of its lanes from the tip back to the next junction or portal.
     length_m
-        From its end to the next junction or portal.
+        Length from its tip to the next junction or portal.
     needs_turning_stall
-        Whether it is too long to back out of.
+        True if the aisle is too long to back out of.
     """
 
     squares: tuple[Square, ...]
@@ -36,14 +36,14 @@ class DeadEnd:
 
     @property
     def tip(self) -> Square:
-        """(row, col) of its last lane."""
+        """(row, col) of the last lane of the dead end."""
         return self.squares[0]
 
 
 def dead_ends(structure: Structure, limit_mm: int = DEAD_END_LIMIT_MM) -> tuple[DeadEnd, ...]:
-    """All dead ends of a structure in reading order, by walking from each tip to the next junction or portal.
+    """Find all dead ends of a structure, in reading order, by walking from each tip to the next junction or portal.
 
-    One longer than `limit_mm` needs a turning stall.
+    A dead end longer than `limit_mm` needs a turning stall.
     """
     drivable = {(int(row), int(col)) for row, col in np.argwhere(structure.cells >= Cell.LANE)}
     beside = {
@@ -63,7 +63,7 @@ def dead_ends(structure: Structure, limit_mm: int = DEAD_END_LIMIT_MM) -> tuple[
 
 
 def _walk_back(tip: Square, beside: Mapping[Square, Sequence[Square]]) -> tuple[list[Square], Square | None]:
-    """The lanes of a dead end from its tip on, and the junction or portal that they lead to, if there is one."""
+    """Return the lanes of a dead end from its tip, and the junction or portal at its mouth, if any."""
     lanes, ahead = [tip], [*beside[tip]]
     while ahead and len(beside.get(ahead[0], ())) == 2:  # noqa: PLR2004 - neither a junction nor a portal
         lanes.append(ahead[0])

@@ -1,4 +1,4 @@
-"""On which edge of its square each portal has its vehicle door."""
+"""The edge of each portal's square that has its vehicle door."""
 
 import numpy as np
 
@@ -10,9 +10,9 @@ __all__ = ["door_edges"]
 
 
 def door_edges(cells: CellArray) -> dict[tuple[int, int], Edge]:
-    """The edge with the door of each portal (row, col) that has an edge on the outside.
+    """Return the edge with the door of each portal (row, col) that has an edge on the outside.
 
-    Of several, it is the one opposite a lane, so that cars drive straight in; else the first.
+    Of several such edges, the one opposite a lane is used, so that cars drive straight in; else the first.
     """
     outside = bordered(outside_squares(cells), value=True)
     lane = bordered(cells == Cell.LANE)

@@ -37,7 +37,7 @@ NEIGHBOUR_STEPS: tuple[tuple[int, int], ...] = ((-1, 0), (1, 0), (0, -1), (0, 1)
 
 
 class Cell(IntEnum):
-    """What a square holds: the values of the structure matrix S."""
+    """Kind of a square: the values of the structure matrix S."""
 
     OBSTACLE = -1
     FREE = 0
@@ -56,14 +56,14 @@ _MIN_SIDE_MM, _MAX_SIDE_MM = 1_000, 50_000
 
 
 def cells_from_text(text: str, *, field: str) -> CellArray:
-    """Read a structure matrix from its drawing.
+    """Parse a structure matrix from its drawing in characters.
 
     Parameters
     ----------
     text
-        One line a row, one character a square (see `Cell`), or whitespace or comma separated numbers -1 to 3.
+        One line per row, one character per square (see `Cell`), or numbers -1 to 3 separated by whitespace or commas.
     field
-        The setting that the text came from, for the error.
+        Name of the setting with the text, for the error.
 
     Returns
     -------
@@ -87,7 +87,7 @@ def cells_from_text(text: str, *, field: str) -> CellArray:
 
 
 def cells_to_text(cells: CellArray) -> str:
-    """Draw a structure matrix, one line a row; the inverse of `cells_from_text`."""
+    """Draw a structure matrix as text, one line per row; the inverse of `cells_from_text`."""
     return "\n".join("".join(_SYMBOL[Cell(value)] for value in row) for row in cells.tolist())
 
 
@@ -102,7 +102,7 @@ def edge_neighbour_count(mask: Mask) -> NDArray[np.int8]:
 
 
 def outside_squares(cells: CellArray) -> Mask:
-    """Squares outside the contour: those joined to the border of the padded matrix; the rest of -1 are obstacles."""
+    """Return the squares outside the contour: -1, connected to the padded border. Other -1 squares are obstacles."""
     blocked = bordered(cells == Cell.OBSTACLE, value=True)
     numbers, _ = pieces_of(blocked)
     outside: Mask = (numbers == numbers[0, 0])[1:-1, 1:-1]
@@ -110,14 +110,14 @@ def outside_squares(cells: CellArray) -> Mask:
 
 
 def sides_mm(sides_m: ArrayLike, *, field: str, shape: tuple[int, ...], axis: int) -> NDArray[np.int64]:
-    """Whole millimetres of the sides of squares along one axis.
+    """Return the sides of squares along one axis in whole millimetres.
 
     Parameters
     ----------
     sides_m
-        Metres: one number, one for each line of squares, or a matrix of `shape` constant across the other axis.
+        Metres: one number, one per line of squares, or a matrix of `shape` constant across the other axis.
     field
-        The setting that they came from, for the error.
+        Name of the setting with the sides, for the error.
     shape
         (rows, cols).
     axis
@@ -161,7 +161,7 @@ def sides_mm(sides_m: ArrayLike, *, field: str, shape: tuple[int, ...], axis: in
 
 @dataclass(frozen=True, eq=False)
 class Structure:
-    """A structure matrix with the size of its squares; equal when `digest` is equal.
+    """A structure matrix with the sizes of its squares; equal if `digest` is equal.
 
     Attributes
     ----------
@@ -183,7 +183,7 @@ class Structure:
     row_depths_mm: NDArray[np.int64]
 
     def __post_init__(self) -> None:
-        """Check shapes and values and keep read-only copies."""
+        """Validate shapes and values of the structure and keep read-only copies."""
         cells = np.array(self.cells, dtype=np.int8)
         widths = np.array(self.column_widths_mm, dtype=np.int64)
         depths = np.array(self.row_depths_mm, dtype=np.int64)
@@ -201,7 +201,7 @@ class Structure:
             object.__setattr__(self, name, array)
 
     def __reduce__(self) -> tuple[object, ...]:
-        """What it is made of, as pickled arrays forget that they are read-only."""
+        """Return constructor arguments for pickle, so that unpickled arrays are read-only again."""
         return type(self), (self.cells, self.column_widths_mm, self.row_depths_mm)
 
     @classmethod
@@ -240,7 +240,7 @@ class Structure:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """(rows, cols)."""
+        """Shape of the structure matrix, (rows, cols)."""
         rows, cols = self.cells.shape
         return rows, cols
 
@@ -271,20 +271,20 @@ class Structure:
 
     @property
     def floor_m2(self) -> float:
-        """Floor inside the contour, obstacles apart."""
+        """Floor area inside the contour, without obstacles."""
         areas = np.outer(self.row_depths_mm, self.column_widths_mm)
         return float(areas[self.cells != Cell.OBSTACLE].sum()) / _MM_PER_M**2
 
     def where(self, cell: Cell) -> list[tuple[int, int]]:
-        """All squares of one kind as (row, col), in reading order."""
+        """Return all squares of one kind as (row, col), in reading order."""
         return [(int(row), int(col)) for row, col in np.argwhere(self.cells == cell)]
 
     def with_cells(self, cells: CellArray) -> "Structure":
-        """The same R and C with another S."""
+        """Return a structure with the same R and C and another S."""
         return Structure(cells, self.column_widths_mm, self.row_depths_mm)
 
     def digest(self) -> str:
-        """SHA-256 of the canonical bytes: shape, R and C in millimetres, S."""
+        """SHA-256 of the structure's canonical bytes: shape, R and C in millimetres, S."""
         canonical = hashlib.sha256()
         for array in (np.array(self.shape), self.column_widths_mm, self.row_depths_mm):
             canonical.update(array.astype("<i8").tobytes())
@@ -292,15 +292,15 @@ class Structure:
         return canonical.hexdigest()
 
     def __eq__(self, other: object) -> bool:
-        """Equal shape, S, R and C."""
+        """Return True if shape, S, R and C of two structures are equal."""
         return isinstance(other, Structure) and self.digest() == other.digest()
 
     def __hash__(self) -> int:
-        """Hash of the digest."""
+        """Return the hash of the structure's digest."""
         return hash(self.digest())
 
     def __str__(self) -> str:
-        """S drawn as text."""
+        """Draw S as text."""
         return cells_to_text(self.cells)
 
 

@@ -37,16 +37,16 @@ class LaneSquares:
     Attributes
     ----------
     structure
-        The matrices that it was built from.
+        Matrices of the garage.
     setback_m
-        How far the carriageway stays from squares that are not lanes.
+        Distance between the carriageway and squares that are not lanes.
     graph
         `networkx.Graph`; a node is a (row, col) with ``kind`` (`LaneKind`), ``x_m`` and ``z_m`` of its centre; an edge
         joins squares that share a side, with ``length_m`` between their centres.
     stall_types
         `StallType` of every free square.
     stall_rows
-        The rows of stalls, each with the lane beyond its edge reached from an entrance and leading to an exit.
+        Stall rows, each with a lane beyond its edge that is reached from an entrance and leads to an exit.
     """
 
     structure: Structure
@@ -57,12 +57,12 @@ class LaneSquares:
 
     @cached_property
     def number_of(self) -> dict[Square, int]:
-        """Number of the node on each square that has one."""
+        """Number of the node on each lane or portal square."""
         return {square: number for number, square in enumerate(sorted(self.graph.nodes))}
 
     @cached_property
     def lanes(self) -> LaneGraph:
-        """The lanes in metres; one-way from an entrance and into an exit, else driven both ways."""
+        """The lane graph in metres; one-way from an entrance and into an exit, else two-way."""
         kinds = list(map(self.kind, self.number_of))
         structure, margin_m = self.structure, 2 * self.setback_m
         widths_m = (structure.column_widths_mm / 1000).tolist()
@@ -88,7 +88,7 @@ class LaneSquares:
         return LaneGraph(nodes, tuple(edges))
 
     def shortest_way(self, start: Square, end: Square) -> list[Square] | None:
-        """The shortest route between two lanes or portals in metres, through no other portal; None if there is none."""
+        """Return the shortest route between two lanes or portals, through no other portal; None without one."""
         portals = {square for square in self.graph if self.kind(square) in {LaneKind.ENTRANCE, LaneKind.EXIT}}
         roads = self.graph.subgraph(self.graph.nodes - (portals - {start, end}))
         if not nx.has_path(roads, start, end):
@@ -96,16 +96,16 @@ class LaneSquares:
         return list(nx.shortest_path(roads, start, end, weight="length_m"))
 
     def length_m(self, way: Sequence[Square]) -> float:
-        """Metres from the first to the last square of a route, from middle to middle."""
+        """Return the length of a route of squares in metres, from middle to middle."""
         return float(nx.path_weight(self.graph, way, "length_m"))
 
     def kind(self, square: Square) -> LaneKind:
-        """Kind of one lane or portal."""
+        """Return the kind of a lane or portal square."""
         kind: LaneKind = self.graph.nodes[square]["kind"]
         return kind
 
     def kind_counts(self) -> dict[str, int]:
-        """How many squares there are of each kind of lane and portal, and of each stall type."""
+        """Count the squares of each kind of lane and portal, and of each stall type."""
         counts = Counter(str(kind) for _, kind in self.graph.nodes(data="kind"))
         counts.update(str(kind) for kind in self.stall_types.values())
         return {str(kind): counts[str(kind)] for kind in (*LaneKind, *StallType)}
@@ -117,7 +117,7 @@ def build_lane_graph(structure: Structure, bay: BayConfig) -> LaneSquares:
     Raises
     ------
     UnreachableStallError
-        If a stall's lane has no route from an entrance and to an exit that keeps to lanes.
+        If a stall's lane has no route over lanes from an entrance and to an exit.
     """
     lanes = unproven_lane_graph(structure, bay)
     _check_reachability(structure, lanes.graph, lanes.stall_rows)
@@ -125,7 +125,7 @@ def build_lane_graph(structure: Structure, bay: BayConfig) -> LaneSquares:
 
 
 def unproven_lane_graph(structure: Structure, bay: BayConfig) -> LaneSquares:
-    """Build the lane graph of any structure with lanes, whether or not its stalls are reached.
+    """Build the lane graph of any structure with lanes, without a proof that stalls are reached.
 
     Notes
     -----
@@ -181,7 +181,7 @@ def _stall_types(structure: Structure) -> dict[Square, StallType]:
 
 
 def _check_reachability(structure: Structure, graph: "nx.Graph[Square]", rows: tuple[StallRow, ...]) -> None:
-    """Every stall's lane must lie in a piece of lanes that touches an entrance and an exit."""
+    """Raise an error unless every stall's lane is in a connected piece of lanes with an entrance and an exit."""
     cells = structure.cells
     lanes = graph.subgraph(square for square in graph if cells[square] == Cell.LANE)
     served: set[Square] = set()

@@ -1,4 +1,4 @@
-"""Pieces: what hangs together by its neighbours."""
+"""Connected components of squares and of numbered items."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,19 +9,19 @@ Whole = NDArray[np.int64]
 
 
 def joined(count: int, first: Whole, second: Whole) -> Whole:
-    """The lowest number that each of 0 to `count` - 1 is joined to, itself where to none lower.
+    """Label the connected components of a graph: each node gets the lowest node number of its component.
 
     Parameters
     ----------
     count
-        How many there are.
+        Number of nodes.
     first, second
-        The two of each pair that is joined; int64, shape (pairs,).
+        The two nodes of each edge; int64, shape (pairs,).
 
     Notes
     -----
-    Shiloach and Vishkin, Journal of Algorithms 3 (1982): trees hang themselves on lower ones beside them and are
-    flattened, until none has a lower one beside it.
+    Shiloach and Vishkin, Journal of Algorithms 3 (1982): trees are hooked onto lower adjacent ones and flattened, until
+    no tree has a lower one beside it.
     """
     lowest = np.arange(count)
     while len(first):
@@ -35,7 +35,7 @@ def joined(count: int, first: Whole, second: Whole) -> Whole:
 
 
 def pieces_of(mask: NDArray[np.bool_]) -> tuple[Whole, int]:
-    """The number of each square's 4-connected piece, from 1 in reading order, and how many there are.
+    """Label the 4-connected components of a mask, from 1 in reading order, and count them.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
-"""Which squares hold stalls, and how many: the one answer that score and layout share.
+"""Stall capacity of squares, shared by the score of a structure and its layout.
 
-A free square is served through an edge that it shares with a lane. Stalls stand side by side along that edge,
-between the columns on its two ends, with their length across the square.
+A free square is served through an edge that it shares with a lane. Stalls are side by side along that edge, between
+the columns on its two ends, with their length across the square.
 """
 
 from dataclasses import dataclass
@@ -29,35 +29,35 @@ class Edge(IntEnum):
 
     @property
     def opposite(self) -> "Edge":
-        """The edge across the square."""
+        """The opposite edge of the square."""
         return Edge(self ^ 1)
 
     @property
     def along_x(self) -> bool:
-        """Whether it runs along X."""
+        """True if the edge is parallel to X."""
         return self in {Edge.UP, Edge.DOWN}
 
     @property
     def ends(self) -> tuple["Edge", "Edge"]:
-        """The edges at its two ends: left and right, or up and down."""
+        """The two adjacent edges of the square: left and right, or up and down."""
         return (Edge.LEFT, Edge.RIGHT) if self.along_x else (Edge.UP, Edge.DOWN)
 
     def beyond(self, square: tuple[int, int]) -> tuple[int, int]:
-        """The (row, col) on the other side of this edge of a square."""
+        """Return the (row, col) of the square beyond this edge."""
         down, right = NEIGHBOUR_STEPS[self]
         return square[0] + down, square[1] + right
 
 
 @dataclass(frozen=True, eq=False)
 class CapacityTable:
-    """Stalls that each square would hold if it were free and served; four int64 arrays, shape (rows, cols).
+    """Stall capacity of each square if it were free and served; four int64 arrays, shape (rows, cols).
 
     Attributes
     ----------
     along_x, along_x_double
-        With one of the edges up and down open to a lane, and with both.
+        Capacity with a lane at the upper or lower edge, and with lanes at both.
     along_z, along_z_double
-        With one of the edges left and right open to a lane, and with both.
+        Capacity with a lane at the left or right edge, and with lanes at both.
     """
 
     along_x: NDArray[np.int64]
@@ -77,7 +77,7 @@ class StallRow:
 
     @property
     def square(self) -> tuple[int, int]:
-        """(row, col) of the square that they are on."""
+        """(row, col) of the stall row's square."""
         return self.row, self.col
 
 
@@ -86,8 +86,8 @@ def capacity_table(structure: Structure, bay: BayConfig) -> CapacityTable:
 
     Notes
     -----
-    ``floor((edge - ends) / stall_width)`` stalls if the depth takes the stall length; two rows if opposite edges are
-    both open and the depth takes two. The ends leave half a column each free, or the gap to a wall. 8.1 m squares hold
+    ``floor((edge - ends) / stall_width)`` stalls if the depth holds the stall length; two rows if opposite edges are
+    both open and the depth holds two. The ends leave half a column each free, or the gap to a wall. 8.1 m squares hold
     three 2.4 x 5.3 m stalls. Computed in whole millimetres.
     """
     stall_width, stall_length, ends = (
@@ -105,17 +105,17 @@ def capacity_table(structure: Structure, bay: BayConfig) -> CapacityTable:
 
 
 def square_capacity(structure: Structure, bay: BayConfig) -> NDArray[np.int64]:
-    """Number of stalls on each square as it is served now; int64, shape (rows, cols), 0 where not free."""
+    """Count the stalls on each square as currently served; int64, shape (rows, cols), 0 where not free."""
     return served_capacity(structure.cells, capacity_table(structure, bay))
 
 
 def served_capacity(cells: CellArray, table: CapacityTable) -> NDArray[np.int64]:
-    """`square_capacity` of a matrix S whose squares hold what the table says."""
+    """Count the stalls on each square of a matrix S, from a capacity table; as `square_capacity`."""
     return np.maximum(*_served(cells, table))
 
 
 def stall_rows(structure: Structure, bay: BayConfig) -> tuple[StallRow, ...]:
-    """The rows of stalls of a structure, in reading order; up and down win a tie over left and right."""
+    """Return the stall rows of a structure, in reading order; up and down win a tie over left and right."""
     table = capacity_table(structure, bay)
     along_x, along_z = _served(structure.cells, table)
     lane = _open_edges(structure.cells == Cell.LANE)
@@ -131,13 +131,13 @@ def stall_rows(structure: Structure, bay: BayConfig) -> tuple[StallRow, ...]:
 
 
 def _open_edges(mask: Mask) -> tuple[Mask, Mask, Mask, Mask]:
-    """For each `Edge`, which squares have `mask` set beyond it."""
+    """Return for each `Edge` the squares with `mask` set beyond it."""
     padded = bordered(mask)
     return padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]
 
 
 def _served(cells: CellArray, table: CapacityTable) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Stalls along X and along Z on each free square, with the lanes as they are."""
+    """Count stalls along X and along Z on each free square, for the current lanes."""
     up, down, left, right = _open_edges(cells == Cell.LANE)
     free = cells == Cell.FREE
     return (
@@ -149,5 +149,5 @@ def _served(cells: CellArray, table: CapacityTable) -> tuple[NDArray[np.int64], 
 def _held(
     free: Mask, one: Mask, other: Mask, single: NDArray[np.int64], double: NDArray[np.int64]
 ) -> NDArray[np.int64]:
-    """Stalls on the free squares of which one of two opposite edges is open, or both."""
+    """Count stalls on free squares with one or both of two opposite edges open."""
     return np.where(free, np.where(one & other, double, np.where(one | other, single, 0)), 0)

@@ -1,4 +1,4 @@
-"""Plans that are the same but for a turn or a mirror image: one canonical form, and one digest, for all of them."""
+"""Canonical form and digest of plans, equal for all rotations and reflections."""
 
 import hashlib
 
@@ -10,7 +10,7 @@ __all__ = ["canonical_cells", "cropped_cells", "eight_symmetries", "plan_digest"
 
 
 def cropped_cells(cells: CellArray) -> CellArray:
-    """The cells without the rows and columns at the border that lie outside altogether.
+    """Crop the border rows and columns that are entirely outside the contour.
 
     Parameters
     ----------
@@ -20,7 +20,7 @@ def cropped_cells(cells: CellArray) -> CellArray:
     Returns
     -------
     CellArray
-        A view of `cells`, shape (rows, cols) of what is left; shape (0, 0) where every square is -1.
+        A view of `cells`, shape (rows, cols) of the cropped matrix; shape (0, 0) where every square is -1.
     """
     is_inside = cells != Cell.OBSTACLE
     rows, cols = (np.flatnonzero(is_inside.any(axis=axis)) for axis in (1, 0))
@@ -30,7 +30,7 @@ def cropped_cells(cells: CellArray) -> CellArray:
 
 
 def eight_symmetries(cells: CellArray) -> tuple[CellArray, ...]:
-    """The images of the cells under the eight symmetries of the square.
+    """Return the images of the cells under the eight symmetries of the square.
 
     Parameters
     ----------
@@ -41,14 +41,14 @@ def eight_symmetries(cells: CellArray) -> tuple[CellArray, ...]:
     -------
     tuple of CellArray
         Views of `cells`: turned by 0, 90, 180 and 270 degrees counter-clockwise, then the same of its mirror image.
-        Four of them have shape (rows, cols) and four (cols, rows); images that are equal are not left out.
+        Four of them have shape (rows, cols) and four (cols, rows); equal images are kept.
     """
     mirrored = cells[:, ::-1]
     return tuple(np.rot90(image, quarters) for image in (cells, mirrored) for quarters in range(4))
 
 
 def canonical_cells(cells: CellArray) -> CellArray:
-    """The one form that all turns and mirror images of a plan have in common.
+    """Return the canonical form shared by all rotations and reflections of a plan.
 
     Parameters
     ----------
@@ -58,14 +58,14 @@ def canonical_cells(cells: CellArray) -> CellArray:
     Returns
     -------
     CellArray
-        The cropped cells (see `cropped_cells`) in that of their eight images which comes first by shape and then by its
-        values in reading order; at least as many columns as rows, a copy.
+        A copy of the first of the eight images of the cropped cells (see `cropped_cells`), ordered by shape and then by
+        values in reading order. It has at least as many columns as rows.
     """
     return min(eight_symmetries(cropped_cells(cells)), key=_order).copy()
 
 
 def plan_digest(cells: CellArray) -> str:
-    """SHA-256 in hex of the canonical form: its shape and its cells, not the metres of its squares.
+    """Compute the SHA-256 digest, in hex, of a plan's canonical form: its shape and cells, without metres.
 
     Parameters
     ----------
@@ -74,8 +74,7 @@ def plan_digest(cells: CellArray) -> str:
 
     Notes
     -----
-    Two plans of equal digest are the same arrangement of squares, however they are turned and however wide their
-    squares are.
+    Plans of equal digest are the same arrangement of squares up to rotation, reflection and the sizes of the squares.
     """
     canonical = canonical_cells(cells)
     digest = hashlib.sha256(np.array(canonical.shape, dtype="<i8").tobytes())
@@ -84,5 +83,5 @@ def plan_digest(cells: CellArray) -> str:
 
 
 def _order(cells: CellArray) -> tuple[tuple[int, ...], bytes]:
-    """By what images are compared: bytes from 0 compare as the values from -1 do."""
+    """Return the sort key of an image: bytes from 0 compare as the values from -1 do."""
     return cells.shape, (cells - Cell.OBSTACLE).astype(np.uint8).tobytes()
