@@ -1,4 +1,4 @@
-"""All objects and lights of a stage in metres, Y up."""
+"""Objects and lights of a stage, in metres, Y up."""
 
 from collections.abc import Collection, Hashable, Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -23,22 +23,21 @@ __all__ = ["Contents", "PlacedLight", "read_contents"]
 
 _FARTHEST_M = 1e6
 _CALIBRATED = "garage:light:luminance"
-"""The attribute by which lights of this program are known, whose intensities are scaled."""
+"""Attribute that marks lights written by this program, whose intensities are scaled."""
 _NOWHERE = "DistantLight"
 
 
 class PlacedLight(NamedTuple):
-    """A light that has a place.
+    """A light with a position.
 
     Attributes
     ----------
     matrix
         From its coordinates to the world's, for row vectors.
     source
-        How strongly it shines.
+        Intensity and size of the light.
     nits_per_unit
-        How many candela it shines for each of a white light that the source says, by its colour and by what an
-        intensity of 1 stands for.
+        Factor on the intensity of a white light of the source, from its colour and the meaning of an intensity of 1.
     """
 
     matrix: Array
@@ -48,31 +47,31 @@ class PlacedLight(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Contents:
-    """What stands, hangs and shines on a stage."""
+    """Objects and lights of a stage."""
 
     things: tuple[Thing, ...]
     lights: tuple[PlacedLight, ...]
 
 
 def read_contents(stage: Usd.Stage, objects: Iterable[PlacedObject] | None = None) -> Contents:
-    """Read all objects of a stage, each with its meshes, and its lights but for suns and skies, which stay outside.
+    """Read all objects of a stage with their meshes, and its lights except suns and skies, which are outside.
 
     Parameters
     ----------
     stage
         The stage.
     objects
-        What `garage2usd.reading.walk.placed_objects` finds there in metres, Y up, if that is known already.
+        Result of `garage2usd.reading.walk.placed_objects` in metres, Y up, if already known.
 
     Notes
     -----
-    See `garage2usd.reading.walk.placed_objects` for what an object is. What has a class of pieces, as paint has,
-    counts as part of the object above it: paint is floor.
+    For the definition of an object see `garage2usd.reading.walk.placed_objects`. A prim with a class of pieces, such as
+    paint, counts as part of the object above it: paint is floor.
 
     Raises
     ------
     StageError
-        If something lies more than 1000 km from the origin, where geometry loses its millimetres.
+        If something is more than 1000 km from the origin, where geometry loses millimetre precision.
     """
     things: dict[str, Thing] = {}
     lights: list[PlacedLight] = []
@@ -93,7 +92,7 @@ def read_contents(stage: Usd.Stage, objects: Iterable[PlacedObject] | None = Non
 
 
 def _whole(placed: PlacedObject, things: Mapping[str, Thing]) -> Thing | None:
-    """The object that a labelled piece is part of, such as the floor that is painted; None for all other objects."""
+    """Return the object that contains a labelled piece, such as the floor under paint; None for other objects."""
     if placed.label not in PIECE_LABELS:
         return None
     path = placed.path
@@ -103,14 +102,14 @@ def _whole(placed: PlacedObject, things: Mapping[str, Thing]) -> Thing | None:
 
 
 class _Look(NamedTuple):
-    """What an object consists of in its own space."""
+    """Meshes of an object in its own space."""
 
     bodies: list[Body]
     lights: list[tuple[Usd.Prim, Array]]
     matrices: Array
 
     def placed(self, matrix: Array) -> tuple[Body, ...]:
-        """The bodies, moved by a matrix."""
+        """Return the object's meshes transformed by a matrix."""
         matrices = self.matrices @ matrix
         return tuple(Body(body.shape, place, body.touches) for body, place in zip(self.bodies, matrices, strict=True))
 
@@ -129,14 +128,14 @@ def _look(placed: PlacedObject, shapes: "_Shapes") -> _Look:
 
 
 class _Shapes:
-    """The meshes of prims; equal ones are one, so that what is asked of them is found out once."""
+    """Cache of prims' meshes; equal meshes are shared, so that their properties are computed once."""
 
     def __init__(self) -> None:
         self._of_opinions: dict[Hashable, MeshShape | None] = {}
         self._known: dict[tuple[bytes, ...], MeshShape] = {}
 
     def of(self, prim: Usd.Prim) -> MeshShape | None:
-        """The mesh of a prim."""
+        """Return the mesh of a prim."""
         key = opinions_of(prim)
         if key not in self._of_opinions:
             shape = _shape(prim)
@@ -162,7 +161,7 @@ def _check_reach(stage: Usd.Stage, things: Collection[Thing], lights: list[Place
 
 
 def _shape(prim: Usd.Prim) -> MeshShape | None:
-    """The mesh of a prim, or the box around any other shape; None where it has neither points nor extent."""
+    """Return the mesh of a prim, or the bounding box of any other shape; None without points and extent."""
     if prim.IsA(UsdGeom.Mesh):
         mesh = UsdGeom.Mesh(prim)
         arrays = (

@@ -1,4 +1,4 @@
-"""Convex parts of outlines that are not convex."""
+"""Convex decomposition of non-convex outlines."""
 
 import numpy as np
 import shapely
@@ -8,24 +8,24 @@ __all__ = ["are_dented", "convex_outlines"]
 
 _TRIANGLE = 3
 _FLAT = 1e-6
-"""Share of the square of a normal, which is twice the area, by which sides may turn back: rounding of their places."""
+"""Tolerance for reflex corners, as a share of the squared normal (twice the area): rounding of positions."""
 _SAME = 1e-6
-"""Share of a convex outline's area that may be missing."""
+"""Greatest missing share of a convex outline's area."""
 
 
 def are_dented(
     begin: NDArray[np.float64], end: NDArray[np.float64], after: NDArray[np.int64], counts: NDArray[np.int64]
 ) -> bool:
-    """Whether one of several polygons somewhere turns against its normal.
+    """Return True if any of several polygons is non-convex: a corner turns against the polygon's normal.
 
     Parameters
     ----------
     begin, end
-        The ends of their sides, one polygon after the other; shape (sides, 3).
+        Ends of the polygons' sides in order; shape (sides, 3).
     after
-        The side after each.
+        Index of the side after each.
     counts
-        How many sides each polygon has.
+        Number of sides of each polygon.
     """
     if not (counts > _TRIANGLE).any():
         return False
@@ -36,17 +36,17 @@ def are_dented(
 
 
 def convex_outlines(triangles: NDArray[np.float64]) -> list[NDArray[np.float64]]:
-    """Corners of convex outlines that together are what triangles cover.
+    """Decompose the area covered by triangles into convex outlines.
 
     Parameters
     ----------
     triangles
-        On the ground; shape (n, 3, 2).
+        Triangles on the ground; shape (n, 3, 2).
 
     Returns
     -------
     list
-        Shape (k, 2) each; one where all is convex or has no area, else triangles by GEOS.
+        Corners of each outline, shape (k, 2): a single one if the area is convex or empty, else triangles by GEOS.
     """
     sheets = shapely.polygons(triangles)
     ground = shapely.union_all(sheets[shapely.area(sheets) > 0])

@@ -1,4 +1,4 @@
-"""Doors of stair cores, found in meshes, and the lanes that they open onto."""
+"""Doors of stair cores, detected in meshes, and the lanes outside them."""
 
 from collections import defaultdict
 from collections.abc import Iterator
@@ -19,20 +19,20 @@ _WIDTHS_M = (0.7, 2.0)
 _THICKEST_M = 0.3
 _FLOOR_M = 0.05
 _STEP_OUT_M = 1.0
-"""How far before a door a lane begins at most."""
+"""Greatest distance in metres from a core door to a lane."""
 
 
 class CoreDoor(NamedTuple):
-    """A door onto a lane.
+    """A door of a stair core onto a lane.
 
     Attributes
     ----------
     name
         Prim path of the core.
     position
-        Its middle, (x, z) in metres.
+        (x, z) of its middle in metres.
     node
-        Number of the lane node that it opens onto.
+        Number of the lane node outside the door.
     """
 
     name: str
@@ -41,10 +41,10 @@ class CoreDoor(NamedTuple):
 
 
 def core_doors(garage: BuiltGarage) -> list[CoreDoor]:
-    """The doors of cores that open onto lanes, one for each core and lane, whoever modelled them.
+    """Detect the doors of stair cores onto lanes, one for each core and lane, in models of any origin.
 
-    A door is a thin upright piece of an obstacle, from the floor to 1.9 to 2.5 m and 0.7 to 2 m wide, on a side of it
-    behind which a lane begins within a metre.
+    A door is a thin upright piece of an obstacle, from the floor to 1.9 to 2.5 m and 0.7 to 2 m wide, on a side of the
+    obstacle with a lane within a metre.
     """
     pieces: dict[str, list[Solid]] = defaultdict(list)
     for solid in garage.solids.standing(_LABEL):
@@ -62,7 +62,7 @@ def core_doors(garage: BuiltGarage) -> list[CoreDoor]:
 
 
 def _step_out(part: Solid, block: Point) -> Point | None:
-    """The way out of a door, if a piece is one."""
+    """Return the direction out of a core door, if a piece is one."""
     if part.bottom_m > _FLOOR_M or not _HEIGHTS_M[0] <= part.top_m <= _HEIGHTS_M[1]:
         return None
     box = part.footprint.minimum_rotated_rectangle

@@ -1,4 +1,4 @@
-"""The floor that cars drive on: level in the garage, and rising on its ramps."""
+"""The floor for driving: level in the garage, and sloping on its ramps."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -16,14 +16,14 @@ __all__ = ["DrivenFloor"]
 
 @dataclass(frozen=True, eq=False)
 class DrivenFloor:
-    """The floor that cars drive on, in metres, Y up.
+    """The floor for driving, in metres, Y up.
 
     Attributes
     ----------
     level_m
         Height of the garage's floor.
     ramps
-        The floors of its ramps.
+        Floors of its ramps.
     """
 
     level_m: float
@@ -31,9 +31,9 @@ class DrivenFloor:
 
     @classmethod
     def of(cls, lanes: LaneGraph, things: Iterable[Thing]) -> "DrivenFloor":
-        """The floor of the lanes, and of the ramps among objects."""
+        """Find the floor of the lanes and of the ramps among objects."""
         return cls(lanes.floor_m(), floors_of_ramps(things))
 
     def heights_m(self, x_m: ArrayLike, z_m: ArrayLike) -> NDArray[np.float64]:
-        """Its heights at points; float64, their shape."""
+        """Return the floor's heights at points; float64, their shape."""
         return heights_m(self.ramps, x_m, z_m, level_m=self.level_m)

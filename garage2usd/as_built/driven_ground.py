@@ -1,4 +1,4 @@
-"""The ground of a garage as built that a car drives on, and the obstacles on it."""
+"""The ground of a garage as built for driving, with the obstacles on it."""
 
 import math
 from collections.abc import Collection, Iterator, Mapping
@@ -22,39 +22,39 @@ from garage2usd.objects import CAR_LABELS
 __all__ = ["CAR_HEIGHT_M", "driven_garage", "rounded"]
 
 CAR_HEIGHT_M = 2.0
-"""Height of the design car where a profile gives none."""
+"""Height of the design car in metres if the profile gives none."""
 
 _DRIVEN_THROUGH = {"vehicle_door", "ramp"}
-"""What a convex outline would close; it counts by its section instead."""
+"""Semantic classes of obstacles with an opening, which a convex outline would close; their section is used instead."""
 _DRIVEN_OVER = {"speed_bump"}
 _SKIN_M = 0.02
-"""What stands out of a car less than that counts as its colliders."""
+"""Greatest protrusion in metres from a car's colliders that is ignored."""
 _CORNERS, _DIRECTIONS = 4, 8
 _SLACK_M2 = 0.05
-"""Ground that the convex outline of an object may have over its pieces to stand for them: 1 cm along a car."""
+"""Greatest excess area of an object's convex outline over its pieces for which it replaces them: 1 cm along a car."""
 _ONCE_S, _STALL_S = 60.0, 5.0
-"""Processor time that is allowed for a proof: for what is done once, and for each stall."""
+"""Processor time granted to a swept-path proof in seconds: once, and per stall."""
 _DIGITS = 4
-"""Metres are rounded to so many, so that the single precision of a stage makes no difference."""
+"""Decimals of rounded metres, so that the single precision of a stage makes no difference."""
 
 
 def driven_garage(
     garage: BuiltGarage, *, height_m: float = CAR_HEIGHT_M, left_out: Collection[str] = ()
 ) -> DrivenGarage:
-    """Assemble the garage that is driven in: stalls, lanes, and each obstacle by its prim path.
+    """Assemble the garage for driving from a garage as built: stalls, lanes, and obstacles by prim path.
 
     Parameters
     ----------
     garage
         The garage.
     height_m
-        What begins higher touches no car.
+        Height of the car; pieces that begin higher are no obstacles.
     left_out
-        Prim paths of objects to leave out.
+        Prim paths of objects to omit.
 
     Notes
     -----
-    A process with limits gets the time for the proof.
+    A process with limits of time is granted the time for the proof.
     """
     allow_seconds(_ONCE_S + _STALL_S * len(garage.parking_stalls))
     driven = assembled(
@@ -66,7 +66,7 @@ def driven_garage(
 
 
 def _standing(garage: BuiltGarage, height_m: float) -> Iterator[StandingThing]:
-    """Each thing that a car could touch; doors and ramps by their sections."""
+    """Return each obstacle to a car; doors and ramps by their sections."""
     grounds = [ground for ground in garage.solids.grounds(height_m) if ground[1] not in _DRIVEN_THROUGH | _DRIVEN_OVER]
     owner = np.repeat(np.arange(len(grounds)), [len(pieces) for _, _, pieces in grounds])
     pieces = np.array([piece for _, _, pieces in grounds for piece in pieces], dtype=object)
@@ -91,16 +91,16 @@ def _standing(garage: BuiltGarage, height_m: float) -> Iterator[StandingThing]:
 
 
 def _standing_out(cars: Mapping[int, Thing], hulls: Grounds, height_m: float) -> tuple[NDArray[np.int64], Grounds]:
-    """The pieces of cars that stand out of the ground of their colliders, which are their mirrors.
+    """Return the pieces of cars that protrude from the ground of their colliders: their mirrors.
 
     Parameters
     ----------
     cars
-        By their number.
+        Cars by number.
     hulls
-        The convex ground of the colliders of what has a number.
+        Convex ground of the colliders by number.
     height_m
-        What begins higher touches no car.
+        Height of the design car; pieces that begin higher are no obstacles.
 
     Returns
     -------
@@ -126,7 +126,7 @@ def _standing_out(cars: Mapping[int, Thing], hulls: Grounds, height_m: float) ->
 
 
 def _hulls(owner: NDArray[np.int64], pieces: Grounds) -> Grounds:
-    """The convex hulls of the pieces of each owner; all have some."""
+    """Return the convex hull of the pieces of each owner; every owner has a piece."""
     if not len(pieces):
         return pieces
     hulls: Grounds = shapely.convex_hull(shapely.geometrycollections(pieces, indices=owner))
@@ -134,7 +134,7 @@ def _hulls(owner: NDArray[np.int64], pieces: Grounds) -> Grounds:
 
 
 def _simple(owner: NDArray[np.int64], pieces: Grounds) -> tuple[NDArray[np.int64], Grounds]:
-    """Convex pieces as fewer ones that hold them: one where they nearly fill it, none with more than eight corners."""
+    """Cover convex pieces by fewer ones: by one if nearly filled, and by polygons of at most eight corners."""
     counts = np.bincount(owner)
     number = np.arange(len(owner)) - (np.cumsum(counts) - counts)[owner]
     table = np.full((len(counts), counts.max(initial=1)), None, dtype=object)
@@ -158,9 +158,9 @@ def _simple(owner: NDArray[np.int64], pieces: Grounds) -> tuple[NDArray[np.int64
 
 
 def _eight_cornered(pieces: Grounds) -> Grounds:
-    """Convex polygons, or the tightest ones around them with eight sides, along and halfway between those of a box.
+    """Return convex polygons, or their tightest octagons with sides parallel and diagonal to a bounding box.
 
-    One that is as thin as a line becomes that line.
+    A polygon as thin as a line becomes that line.
     """
     hulls = shapely.convex_hull(pieces)
     are_flat = shapely.get_type_id(hulls) != shapely.GeometryType.POLYGON
@@ -184,12 +184,12 @@ def _eight_cornered(pieces: Grounds) -> Grounds:
 
 
 def _rounded_lanes(lanes: LaneGraph) -> LaneGraph:
-    """The lanes with rounded lengths, cars keeping between the columns."""
+    """Return the lanes with rounded lengths; cars keep between the columns."""
     nodes = (replace(node, position=rounded(node.position), sides_m=None) for node in lanes.nodes)
     edges = (edge._replace(width_m=round(edge.width_m, _DIGITS)) for edge in lanes.edges)
     return LaneGraph(tuple(nodes), tuple(edges))
 
 
 def rounded(point: Point) -> Point:
-    """A point to a tenth of a millimetre, as single precision keeps it."""
+    """Round a point to 0.1 mm, which single precision preserves."""
     return round(point[0], _DIGITS), round(point[1], _DIGITS)

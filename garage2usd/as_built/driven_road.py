@@ -18,35 +18,35 @@ __all__ = ["Mouth", "driven_road", "floors_of_ramps", "portal_mouths"]
 
 _GATE, _RAMP = "barrier", "ramp"
 _ARM_FROM_M = 0.5
-"""What of a gate begins higher belongs to its arm."""
+"""Height in metres above which a gate's pieces belong to its arm."""
 _UPRIGHT, _LEAST_FACE_M = 0.5, 0.1
 _LEAST_FLAT_M = 0.06
-"""The lands between the grooves of a ramp are longer than this, and the grooves narrower."""
+"""Length in metres that separates a ramp's lands (longer) from its grooves (narrower)."""
 _LEVEL_SLOPE, _STEEPEST_SLOPE = 0.005, 0.6
 _FROM_END_M = 0.5
-"""Between a car that has come from outside, or leaves, and the end of its ramp."""
+"""Distance in metres between a car outside the garage and the end of its ramp."""
 _FROM_DOOR_M = 0.3
-"""Between a car and the door that it has come through, or will go through, where there is no ramp."""
+"""Distance in metres between a car and a portal's door without a ramp."""
 _DOOR_REACH_M, _RAMP_REACH_M = 1.5, 2.0
 _DIGITS = 4
 _AXES: tuple[Point, ...] = ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))
 
 
 class Mouth(NamedTuple):
-    """Where a portal opens to the outside.
+    """The mouth of a portal: its opening to the outside.
 
     Attributes
     ----------
     number
-        Of its node.
+        Number of the portal's node.
     outwards
         Unit vector (x, z) along an axis.
     edge_m
-        From the node's middle to where the clear floor of its square ends.
+        Distance from the node's middle to the edge of its square's clear floor.
     width_m
-        Of the way: the ramp's, else the opening of the door, else that between the columns.
+        Width of the ramp, else of the door's opening, else between the columns.
     ramp
-        The floor that begins there; None where a ramp is missing.
+        Floor of the ramp that begins there; None without a ramp.
     """
 
     number: int
@@ -56,7 +56,7 @@ class Mouth(NamedTuple):
     ramp: RampFloor | None
 
     def top_m(self, middle: Point) -> float:
-        """From the node's middle to where the way ends: the top of the ramp, else the edge of the floor."""
+        """Distance from the node's middle to the end of the road: the ramp's top, else the edge of the floor."""
         if self.ramp is None:
             return self.edge_m
         top = self.ramp.top_m
@@ -64,21 +64,21 @@ class Mouth(NamedTuple):
 
 
 def driven_road(garage: BuiltGarage, *, car: DesignCar | None = None, height_m: float = CAR_HEIGHT_M) -> DrivenRoad:
-    """Find the road through a garage.
+    """Find the road through a garage as built.
 
     Parameters
     ----------
     garage
         The garage.
     car
-        Which car is driven.
+        The car.
     height_m
-        What begins higher touches no car.
+        Height of the car; pieces that begin higher are no obstacles.
 
     Notes
     -----
-    A car comes from the top of the ramp behind a door, half a metre before its end. Where a door has no ramp, it is
-    shut; the car then stands within the portal's square, 0.3 m from the door.
+    A car starts at the top of the ramp behind a door, half a metre before its end. A door without a ramp is shut; the
+    car then starts within the portal's square, 0.3 m from the door.
     """
     car = car or DesignCar()
     driven = driven_garage(garage, height_m=height_m)
@@ -96,7 +96,7 @@ def driven_road(garage: BuiltGarage, *, car: DesignCar | None = None, height_m: 
 
 
 def portal_mouths(garage: BuiltGarage) -> tuple[Mouth, ...]:
-    """Where each portal of a garage opens to the outside, in the order of the nodes."""
+    """Return the mouth of each portal of a garage, in the order of the nodes."""
     return tuple(_mouths(garage, floors_of_ramps(garage.things)))
 
 
@@ -133,7 +133,7 @@ def _about(yaw_rad: float) -> float:
 
 
 def _outwards(garage: BuiltGarage, number: int) -> tuple[Door | None, Point, float]:
-    """A portal's door, the direction in which it lies, along an axis, and how far away its square's edge is there."""
+    """Return a portal's door, its direction along an axis, and the distance to the square's edge there."""
     node = garage.lanes.nodes[number]
     ways = [(way, door) for door in garage.doors if (way := _towards(node, door.position)) is not None]
     if ways:
@@ -149,13 +149,13 @@ def _outwards(garage: BuiltGarage, number: int) -> tuple[Door | None, Point, flo
 
 
 def _axis(start: Point, end: Point) -> Point:
-    """The direction along an axis that leads nearest from a point to another."""
+    """Return the axis direction closest to the vector between two points."""
     dx, dz = end[0] - start[0], end[1] - start[1]
     return (math.copysign(1.0, dx), 0.0) if abs(dx) > abs(dz) else (0.0, math.copysign(1.0, dz))
 
 
 def _towards(node: LaneNode, door: Point) -> tuple[float, Point] | None:
-    """How far away a door in the outer wall around a portal is, and in which direction; None if it is elsewhere."""
+    """Return distance and direction of a door in the outer wall around a portal; None for a door elsewhere."""
     dx, dz = door[0] - node.position[0], door[1] - node.position[1]
     along, aside, half = (
         (abs(dx), abs(dz), node.widths_m[0]) if abs(dx) > abs(dz) else (abs(dz), abs(dx), node.widths_m[1])
@@ -166,13 +166,13 @@ def _towards(node: LaneNode, door: Point) -> tuple[float, Point] | None:
 
 
 def _half_m(garage: BuiltGarage, number: int, outwards: Point) -> float:
-    """From a portal's middle to where the clear floor ends."""
+    """Return the distance from a portal's middle to the edge of its clear floor."""
     widths = garage.lanes.nodes[number].widths_m
     return float(abs(outwards[0]) * widths[0] + abs(outwards[1]) * widths[1]) / 2
 
 
 def _is_behind(ramp: RampFloor, middle: Point, outwards: Point, edge_m: float) -> bool:
-    """Whether a ramp begins where a portal's square ends, in line with it."""
+    """Return True if a ramp begins at the edge of a portal's square, in line with the portal."""
     away = ramp.foot_m[0] - middle[0], ramp.foot_m[1] - middle[1]
     along = away[0] * outwards[0] + away[1] * outwards[1] + float(ramp.runs_m[0])
     aside = abs(away[0] * outwards[1] - away[1] * outwards[0])
@@ -181,13 +181,13 @@ def _is_behind(ramp: RampFloor, middle: Point, outwards: Point, edge_m: float) -
 
 
 def floors_of_ramps(things: Iterable[Thing]) -> tuple[RampFloor, ...]:
-    """The floors of the ramps among some objects."""
+    """Return the floors of all ramps among objects."""
     floors = (_floor(thing) for thing in things if thing.label == _RAMP)
     return tuple(floor for floor in floors if floor is not None)
 
 
 def _floor(thing: Thing) -> RampFloor | None:
-    """The profile of a ramp's floor from its faces that look up, without its grooves; None if nothing slopes."""
+    """Compute the profile of a ramp's floor from its upward faces, without grooves; None without a slope."""
     faces = [face for face in thing.faces() if face.normal[1] > _UPRIGHT]
     sloping = [
         face
@@ -232,7 +232,7 @@ def _floor(thing: Thing) -> RampFloor | None:
 
 
 def _sides(thing: Thing, ramps: Sequence[RampFloor], height_m: float) -> Iterator[Array]:
-    """Ends (x, z) of each upright face that is higher than a hand and begins lower over the floor than a car ends."""
+    """Yield the ends (x, z) of each upright face that is an obstacle to a car on the floor or a ramp."""
     for normal, corners in thing.faces():
         if abs(normal[1]) > _UPRIGHT or np.ptp(corners[:, 1]) < _LEAST_FACE_M:
             continue

@@ -1,4 +1,4 @@
-"""A garage as built: lanes, stalls and all objects, as far as a stage, a report or a plan tells; metres, Y up."""
+"""A garage as built: lanes, stalls and objects, as far as a stage, a report or a plan describes them; metres, Y up."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -20,7 +20,7 @@ from garage2usd.structure.grid import Structure
 __all__ = ["BuiltGarage"]
 
 _LINE_M = 0.06
-"""Half the width of a line, which is painted on the border of a stall."""
+"""Half the width of a stall's painted line in metres; the line is centred on the stall's border."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,25 +30,25 @@ class BuiltGarage:
     Attributes
     ----------
     source
-        The file.
+        File of the garage.
     kind
         ``stage``, ``report`` or ``plan``.
     lanes, stalls
         Lane graph and stalls.
     things
-        All objects; none where a plan could not be laid out.
+        All objects; empty for a plan that could not be laid out.
     structure
-        S, R and C, where they are known.
+        S, R and C, if known.
     compartments
         Number of the fire compartment of each square of S, from 1; None where none are declared.
     lane_lux, stall_lux
-        Mean illuminance of the floor; None where it is not known.
+        Mean illuminance of the floor; None if unknown.
     lamps, dead_lamps
-        How many there are, and how many of them give no light.
+        Number of lamps, and of those without light.
     faults
-        What it says of its lanes and stalls that contradicts itself.
+        Contradictions in the file's lanes and stalls.
     stage
-        The stage, where it is one.
+        The stage, if the file is one.
     """
 
     source: str
@@ -67,7 +67,7 @@ class BuiltGarage:
 
     @cached_property
     def solids(self) -> Solids:
-        """Everything that a car can touch."""
+        """Solid pieces of all objects that a car can touch."""
         return Solids(self.things)
 
     @cached_property
@@ -82,28 +82,28 @@ class BuiltGarage:
 
     @cached_property
     def circulation(self) -> MeasuredCirculation | None:
-        """How traffic circulates on the lanes; None where S, R and C are not known."""
+        """Circulation of traffic on the lanes; None if S, R and C are unknown."""
         return None if self.structure is None else measured_circulation(self.structure)
 
     @cached_property
     def parking_stalls(self) -> tuple[Stall, ...]:
-        """The stalls that cars park in."""
+        """Stalls that take cars."""
         return tuple(stall for stall in self.stalls if stall.takes_cars)
 
     @cached_property
     def stall_grounds(self) -> StallGrounds:
-        """The grounds of all stalls."""
+        """Spatial index of the ground of all stalls."""
         return StallGrounds(self.stalls)
 
     @cached_property
     def standing_in_stalls(self) -> dict[Stall, list[Solid]]:
-        """For each stall, the pieces of what stands in it, not only on its lines."""
+        """Standing pieces inside each stall, without those only on its lines."""
         inside = shapely.buffer(self.stall_grounds.polygons, -_LINE_M)
         return dict(zip(self.stalls, self.solids.standing_at_each(inside), strict=True))
 
     @cached_property
     def cars(self) -> dict[str, tuple[shapely.Polygon, Stall | None]]:
-        """The convex ground of each car, and the stall that more than half of it stands in."""
+        """Convex ground of each car, and the stall that contains more than half of it."""
         pieces = list(self.solids.standing(*CAR_LABELS))
         names = list(dict.fromkeys(solid.name for solid in pieces))
         number_of = {name: number for number, name in enumerate(names)}
@@ -118,13 +118,13 @@ class BuiltGarage:
 
     @cached_property
     def taken_stalls(self) -> frozenset[Stall]:
-        """The stalls that cars stand in, and those that misparked ones of them block."""
+        """Stalls with a car, and stalls blocked by a misparked car."""
         own = frozenset(home for _, home in self.cars.values() if home is not None)
         names = {stall.name for stall in own}
         return own.union(stall for stall in self.stalls if stall.blocked_by in names)
 
     def square_at(self, place: Point) -> tuple[int, int] | None:
-        """(row, col) of the square of S on which a place lies, or the nearest one; None where S is not known."""
+        """Return the (row, col) of the square of S at a place, or the nearest one; None if S is unknown."""
         if self.structure is None:
             return None
         edges = (self.structure.row_edges_m, place[1]), (self.structure.column_edges_m, place[0])
@@ -133,5 +133,5 @@ class BuiltGarage:
 
     @property
     def has_whole_graph(self) -> bool:
-        """Whether nodes and edges fit together, so that a node without a route is a finding and not a damaged file."""
+        """True if lane nodes and edges are consistent: a node without a route is then a finding, not a damaged file."""
         return all(fault.rule != "lane-graph" for fault in self.faults)

@@ -1,4 +1,4 @@
-"""Reads layouts, and plans that could not be laid out."""
+"""Reader of layouts as garages, and of plans without a layout."""
 
 from functools import lru_cache
 
@@ -24,7 +24,7 @@ __all__ = ["garage_of_layout", "garage_without_layout"]
 def garage_of_layout(
     layout: Layout, graph: LaneSquares, *, source: str, kind: str, faults: tuple[Fault, ...] = ()
 ) -> BuiltGarage:
-    """Read a layout; objects that only lie on the floor are left out."""
+    """Convert a layout to a garage as built, without the objects that are flat on the floor."""
     lux = layout.illuminance
     return BuiltGarage(
         source=source,
@@ -45,7 +45,7 @@ def garage_of_layout(
 def garage_without_layout(
     structure: Structure, graph: LaneSquares, bay: BayConfig, *, source: str, kind: str, faults: tuple[Fault, ...]
 ) -> BuiltGarage:
-    """Read a plan that cannot be laid out: stalls and lanes, no objects and no light."""
+    """Convert a plan that cannot be laid out: stalls and lanes, without objects and lights."""
     return BuiltGarage(
         source=source,
         kind=kind,
@@ -71,7 +71,7 @@ def _things(layout: Layout) -> tuple[Thing, ...]:
 
 @lru_cache(maxsize=1024)
 def _shapes(spec: Spec) -> tuple[tuple[MeshShape, bool], ...]:
-    """The meshes of a spec, and whether each has a collider."""
+    """Return the meshes of a spec, each with a flag for its collider."""
     return tuple(
         (
             MeshShape(

@@ -12,15 +12,15 @@ from garage2usd.as_built.shapes import Array, Body, Thing
 __all__ = ["Door", "Ramp", "Stretch", "doors_of", "ramps_of", "section_of"]
 
 _CUT_M = 1.0
-"""Height over the floor at which a door's width is measured."""
+"""Height above the floor at which a door's width is measured; metres."""
 _SHEET_M = 0.1
-"""What is thinner than this is the door itself or a sign, which do not narrow the opening."""
+"""Greatest thickness in metres of a door leaf or a sign, which does not narrow the opening."""
 _LEVEL_SLOPE, _STEEPEST_SLOPE = 0.005, 0.6
 _STEP_M = 0.05
 
 
 class Stretch(NamedTuple):
-    """Part of a ramp with one slope.
+    """Part of a ramp with a constant slope.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class Stretch(NamedTuple):
 
     @property
     def length_m(self) -> float:
-        """Its run."""
+        """Run of the stretch of ramp in metres."""
         return self.end_m - self.start_m
 
 
@@ -48,11 +48,11 @@ class Door(NamedTuple):
     name
         Prim path.
     position
-        Middle of its opening, (x, z) in metres.
+        (x, z) of the middle of its opening in metres.
     clear_width_m, clear_height_m
-        Of its opening; None where the mesh shows none.
+        Size of the opening; None if the mesh has none.
     is_shut
-        Whether a sheet fills most of its opening.
+        True if a sheet fills most of the opening.
     """
 
     name: str
@@ -70,9 +70,9 @@ class Ramp(NamedTuple):
     name
         Prim path.
     position
-        Middle of its ground, (x, z) in metres.
+        (x, z) of the middle of its ground in metres.
     stretches
-        Its sloping parts from its foot on.
+        Sloping parts from its foot upwards.
     """
 
     name: str
@@ -81,17 +81,17 @@ class Ramp(NamedTuple):
 
 
 def doors_of(things: Iterable[Thing]) -> Iterator[Door]:
-    """The vehicle doors among all objects."""
+    """Measure the vehicle doors among all objects."""
     return (_door(thing) for thing in things if thing.label == "vehicle_door" and thing.bodies)
 
 
 def ramps_of(things: Iterable[Thing]) -> Iterator[Ramp]:
-    """The ramps among all objects."""
+    """Measure the ramps among all objects."""
     return (_ramp(thing) for thing in things if thing.label == "ramp" and thing.bodies)
 
 
 def section_of(thing: Thing, level_m: float = _CUT_M) -> list[Array]:
-    """Where a level plane cuts the sides of an object: points (x, z) of each line; float64, shapes (n, 2)."""
+    """Intersect an object with a level plane; return the points (x, z) of each line, float64, shapes (n, 2)."""
     cuts = (cut for body in thing.bodies for cut in _cuts(body, np.array([0.0, 1.0, 0.0]), level_m))
     return [cut[:, [0, 2]] for cut in cuts]
 
@@ -116,21 +116,21 @@ def _door(thing: Thing) -> Door:
 
 
 def _spans(body: Body, axis: Array) -> Iterator[tuple[float, float]]:
-    """What each face covers along an axis at the height of the cut."""
+    """Return the interval of each face along an axis at the height of the cut."""
     for cut in _cuts(body, np.array([0.0, 1.0, 0.0]), _CUT_M):
         along = cut[:, [0, 2]] @ axis
         yield float(along.min()), float(along.max())
 
 
 def _heights_over(body: Body, axis: Array, place: float) -> Iterator[float]:
-    """Heights over the floor, from the cut on, of what lies over a place along an axis."""
+    """Return the heights above the floor, from the cut upwards, of the faces over a place along an axis."""
     for cut in _cuts(body, np.array([axis[0], 0.0, axis[1]]), place):
         if cut[:, 1].min() > _CUT_M:
             yield float(cut[:, 1].min())
 
 
 def _cuts(body: Body, normal: Array, level: float) -> Iterator[Array]:
-    """The points at which the sides of each face cross a plane; float64, shape (n, 3)."""
+    """Return the points where the sides of each face cross a plane; float64, shape (n, 3)."""
     points = body.world_points()
     height = points @ normal - level
     edges = body.shape.edges
@@ -144,7 +144,7 @@ def _cuts(body: Body, normal: Array, level: float) -> Iterator[Array]:
 
 
 def _widest_gap(spans: list[tuple[float, float]]) -> tuple[float, float] | None:
-    """The widest stretch between intervals in ascending order."""
+    """Return the widest gap between intervals in ascending order."""
     best: tuple[float, float] | None = None
     reach = spans[0][1] if spans else 0.0
     for start, end in spans[1:]:
@@ -155,7 +155,7 @@ def _widest_gap(spans: list[tuple[float, float]]) -> tuple[float, float] | None:
 
 
 class _Slopes(NamedTuple):
-    """Sloping faces: their runs, how wide they are, and their slopes; float64, shape (faces,) each."""
+    """Sloping faces of a ramp: runs, widths and slopes; float64, shape (faces,) each."""
 
     start_m: Array
     end_m: Array
@@ -189,7 +189,7 @@ def _ramp(thing: Thing) -> Ramp:
 
 
 def _stretches(faces: _Slopes) -> Iterator[Stretch]:
-    """The slope of the widest face along the run, where equal slopes are one stretch."""
+    """Return stretches of a ramp with the slope of the widest face along the run; equal slopes are merged."""
     runs = np.arange(faces.start_m.min() + _STEP_M / 2, faces.end_m.max(), _STEP_M)
     first, end = np.searchsorted(runs, faces.start_m, side="left"), np.searchsorted(runs, faces.end_m, side="right")
     slope = np.zeros(len(runs))

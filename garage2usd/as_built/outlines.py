@@ -1,4 +1,4 @@
-"""Outlines seen from above with two heights, of many pieces at once."""
+"""Outlines of many pieces seen from above, with their least and greatest heights, in columns."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -12,16 +12,16 @@ Array = NDArray[np.float64]
 
 
 class Outlines(NamedTuple):
-    """Pieces in columns.
+    """Outlines of pieces in columns.
 
     Attributes
     ----------
     corners
-        Of the outlines of all pieces, one after the other; float64, shape (n, 2).
+        Corners of all outlines in order; float64, shape (n, 2).
     counts
-        How many corners each piece has; int64, shape (pieces,).
+        Number of corners of each piece; int64, shape (pieces,).
     low_m, high_m
-        Its least and greatest height; float64, shape (pieces,).
+        Least and greatest height; float64, shape (pieces,).
     """
 
     corners: Array
@@ -31,7 +31,7 @@ class Outlines(NamedTuple):
 
 
 def outlines_of(pieces: Sequence[tuple[Array, float, float]]) -> Outlines:
-    """Pieces in columns, each given by its outline and its least and greatest height."""
+    """Convert pieces, each with outline, least and greatest height, to columns."""
     return Outlines(
         np.concatenate([outline for outline, _, _ in pieces]) if pieces else np.zeros((0, 2)),
         np.array([len(outline) for outline, _, _ in pieces], dtype=np.int64),

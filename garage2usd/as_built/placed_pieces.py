@@ -1,4 +1,4 @@
-"""Pieces of many placed meshes, found at once, as one by one takes too long."""
+"""Connected pieces of many placed meshes, computed in one batch for speed."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -16,18 +16,18 @@ _LEAST_CORNERS = 3
 
 
 class PlacedPieces(NamedTuple):
-    """Pieces by their meshes.
+    """Connected pieces of placed meshes, in columns.
 
     Attributes
     ----------
     owner
-        Index of the mesh that each is of, ascending; int64, shape (pieces,).
+        Index of the mesh of each piece, ascending; int64, shape (pieces,).
     counts
-        How many corners its convex outline has, seen from above; int64, shape (pieces,).
+        Number of corners of each convex outline, seen from above; int64, shape (pieces,).
     corners
-        (x, z) of the corners of one outline after the other, in metres; float64, shape (n, 2).
+        (x, z) of the corners of all outlines in order, in metres; float64, shape (n, 2).
     low_m, high_m
-        Its least and greatest height; float64, shape (pieces,).
+        Least and greatest height of each piece; float64, shape (pieces,).
     """
 
     owner: NDArray[np.int64]
@@ -43,22 +43,22 @@ class PlacedPieces(NamedTuple):
 
     @property
     def have_area(self) -> NDArray[np.bool_]:
-        """Whether each is more than a line or a point; bool, shape (pieces,)."""
+        """True for each piece that is more than a line or a point; bool, shape (pieces,)."""
         has_area: NDArray[np.bool_] = self.counts >= _LEAST_CORNERS
         return has_area
 
     @property
     def footprints(self) -> Grounds:
-        """Polygons of the outlines, all of which have an area."""
+        """Outlines of the pieces as polygons; all must have an area."""
         return grounds_of_corners(self.corners, self.piece)
 
     @property
     def hulls(self) -> Grounds:
-        """The same, as lines and points where they have none."""
+        """Outlines of the pieces as polygons, or as lines and points where they have no area."""
         return hulls_around(self.corners, self.counts)
 
     def kept(self, are_kept: NDArray[np.bool_]) -> "PlacedPieces":
-        """Some of them; bool, shape (pieces,)."""
+        """Select pieces by a mask; bool, shape (pieces,)."""
         corners = self.corners[np.repeat(are_kept, self.counts)]
         return PlacedPieces(
             self.owner[are_kept], self.counts[are_kept], corners, self.low_m[are_kept], self.high_m[are_kept]
@@ -66,7 +66,7 @@ class PlacedPieces(NamedTuple):
 
 
 def lows_m(bodies: Sequence[Body]) -> NDArray[np.float64]:
-    """The least height in the world of each of many meshes; float64, shape (meshes,)."""
+    """Return the least height in the world of each of many meshes; float64, shape (meshes,)."""
     matrices = _matrices(bodies)
     lows: NDArray[np.float64] = np.array([body.shape.lowest for body in bodies]) * matrices[:, 1, 1] + matrices[:, 3, 1]
     for index in np.flatnonzero(~are_upright(matrices)).tolist():
@@ -75,14 +75,14 @@ def lows_m(bodies: Sequence[Body]) -> NDArray[np.float64]:
 
 
 def placed_pieces(bodies: Sequence[Body], are_whole: NDArray[np.bool_]) -> PlacedPieces:
-    """The pieces of many meshes, by mesh and then in the mesh's own order.
+    """Return the connected pieces of many meshes, ordered by mesh and then as in the mesh.
 
     Parameters
     ----------
     bodies
         The meshes.
     are_whole
-        Which of them count as one piece; bool, shape (meshes,).
+        True for each mesh that counts as one piece; bool, shape (meshes,).
     """
     matrices = _matrices(bodies)
     found = [body.shape.outlines(whole=whole) for body, whole in zip(bodies, are_whole.tolist(), strict=True)]

@@ -1,4 +1,4 @@
-"""Reads reports and plans; a plan with faults is read as far as it goes, so that rules name them."""
+"""Reader of reports and plans as garages; a faulty plan is read as far as possible, so that rules report its faults."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -28,24 +28,24 @@ _MOVED_M = 0.001
 
 
 def garage_of_plan(path: Path, *, profile: Profile | None = None) -> tuple[BuiltGarage, GarageConfig]:
-    """Read a report, a configuration with a structure, or a plan.
+    """Read a garage from a report, a configuration with a structure, or a plan.
 
     Parameters
     ----------
     path
-        A report (``.json``), a configuration (``.toml``), or a structure as text, JSON or a file of NumPy.
+        A report (``.json``), a configuration (``.toml``), or a structure as text, JSON or a NumPy file.
     profile
-        What the sizes of a plan without any are designed to.
+        Profile for the sizes of a plan without any.
 
     Returns
     -------
     tuple
-        The garage, and the configuration that it was laid out with.
+        The garage, and the configuration of its layout.
 
     Raises
     ------
     ConfigError
-        If it is none of these, or a setting cannot be used.
+        If the file is none of these, or a setting is invalid.
     """
     suffix = path.suffix.lower()
     if suffix == ".toml":
@@ -70,7 +70,7 @@ def _given(profile: Profile | None) -> dict[str, Any]:
 
 
 def _settings_of(document: Any, path: Path) -> dict[str, Any]:  # noqa: ANN401 - whatever JSON holds
-    """The settings that a structure as JSON stands for: rows of S, or S with R and C."""
+    """Return the settings of a structure in JSON: rows of S, or S with R and C."""
     matrices = document if isinstance(document, dict) else {"S": document}
     settings: dict[str, Any] = {"site": {"structure": _drawing(matrices.get("S"), path)}}
     sizes = {"column_widths_m": matrices.get("R"), "row_depths_m": matrices.get("C")}
@@ -128,9 +128,9 @@ def _read(
 def _laid_out(
     structure: Structure, config: GarageConfig, unreachable: Sequence[str] | None
 ) -> tuple[Layout | None, str | None]:
-    """The layout, or None and what refuses it; without words for faults that rules name.
+    """Lay out a plan; return None and the reason if it is refused, without a reason for faults that rules report.
 
-    Stalls that cars do not get into are those that a report names, else found as by a build.
+    The unreachable stalls are those in a report, or else those found as in a build.
     """
     try:
         check_structure(structure.cells)
@@ -151,7 +151,7 @@ def _laid_out(
 
 
 def _differences(layout: Layout, listed: Sequence[Any]) -> list[Fault]:
-    """Where a report's list of stalls is not what its configuration and matrices give."""
+    """Compare a report's list of stalls with the layout of its configuration and matrices."""
     made = {stall.name: stall for stall in layout.stalls}
     faults = []
     for entry in listed:
@@ -167,7 +167,7 @@ def _differences(layout: Layout, listed: Sequence[Any]) -> list[Fault]:
 
 
 def _name_in(entry: Any) -> str:  # noqa: ANN401
-    """What to call an entry of the list that is not a stall."""
+    """Return a name for an entry of the report's list that is not a stall."""
     return str(entry.get("name")) if isinstance(entry, dict) else repr(entry)[:80]
 
 

@@ -31,7 +31,7 @@ Array = NDArray[np.float64]
 
 _LEVEL = 1e-6
 _ALL_IN_ONE = np.zeros(1, dtype=np.int64)
-"""Where pieces start if there is one."""
+"""Start indices of a mesh's pieces if the mesh is a single piece."""
 
 
 class Piece(NamedTuple):
@@ -44,7 +44,7 @@ class Piece(NamedTuple):
     outline
         Corners (x, z) of its convex outline seen from above; float64, shape (k, 2).
     low_m, high_m
-        Its least and greatest height.
+        Least and greatest height.
     """
 
     points: Array
@@ -62,7 +62,7 @@ class MeshShape:
     points
         float64, shape (n, 3), metres.
     counts, indices
-        Corners of each face and their points; int64, shapes (F,) and (I,).
+        Number of corners of each face, and their point indices; int64, shapes (F,) and (I,).
     """
 
     points: Array
@@ -71,7 +71,7 @@ class MeshShape:
 
     @cached_property
     def _after(self) -> NDArray[np.int64]:
-        """The corner after each corner of each face; shape (I,)."""
+        """Index of the next corner in its face, for each corner; shape (I,)."""
         after = np.arange(len(self.indices)) + 1
         ends = np.cumsum(self.counts)
         after[ends - 1] = ends - self.counts
@@ -79,33 +79,33 @@ class MeshShape:
 
     @cached_property
     def edges(self) -> NDArray[np.int64]:
-        """Points of each side of each face; shape (I, 2)."""
+        """Point indices of the sides of each face; shape (I, 2)."""
         return np.stack([self.indices, self.indices[self._after]], axis=1)
 
     @cached_property
     def lowest(self) -> float:
-        """Least height of its points."""
+        """Least height of the mesh's points."""
         return float(self.points[:, 1].min())
 
     @cached_property
     def reach(self) -> float:
-        """Greatest coordinate of its points, without sign."""
+        """Greatest absolute coordinate of the mesh's points."""
         return float(np.abs(self.points).max())
 
     @cached_property
     def whole(self) -> Piece:
-        """All of it as one piece."""
+        """The whole mesh as one piece."""
         return _pieces(self.points, _ALL_IN_ONE)[0]
 
     @cached_property
     def is_dented(self) -> bool:
-        """Whether a face is no convex polygon."""
+        """True if a face of the mesh is not a convex polygon."""
         begin, end = (self.points[self.edges[:, side]] for side in (0, 1))
         return are_dented(begin, end, self._after, self.counts)
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
-        """The connected pieces; one with dented faces in parts that are convex seen from above."""
+        """Connected pieces of the mesh; those with non-convex faces are split into parts convex from above."""
         if not len(self.indices):
             return ()
         used, first = np.unique(self.indices), joined(len(self.points), *self.edges.T)
@@ -122,7 +122,7 @@ class MeshShape:
         )
 
     def outlines(self, *, whole: bool) -> Outlines:
-        """The connected pieces in columns, or all of it as one."""
+        """Return the mesh's connected pieces in columns, or the whole mesh as one."""
         return self._whole_outline if whole else self._outlines
 
     @cached_property
@@ -135,7 +135,7 @@ class MeshShape:
 
 
 def _pieces(points: Array, starts: NDArray[np.int64]) -> tuple[Piece, ...]:
-    """Pieces of points, each from its start on; the outline of what has none, as a line or a point, is all of it."""
+    """Split points into pieces by start indices; a piece without area has a line or a point as outline."""
     hulls = hulls_around(points[:, [0, 2]], np.diff(starts, append=len(points)))
     corners, hull = shapely.get_coordinates(hulls, return_index=True)
     outlines = np.split(corners, np.searchsorted(hull, np.arange(1, len(starts))))
@@ -147,21 +147,21 @@ def _pieces(points: Array, starts: NDArray[np.int64]) -> tuple[Piece, ...]:
 
 
 def _parts(whole: Piece, triangles: Array) -> Iterator[Piece]:
-    """Convex parts of a piece that consists of triangles, each as high as all of it."""
+    """Split a piece of triangles into convex parts, each with the height of the whole."""
     for outline in convex_outlines(triangles[:, :, [0, 2]]):
         points = [np.insert(outline, 1, height, axis=1) for height in (whole.low_m, whole.high_m)]
         yield Piece(np.concatenate(points), outline, whole.low_m, whole.high_m)
 
 
 def box_shape(low: Array, high: Array) -> MeshShape:
-    """A box by its corners."""
+    """Return the mesh of a box from its corners."""
     corners = np.array([(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
     faces = np.array([0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3])
     return MeshShape(corners.astype(np.float64), np.full(6, 4), faces)
 
 
 def turned_about_y(yaw_rad: ArrayLike, position_m: ArrayLike) -> Array:
-    """The matrices for row vectors, float64 of shape (..., 4, 4), of turns about +Y and moves, shape (..., 3)."""
+    """Return matrices of rotations about +Y and moves, shape (..., 3), for row vectors; float64, shape (..., 4, 4)."""
     yaw = np.asarray(yaw_rad, dtype=np.float64)
     cos, sin = np.cos(yaw), np.sin(yaw)
     matrices = np.zeros((*yaw.shape, 4, 4))
@@ -178,7 +178,7 @@ class Face(NamedTuple):
     Attributes
     ----------
     normal
-        Unit vector, out of the mesh where its corners are counter-clockwise seen from outside; float64, shape (3,).
+        Unit vector, outwards if its corners are counter-clockwise seen from outside; float64, shape (3,).
     corners
         float64, shape (n, 3), in the world.
     """
@@ -195,9 +195,9 @@ class Facets(NamedTuple):
     normals
         As of `Face`; float64, shape (F, 3).
     counts
-        How many corners each has; int64, shape (F,).
+        Number of corners of each face; int64, shape (F,).
     corners
-        Of one face after the other, in the world; float64, shape (n, 3).
+        Corners of all faces in order, in the world; float64, shape (n, 3).
     """
 
     normals: Array
@@ -215,7 +215,7 @@ class Body(NamedTuple):
     matrix
         From its coordinates to the world's, for row vectors; float64, shape (4, 4).
     touches
-        Whether it has a collider.
+        True if the mesh has a collider.
     """
 
     shape: MeshShape
@@ -223,18 +223,18 @@ class Body(NamedTuple):
     touches: bool
 
     def world_points(self) -> Array:
-        """Its points in the world; float64, shape (n, 3)."""
+        """Points of the placed mesh in the world; float64, shape (n, 3)."""
         world: Array = self.shape.points @ self.matrix[:3, :3] + self.matrix[3, :3]
         return world
 
     def low_m(self) -> float:
-        """Its least height in the world."""
+        """Least height of the placed mesh in the world."""
         if self._is_upright:
             return float(self.shape.lowest * self.matrix[1, 1] + self.matrix[3, 1])
         return float(self.world_points()[:, 1].min())
 
     def pieces(self, *, whole: bool = False) -> list[tuple[Array, float, float]]:
-        """Outline (x, z), least and greatest height in the world of each connected piece, or of all in one."""
+        """Return outline (x, z), least and greatest world height of each connected piece, or of the whole mesh."""
         pieces = (self.shape.whole,) if whole else self.shape.pieces
         turn, move = self.matrix[:3, :3], self.matrix[3, :3]
         if not self._is_upright:
@@ -245,13 +245,13 @@ class Body(NamedTuple):
         ]
 
     def faces(self) -> Iterator[Face]:
-        """Each face that has an area, with its normal by Newell's method."""
+        """Return the placed mesh's faces with an area, their normals by Newell's method."""
         found = self.facets()
         for normal, corners in zip(found.normals, np.split(found.corners, np.cumsum(found.counts)[:-1]), strict=True):
             yield Face(normal, corners)
 
     def facets(self) -> "Facets":
-        """All of them at once."""
+        """All faces of the placed mesh with an area, in columns."""
         counts = self.shape.counts
         points, starts = self.world_points(), np.cumsum(counts) - counts
         begin, end = (points[self.shape.edges[:, side]] for side in (0, 1))
@@ -262,12 +262,12 @@ class Body(NamedTuple):
 
     @property
     def _is_upright(self) -> bool:
-        """Whether it is turned about the vertical only."""
+        """True if the placed mesh is rotated about the vertical only."""
         return bool(are_upright(self.matrix))
 
 
 def are_upright(matrices: Array) -> NDArray[np.bool_]:
-    """Whether matrices for row vectors, float64 of shape (..., 4, 4), turn about the vertical only; shape (...)."""
+    """Test matrices for row vectors, float64, shape (..., 4, 4), for rotation about the vertical only; shape (...)."""
     tilts = np.abs(matrices[..., (1, 1, 0, 2), (0, 2, 1, 1)]).max(axis=-1)
     upright: NDArray[np.bool_] = (tilts < _LEVEL) & (matrices[..., 1, 1] > 0)
     return upright
@@ -275,16 +275,16 @@ def are_upright(matrices: Array) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True, eq=False)
 class Thing:
-    """One object of a garage.
+    """An object of a garage.
 
     Attributes
     ----------
     name
         Prim path.
     label
-        Semantic class; empty where it has none.
+        Semantic class; empty without one.
     bodies
-        Its meshes.
+        Placed meshes.
     """
 
     name: str
@@ -292,5 +292,5 @@ class Thing:
     bodies: tuple[Body, ...]
 
     def faces(self) -> Iterator[Face]:
-        """Each face of its meshes that has an area."""
+        """Return all faces of the object's meshes that have an area."""
         return (face for body in self.bodies for face in body.faces())

@@ -1,4 +1,4 @@
-"""What a car can touch or people can bump into: pieces of all objects, found by place."""
+"""Solid pieces of all objects that a car or a person can touch, in a spatial index."""
 
 from collections.abc import Collection, Iterable, Iterator
 from functools import cached_property
@@ -16,24 +16,24 @@ from garage2usd.objects import KINDS, PIECE_LABELS
 __all__ = ["HANGS_FROM_M", "Solid", "Solids"]
 
 HANGS_FROM_M = 1.0
-"""What begins higher than this hangs; all else stands."""
+"""Least height in metres at which a hanging object begins; all others are standing."""
 _FLAT_M = 0.03
 _ROUNDING_M = 1e-4
-"""Of heights in a stage, which keeps single precision."""
+"""Tolerance in metres of heights in a stage, which has single precision."""
 _NOT_SOLID = {kind.label for kind in KINDS if not kind.is_solid} | PIECE_LABELS
 
 
 class Solid(NamedTuple):
-    """A piece of an object.
+    """A solid piece of an object.
 
     Attributes
     ----------
     name, label
         Prim path and semantic class of the object.
     footprint
-        Its convex outline (x, z) in metres, seen from above.
+        Convex outline (x, z) in metres, seen from above.
     bottom_m, top_m
-        Its least and greatest height.
+        Least and greatest height.
     """
 
     name: str
@@ -44,23 +44,23 @@ class Solid(NamedTuple):
 
     @property
     def centre(self) -> tuple[float, float]:
-        """(x, z) of its middle, to the millimetre."""
+        """(x, z) of the solid's centre, to the millimetre."""
         return round(self.footprint.centroid.x, 3), round(self.footprint.centroid.y, 3)
 
     @property
     def kind(self) -> str:
-        """Its class in words."""
+        """Semantic class of the solid in words."""
         return self.label.replace("_", " ") or "object without a label"
 
 
 class Solids:
     """The solid pieces of all objects.
 
-    An object that stands counts by its colliders, if it has any; one that hangs counts with everything that it has.
+    A standing object is represented by its colliders, if it has any; a hanging one by all of its meshes.
     """
 
     def __init__(self, things: Iterable[Thing]) -> None:
-        """Take the pieces of all objects apart from what lies on the floor or clads a column."""
+        """Collect the pieces of all objects except those flat on the floor and those that clad a column."""
         things = [thing for thing in things if thing.label not in _NOT_SOLID]
         self._names = [thing.name for thing in things]
         self._labels = [thing.label for thing in things]
@@ -84,40 +84,40 @@ class Solids:
 
     @cached_property
     def labels(self) -> frozenset[str]:
-        """The classes that there are."""
+        """Semantic classes of the solids."""
         return frozenset(self._labels)
 
     def standing(self, *labels: str) -> Iterator[Solid]:
-        """The pieces of objects of some classes that do not hang."""
+        """Return the pieces of standing objects of some classes."""
         wanted = self._with_labels(labels)
         return (self._solid(index) for index in np.flatnonzero(~self._hangs & wanted).tolist())
 
     def hanging(self) -> Iterator[Solid]:
-        """The lowest piece of each object that hangs."""
+        """Return the lowest piece of each hanging object."""
         rows = np.flatnonzero(self._hangs)
         rows = rows[np.lexsort((self._low[rows], self._owner[rows]))]
         _, first = np.unique(self._owner[rows], return_index=True)
         return (self._solid(index) for index in rows[first].tolist())
 
     def between(self, low_m: float, high_m: float) -> Iterator[Solid]:
-        """The pieces between two heights, to which they reach at least, of what stands and of what hangs."""
+        """Return the standing and hanging pieces that intersect an interval of heights, its ends included."""
         reaches = (self._low <= high_m + _ROUNDING_M) & (self._high >= low_m - _ROUNDING_M)
         return (self._solid(index) for index in np.flatnonzero(reaches).tolist())
 
     def grounds(self, below_m: float) -> Iterator[tuple[str, str, list[shapely.Polygon]]]:
-        """Name, class and outlines of each object that stands, of its pieces that begin lower than a height."""
+        """Yield name, class and outlines of each standing object, from its pieces that begin below a height."""
         rows = np.flatnonzero(~self._hangs & (self._low < below_m))
         owners, starts = np.unique(self._owner[rows], return_index=True)
         for owner, pieces in zip(owners.tolist(), np.split(rows, starts[1:]), strict=True):
             yield self._names[owner], self._labels[owner], self._footprints[pieces].tolist()
 
     def at(self, area: shapely.Polygon, *, hanging: bool = False, within_m: float = 0.0) -> list[Solid]:
-        """The pieces of what stands, or of what hangs, that meet an area or lie within a distance of it."""
+        """Return the standing or hanging pieces that intersect an area or are within a distance of it."""
         found = self._tree.query(area, predicate="dwithin", distance=within_m)
         return [self._solid(index) for index in sorted(found[self._hangs[found] == hanging].tolist())]
 
     def standing_at_each(self, areas: Grounds, *, within_m: float = 0.0) -> list[list[Solid]]:
-        """For each of many areas, the pieces of what stands that meet it or lie within a distance of it."""
+        """Return for each of many areas the standing pieces that intersect the area or are within a distance of it."""
         area, found = self._tree.query(areas, predicate="dwithin", distance=within_m)
         stands = ~self._hangs[found]
         pieces: list[list[Solid]] = [[] for _ in areas]

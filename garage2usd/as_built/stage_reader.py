@@ -1,4 +1,4 @@
-"""A stage as a garage: read with pxr alone, whoever edited it."""
+"""Reader of USD stages as garages, including stages edited by other programs; needs pxr only."""
 
 import math
 from collections.abc import Iterable, Mapping
@@ -29,16 +29,16 @@ _PANELS = frozenset({"RectLight", _DISK})
 _LAMPS = _PANELS | {"SphereLight", "CylinderLight"}
 _DIGITS = 6
 _LANE_MARGIN_M = 0.7
-"""What the sides of a square have over the carriageway between its columns, where no structure tells."""
+"""Difference in metres between a square's side and the carriageway between its columns, if the structure is unknown."""
 
 
 def garage_of_file(path: Path) -> BuiltGarage:
-    """Read a stage.
+    """Read a garage from a stage's file.
 
     Raises
     ------
     StageError
-        If it cannot be opened.
+        If the stage cannot be opened.
     """
     stage = open_stage(path)
     try:
@@ -50,18 +50,18 @@ def garage_of_file(path: Path) -> BuiltGarage:
 def garage_of_stage(
     stage: Usd.Stage, *, source: str, objects: Iterable[PlacedObject] | None = None, is_judged: bool = True
 ) -> BuiltGarage:
-    """Read a stage that is open, as it is composed now.
+    """Read a garage from an open stage in its current composition.
 
     Parameters
     ----------
     stage
         The stage.
     source
-        Its file.
+        File of the stage.
     objects
         As for `garage2usd.as_built.contents.read_contents`.
     is_judged
-        Whether what only rules look at is read too: how bright it is, and which stalls were moved without outlines.
+        True to read also the data that only rules need: illuminance, and stalls moved without their outlines.
     """
     ground, contents = read_lanes(stage), read_contents(stage, objects)
     structure = _structure(stage)
@@ -85,14 +85,14 @@ def garage_of_stage(
 
 
 def profile_name(stage: Usd.Stage) -> str | None:
-    """Name of the profile that a stage says it was designed to."""
+    """Return the name of the design profile in a stage."""
     prim = stage.GetDefaultPrim()
     name = prim.GetCustomDataByKey("profile") if prim else None
     return name if isinstance(name, str) else None
 
 
 def _structure(stage: Usd.Stage) -> Structure | None:
-    """S, R and C of the default prim's customData, if they fit together."""
+    """Read S, R and C from the default prim's customData, if they are consistent."""
     prim = stage.GetDefaultPrim()
     data: Mapping[str, object] = prim.GetCustomData() if prim else {}
     drawing, widths, depths = (data.get(name) for name in ("S", "R", "C"))
@@ -106,7 +106,7 @@ def _structure(stage: Usd.Stage) -> Structure | None:
 
 
 def _compartments(stage: Usd.Stage, structure: Structure | None) -> NDArray[np.int32] | None:
-    """The number of each square's fire compartment, if the default prim's customData has one for each square of S."""
+    """Read the fire compartment of each square from the default prim's customData, if it has one per square of S."""
     prim = stage.GetDefaultPrim()
     declared = prim.GetCustomDataByKey("fireCompartments") if prim else None
     if structure is None or declared is None:
@@ -121,7 +121,7 @@ def _compartments(stage: Usd.Stage, structure: Structure | None) -> NDArray[np.i
 def _illuminances(
     ground: Lanes, lights: Iterable[PlacedLight], structure: Structure | None
 ) -> tuple[float | None, float | None]:
-    """Mean direct light on lanes and stalls: of panels by the method of the layout, of others as points."""
+    """Compute the mean direct illuminance of lanes and stalls: panels as in the layout, other lights as points."""
     shining = [light for light in lights if light.source.candela > 0]
     panels = [light for light in shining if _is_panel(light.source)]
     lamps = [light for light in shining if not _is_panel(light.source)]
@@ -148,12 +148,12 @@ def _mean_lux(points: NDArray[np.float64], panels: Iterable[PlacedLight], lamps:
 
 
 def _is_panel(source: LightSource) -> bool:
-    """Whether a light is flat and has an area."""
+    """Return True if a light is flat and has an area."""
     return source.kind in _PANELS and math.isfinite(source.luminance_nit)
 
 
 def _tube(panel: PlacedLight) -> Placement:
-    """A panel as a rectangle that shines down with what it has in that direction."""
+    """Convert a panel light to a rectangle that shines down with the panel's intensity in that direction."""
     matrix, source = panel.matrix, panel.source
     width_m, height_m = source.width_m, source.height_m
     if source.kind == _DISK:
@@ -169,7 +169,7 @@ def _tube(panel: PlacedLight) -> Placement:
 
 
 def _lamp_lux(points: NDArray[np.float64], lamp: PlacedLight) -> NDArray[np.float64]:
-    """Maintained illuminance of points (x, z) on the floor by what shines from one place."""
+    """Compute the maintained illuminance at points (x, z) on the floor from lights at one place."""
     x, height_m, z = lamp.matrix[3, :3]
     if height_m <= 0:
         return np.zeros(len(points))
@@ -186,7 +186,7 @@ def _lamp_lux(points: NDArray[np.float64], lamp: PlacedLight) -> NDArray[np.floa
 
 
 def _sides_m(square: Point, widths_m: tuple[float, float], structure: Structure | None) -> tuple[float, float]:
-    """Extent of a lane square along X and Z."""
+    """Return the extent of a lane square along X and Z."""
     row, col = int(square[0]), int(square[1])
     if structure is not None and 0 <= row < structure.shape[0] and 0 <= col < structure.shape[1]:
         return float(structure.column_widths_mm[col]) / 1000, float(structure.row_depths_mm[row]) / 1000

@@ -1,4 +1,4 @@
-"""The ground of stalls, and which of them something stands in."""
+"""Spatial index of the ground of stalls, to find the stall that contains an object."""
 
 from collections.abc import Sequence
 from functools import cached_property
@@ -15,7 +15,7 @@ _AT_HOME = 0.5
 
 
 class StallGrounds:
-    """The grounds of some stalls, by place.
+    """Spatial index of the ground of stalls.
 
     Parameters
     ----------
@@ -28,21 +28,21 @@ class StallGrounds:
 
     @cached_property
     def polygons(self) -> Grounds:
-        """The ground of each stall; shape (stalls,)."""
+        """Polygon of each stall; shape (stalls,)."""
         return grounds_of([stall.corners for stall in self._stalls])
 
     @cached_property
     def tree(self) -> shapely.STRtree:
-        """All of them, by place."""
+        """Spatial index of all stall polygons."""
         return shapely.STRtree(self.polygons)
 
     def home_of(self, ground: shapely.Polygon) -> Stall | None:
-        """The stall that more than half of a ground lies in."""
+        """Return the stall that contains more than half of a footprint."""
         (home,) = self.homes_of(np.array([ground], dtype=object))
         return home
 
     def homes_of(self, grounds: Grounds) -> list[Stall | None]:
-        """For each of some grounds, the stall that more than half of it lies in."""
+        """Return for each footprint the stall that contains more than half of it."""
         number, stall = self.tree.query(grounds, predicate="intersects")
         areas = shapely.area(shapely.intersection(self.polygons[stall], grounds[number]))
         most = (_AT_HOME * shapely.area(grounds)).tolist()
