@@ -1,1 +1,1 @@
-"""Stages and the files beside them read: their objects, lane graph and labels; whoever reads one does it here."""
+"""Readers of stages and the files beside them: objects, lane graph and labels, shared by all other packages."""

@@ -1,4 +1,4 @@
-"""The colour and the opacity of a surface as those take them who know one texture for both."""
+"""Base colour of a surface: colour and opacity combined, for formats with one texture for both."""
 
 from typing import NamedTuple
 
@@ -11,16 +11,16 @@ __all__ = ["BaseColour", "base_colour_of"]
 
 
 class BaseColour(NamedTuple):
-    """Factors, and a texture with which they are multiplied.
+    """Base colour of a surface: factors, and a texture multiplied by them.
 
     Attributes
     ----------
     colour_rgb, opacity
         0 to 1.
     bands
-        What the texture shows; the fourth is the opacity.
+        Channels of the texture; the fourth is the opacity.
     texture
-        How it lies on the surface; None for no texture.
+        Layout of the texture on the surface; None without a texture.
     """
 
     colour_rgb: Rgb
@@ -30,7 +30,7 @@ class BaseColour(NamedTuple):
 
 
 def base_colour_of(surface: SurfaceLook, pictures: Pictures, remarks: Remarks) -> BaseColour:
-    """What a surface's colour and opacity are together; `remarks` is told where they do not go together."""
+    """Combine a surface's colour and opacity; add a remark to `remarks` where they cannot be combined."""
     colour, opacity = surface.colour_texture, surface.opacity_texture
     factors, share = [min(part, 1.0) for part in surface.colour_rgb], surface.opacity
     if colour and opacity and colour.layout != opacity.layout:

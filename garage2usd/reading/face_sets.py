@@ -1,4 +1,4 @@
-"""Which faces of a mesh have which material."""
+"""Face subsets of a mesh by material."""
 
 from collections.abc import Iterator
 
@@ -12,12 +12,12 @@ __all__ = ["face_sets"]
 
 
 def face_sets(prim: Usd.Prim) -> Iterator[tuple[Usd.Prim, NDArray[np.intp] | None]]:
-    """The mesh as a whole, or each subset of its faces that has a material of its own, and what is left.
+    """Split a mesh into the face subsets with materials of their own and the remaining faces.
 
     Yields
     ------
     tuple
-        The prim that the material is bound to, and the numbers of its faces; None for all.
+        The prim with the material binding, and the numbers of its faces; None for all.
     """
     children = prim.GetFilteredChildren(Usd.TraverseInstanceProxies())
     subsets = [child for child in children if child.IsA(UsdGeom.Subset) and _is_bound(child)]
@@ -33,7 +33,7 @@ def face_sets(prim: Usd.Prim) -> Iterator[tuple[Usd.Prim, NDArray[np.intp] | Non
 
 
 def _is_bound(subset: Usd.Prim) -> bool:
-    """Whether a subset is one of faces and has a material of its own."""
+    """Return True if a subset consists of faces and has a material of its own."""
     if UsdGeom.Subset(subset).GetElementTypeAttr().Get(READ_AT) != UsdGeom.Tokens.face:
         return False
     bindings = UsdShade.MaterialBindingAPI(subset)

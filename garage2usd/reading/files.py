@@ -1,4 +1,4 @@
-"""Files of stages from unknown sources, which are examined before USD opens them."""
+"""Stage files from untrusted sources, validated before USD opens them."""
 
 import re
 import stat
@@ -18,14 +18,14 @@ STAGE_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 _MAX_FILE_BYTES = 2 * 1024**3
 _MAX_PACKAGE_FILES = 100_000
 _LEAST_S, _OPENING_S_PER_MB, _READING_S_PER_MB = 1.5, 4.0, 60.0
-"""Processor time for the root layer, and then for all that is done with the stage, by the size of the files."""
+"""Limits of processor time in seconds: for the root layer, and per megabyte to open and to read a stage."""
 _REASON_CHARACTERS = 300
 _NO_TEXT = "it holds bytes that are not text"
 _SAID = re.compile(r"at line \d+ in file \S+ : '(.*?)'(?= Error in |$)")
 
 
 def open_stage(path: Path) -> Usd.Stage:
-    """Open a stage for reading.
+    """Validate a stage's files and open it for reading.
 
     Raises
     ------
@@ -48,7 +48,7 @@ def open_stage(path: Path) -> Usd.Stage:
 
 
 def _open_layers(path: Path) -> list[Sdf.Layer]:
-    """The layer of a file and all that it leads to, but for those that are not there, which a stage may lack.
+    """Open the layer of a file and all layers that it refers to; missing ones are permitted.
 
     USD tries a damaged layer again for each prim that refers to it.
     """
@@ -73,14 +73,14 @@ def _open_layers(path: Path) -> list[Sdf.Layer]:
 
 
 def usd_reason(error: Exception) -> str:
-    """What an error of USD says, without the place in USD's sources where it was raised."""
+    """Return the message of a USD error, without the location in USD's sources."""
     text = _NO_TEXT if isinstance(error, UnicodeDecodeError) else usd_text(lambda: str(error))
     said = _SAID.findall(text)
     return "; ".join(dict.fromkeys(said) or [text])[:_REASON_CHARACTERS]
 
 
 def usd_text(read: Callable[[], str]) -> str:
-    """A text of USD in one line, which may quote bytes of a file that are not text."""
+    """Return a text of USD on one line; a placeholder if it quotes bytes that are not text."""
     try:
         return " ".join(read().split())
     except UnicodeDecodeError:
@@ -103,7 +103,7 @@ def _check_file(path: Path) -> None:
 
 
 def _check_package(path: Path) -> None:
-    """Look at a package's directory; USD maps its stored entries into memory and unpacks nothing."""
+    """Validate the directory of a USD package; USD maps its stored entries into memory and unpacks nothing."""
     try:
         with zipfile.ZipFile(path) as package:
             entries = package.infolist()

@@ -1,4 +1,4 @@
-"""What prims hand down to all below them, through instances too: bound materials and constant primvars."""
+"""Inherited properties of prims, also through instances: bound materials and constant primvars."""
 
 from collections.abc import Collection, Hashable
 from typing import NamedTuple, Self
@@ -16,16 +16,16 @@ _INDICES = ":indices"
 
 
 class Inherited(NamedTuple):
-    """What a prim inherits of how it looks; equal where prims of one prototype look the same.
+    """Inherited appearance of a prim; equal if prims of one prototype look the same.
 
     Attributes
     ----------
     bindings
-        Of materials, from the outermost prim on, each with its strength.
+        Material bindings, from the outermost prim inwards, each with its strength.
     primvars
         Names and values.
     is_by_path
-        Whether what is bound depends on the path of each prim, as it does where collections are bound.
+        True if bindings depend on the path of each prim, as with bound collections.
     """
 
     bindings: tuple[Hashable, ...] = ()
@@ -33,11 +33,11 @@ class Inherited(NamedTuple):
     is_by_path: bool = False
 
     def by_instance(self, path: str) -> Self:
-        """The same for the prims of an instance alone, if what is bound depends on their paths."""
+        """Restrict the inherited appearance to the prims of one instance, if bindings depend on their paths."""
         return self._replace(bindings=(*self.bindings, path)) if self.is_by_path else self
 
     def of(self, names: Collection[str]) -> tuple[tuple[str, Hashable], ...]:
-        """The primvars of these names."""
+        """Return the inherited primvars of some names."""
         return tuple(pair for pair in self.primvars if pair[0] in names)
 
 
@@ -45,7 +45,7 @@ NOTHING = Inherited()
 
 
 def handed_down(prim: Usd.Prim, said: Collection[str], above: Inherited) -> Inherited:
-    """What is below a prim inherits.
+    """Return the appearance that the prims below a prim inherit.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def handed_down(prim: Usd.Prim, said: Collection[str], above: Inherited) -> Inhe
     said
         Names of its authored properties.
     above
-        What it inherits itself.
+        Appearance that the prim itself inherits.
     """
     bindings = [_binding(prim, name) for name in said if name.startswith(_BINDING)]
     primvars = {}
@@ -71,7 +71,7 @@ def handed_down(prim: Usd.Prim, said: Collection[str], above: Inherited) -> Inhe
 
 
 def _binding(prim: Usd.Prim, name: str) -> tuple[str, ...]:
-    """A binding by its name, its strength and what it is bound to."""
+    """Return a material binding as name, strength and targets."""
     relationship = prim.GetRelationship(name)
     strength = UsdShade.MaterialBindingAPI.GetMaterialBindingStrength(relationship)
     return name, str(strength), *(str(target) for target in relationship.GetTargets())

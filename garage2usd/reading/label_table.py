@@ -1,4 +1,4 @@
-"""The table of labels beside a stage, JSON: the model that its writer and all who read it share."""
+"""The label table beside a stage, in JSON: the model shared by its writer and its readers."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,14 +13,14 @@ from garage2usd.common.settings import Record, first_fault
 __all__ = ["LARGEST_CLASS_ID", "LARGEST_ID", "LabelTable", "LabelledObject", "SemanticClass", "read_label_table"]
 
 LARGEST_ID = 2**24 - 1
-"""Ids of more than 24 bits fit no instance picture."""
+"""Greatest instance id: instance pictures have 24 bits."""
 LARGEST_CLASS_ID = 255
-"""Classes have eight bits in a picture of classes."""
+"""Greatest class id: semantic pictures have 8 bits."""
 _MAX_FILE_BYTES = 1024 * 1024 * 1024
 
 
 class SemanticClass(Record):
-    """A class of objects: its name, its id from 1, and the nearest class of Cityscapes, where one is known."""
+    """A semantic class of objects: its name, its id from 1, and the nearest Cityscapes class, if known."""
 
     name: str
     id: Annotated[int, Field(ge=1, le=LARGEST_CLASS_ID)]
@@ -28,19 +28,19 @@ class SemanticClass(Record):
 
 
 class LabelledObject(NamedTuple):
-    """An object of a stage: a row of the table.
+    """An object of a stage: a row of the label table.
 
     Attributes
     ----------
     name
-        Of its prim; a piece of an object has it after the object's and a slash, a point of an instancer its number in
-        brackets after the instancer's.
+        Name of its prim. The name of an object's piece follows the object's name and a slash; the number of an
+        instancer's point follows the instancer's name in brackets.
     id
         Instance id from 1.
     class_id
         Id of its class.
     min_m, max_m
-        (x, y, z) of the corners of its bounds in the world, for people and programs of their own.
+        (x, y, z) of the corners of its bounding box in the world, for people and other programs.
     """
 
     name: str
@@ -51,22 +51,22 @@ class LabelledObject(NamedTuple):
 
 
 class LabelTable(Record):
-    """All classes, and all objects with a path and an id of their own.
+    """All semantic classes, and all objects with a path and an id of their own.
 
     Attributes
     ----------
     classes_version
-        Of the table of classes (`garage2usd.objects.CLASSES_VERSION`); tables of the first say none.
+        Version of the table of classes (`garage2usd.objects.CLASSES_VERSION`); tables of the first version have none.
     classes
-        The classes.
+        Semantic classes.
     columns
-        What the columns of the rows are called.
+        Names of the columns of the rows.
     objects
-        The rows of objects by the path of the prim that is their parent, which thousands of them have in common.
+        Rows of objects by the path of their parent prim.
     parked
-        Ids of each stall that a car stands in, and of that car.
+        Ids of each stall with a car, and of that car.
     number_plates
-        Ids of the plates of each car and of that car, and what is to be read on them.
+        Ids of each car's plates and of the car, and the text on the plates.
     """
 
     classes_version: Annotated[int, Field(ge=1)] = 1
@@ -83,7 +83,7 @@ class LabelTable(Record):
     number_plates: tuple[tuple[int, int, str], ...] = ()
 
     def by_path(self) -> Iterator[tuple[str, LabelledObject]]:
-        """Path of each object's prim, and the object."""
+        """Return each object by the path of its prim."""
         return ((f"{parent}/{row.name}", row) for parent, rows in self.objects.items() for row in rows)
 
     @model_validator(mode="after")
@@ -110,14 +110,14 @@ class LabelTable(Record):
 
 
 def read_label_table(stage: Path) -> LabelTable | None:
-    """Read the table beside a stage, ``garage_labels.json`` for ``garage.usdc``; None where there is none.
+    """Read the label table beside a stage, ``garage_labels.json`` for ``garage.usdc``; None without one.
 
     Raises
     ------
     ConfigError
-        If it cannot be read.
+        If the file cannot be read.
     StageError
-        If it is not such a table; names the key, its value and what is allowed.
+        If the file is not a label table; names the key, its value and the allowed values.
     """
     path = stage.with_name(f"{stage.stem}_labels.json")
     if not is_file(path):

@@ -1,4 +1,4 @@
-"""Which object is what: the label table beside a stage, or what the stage itself says."""
+"""Labels of a stage's objects: the label table beside the stage, or the labels of its prims."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -20,19 +20,20 @@ __all__ = ["CITYSCAPES", "Labels", "NumberPlates", "owner_of", "read_labels"]
 _Id = TypeVar("_Id", bound=np.integer[Any])
 
 CITYSCAPES: dict[str, str] = {entry.label: entry.cityscapes for entry in CLASSES}
+"""Name of the nearest Cityscapes class of each semantic class."""
 _NUMBERS = {entry.label: entry.number for entry in CLASSES}
-"""Name of the nearest Cityscapes class of each class."""
+"""Id of each semantic class by name."""
 
 
 class NumberPlates(NamedTuple):
-    """The plates of a car, in front and behind.
+    """The front and rear number plates of a car.
 
     Attributes
     ----------
     car
         The car's id.
     text
-        What is to be read on them.
+        Text on the plates.
     """
 
     car: int
@@ -46,14 +47,14 @@ class Labels:
     Attributes
     ----------
     classes_version
-        Of the table of classes that the ids follow (`garage2usd.objects.CLASSES_VERSION`).
+        Version of the table of classes for the ids (`garage2usd.objects.CLASSES_VERSION`).
     classes
         All classes by their id.
     ids
         Instance id of each object by its path; a point of an instancer has its number in brackets after the
         instancer's path.
     class_ids
-        Id of each object's class by the object's id.
+        Class id by the object's id.
     plates
         The number plates of cars by their own ids.
     """
@@ -65,44 +66,44 @@ class Labels:
     plates: Mapping[int, NumberPlates] = field(default_factory=dict)
 
     def instance_of(self, number: int) -> int:
-        """The id of an object in pictures of instances and in clouds: number plates have that of their car."""
+        """Return an object's id in instance pictures and point clouds: number plates have the id of their car."""
         return self.plates[number].car if number in self.plates else number
 
     def instances_of(self, ids: NDArray[_Id]) -> NDArray[_Id]:
-        """The same of an array of ids, 0 for none; of any shape."""
+        """Return the instance ids in pictures and point clouds for an array of object ids, 0 for none; of any shape."""
         distinct, which = np.unique(ids, return_inverse=True)
         found = np.array([self.instance_of(number) for number in distinct.tolist()], dtype=ids.dtype)
         return found[which].reshape(ids.shape)
 
     def with_plates(self, paths: Iterable[str]) -> list[str]:
-        """Paths of some objects, and of the number plates of the cars among them."""
+        """Return the paths of some objects, and of the number plates of the cars among them."""
         paths = list(paths)
         cars = {self.ids[path] for path in paths if path in self.ids}
         own = {number for number, plates in self.plates.items() if plates.car in cars}
         return [*paths, *(path for path, number in self.ids.items() if number in own)] if own else paths
 
     def paths_of(self, names: frozenset[str]) -> Iterator[str]:
-        """Paths of the objects of some classes."""
+        """Return the paths of the objects of some classes."""
         wanted = {number for number, entry in self.classes.items() if entry.name in names}
         return (path for path, number in self.ids.items() if self.class_ids[number] in wanted)
 
 
 def read_labels(stage: Usd.Stage, path: Path | None) -> Labels:
-    """Read the table beside a stage; where there is none, number the stage's labelled prims in their order.
+    """Read the label table beside a stage; without one, number the stage's labelled prims in their order.
 
     Parameters
     ----------
     stage
         The stage.
     path
-        Its file; the table of ``garage.usdc`` is ``garage_labels.json`` beside it. None for a stage that is in memory.
+        File of the stage; the table of ``garage.usdc`` is ``garage_labels.json`` beside it. None for a stage in memory.
 
     Raises
     ------
     ConfigError
         If the table cannot be read.
     StageError
-        If it is not a table of labels, or contradicts itself.
+        If it is not a label table, or contradicts itself.
     """
     table = read_label_table(path) if path else None
     if table is None:
@@ -117,14 +118,14 @@ def read_labels(stage: Usd.Stage, path: Path | None) -> Labels:
 
 
 def owner_of(path: str, ids: Mapping[str, int]) -> int:
-    """Id of the nearest of a prim and its parents that has one; 0 where none has."""
+    """Return the id of the nearest labelled prim among a prim and its parents; 0 without one."""
     while path and path not in ids:
         path = path[: max(path.rfind("/"), path.rfind("["))]  # a point's parent is its instancer
     return ids.get(path, 0)
 
 
 def _labels_of(stage: Usd.Stage) -> Labels:
-    """Classes of this program keep their ids; others follow by name."""
+    """Number the labelled prims of a stage; known classes keep their ids, and others follow by name."""
     found = [(placed.path, placed.label) for placed in placed_objects(stage, np.eye(4)) if placed.label]
     others = sorted({name for _, name in found} - _NUMBERS.keys())
     number_of = {**_NUMBERS, **{name: number for number, name in enumerate(others, max(_NUMBERS.values()) + 1)}}
@@ -141,7 +142,7 @@ def _labels_of(stage: Usd.Stage) -> Labels:
 
 
 def _plates_of(stage: Usd.Stage, ids: Mapping[str, int]) -> Iterator[tuple[int, NumberPlates]]:
-    """Id of each prim that says so of itself, whose plates it is, and what is to be read on them."""
+    """Yield the id of each prim of number plates, with the id of its car and the text on the plates."""
     for path, number in ids.items():
         if "[" in path:  # a point of an instancer is no prim
             continue

@@ -1,4 +1,4 @@
-"""Lane graph and stalls of a stage, read from its guide curves, with what contradicts itself in them."""
+"""Lane graph and stalls of a stage, read from its guide curves, with their contradictions."""
 
 import math
 from dataclasses import dataclass, field
@@ -14,31 +14,31 @@ from garage2usd.reading.values import READ_AT, metres_y_up, numbers_of
 __all__ = ["GUIDE_LIFT_M", "Lanes", "moved_stalls", "read_lanes"]
 
 GUIDE_LIFT_M = 0.05
-"""How far the guide curves lie over the floor."""
+"""Height of the guide curves above the floor in metres."""
 _GRAPH = "LaneGraph"
 _CORNERS = 4
 _KINDS = {kind.value for kind in LaneKind}
 _USES = {use.value for use in StallUse}
 _MOVED_M = 0.05
-"""How far a stall's prim may lie from the middle of its outline: a stage keeps single precision."""
+"""Tolerance in metres between a stall's prim and the middle of its outline, for single precision."""
 _NO_WIDTH_M = 0.1
 _RULE = "lane-graph"
 
 
 @dataclass
 class Lanes:
-    """What the guide curves say.
+    """Lane graph and stalls of the guide curves.
 
     Attributes
     ----------
     nodes, edges, stalls
-        The lane graph, and the stalls that it serves.
+        The lane graph, and its stalls.
     squares
         (row, col) of each node.
     listed
-        Ids of all stalls, also of those that are left out.
+        Ids of all stalls, including omitted ones.
     faults
-        What contradicts itself; the curves concerned are left out.
+        Contradictions; the curves concerned are omitted.
     """
 
     nodes: list[LaneNode] = field(default_factory=list)
@@ -50,7 +50,7 @@ class Lanes:
 
     @property
     def graph(self) -> LaneGraph:
-        """Nodes and edges together."""
+        """Nodes and edges as a lane graph."""
         return LaneGraph(tuple(self.nodes), tuple(self.edges))
 
 
@@ -79,14 +79,14 @@ def read_lanes(stage: Usd.Stage) -> Lanes:
 
 
 def moved_stalls(stage: Usd.Stage, lanes: Lanes) -> list[Fault]:
-    """Find prims of stalls that were moved without their outlines, or the other way round.
+    """Find stalls whose prim was moved without its outline, or the outline without the prim.
 
     Parameters
     ----------
     stage
-        The stage; every prim of it is looked at.
+        The stage; all of its prims are visited.
     lanes
-        What `read_lanes` found in it.
+        Result of `read_lanes` for the stage.
     """
     if not lanes.listed and not lanes.nodes:
         return []
@@ -115,7 +115,7 @@ def _graph(stage: Usd.Stage, root: Usd.Prim) -> Usd.Prim | None:
 
 
 class _Curves:
-    """The attributes and the points of one set of curves."""
+    """Attributes and points of one set of guide curves."""
 
     def __init__(self, stage: Usd.Stage, prim: Usd.Prim | None) -> None:
         self._prim = prim
@@ -134,14 +134,14 @@ class _Curves:
         self.lines: list[NDArray[np.float64]] = np.split(world, ends[:-1]) if self.is_whole and len(counts) else []
 
     def values(self, name: str) -> list[Any]:
-        """One value a curve, as plain Python values; empty where there are not as many as curves."""
+        """Return one value per curve as plain Python values; empty if their number differs from that of the curves."""
         attribute = self._prim.GetAttribute(name) if self._prim else None
         value = attribute.Get(READ_AT) if attribute else None
         values = list(value) if value is not None and hasattr(value, "__len__") else []
         return values if len(values) == len(self.lines) else []
 
     def columns(self, *names: str) -> list[tuple[Any, ...]] | None:
-        """The values of some attributes, curve by curve; None where one of them does not fit the curves."""
+        """Return the values of some attributes per curve; None if one of them does not fit the curves."""
         columns = [self.values(name) for name in names]
         if not self.is_whole or any(len(column) != len(self.lines) for column in columns):
             return None

@@ -1,4 +1,4 @@
-"""Lights of a stage by what UsdLux says of them: how strongly they shine, and where to."""
+"""UsdLux lights of a stage: their intensity, size and direction."""
 
 import math
 from typing import NamedTuple
@@ -13,39 +13,39 @@ from garage2usd.reading.values import READ_AT, number_of, vector_of
 __all__ = ["DOMES", "LIGHT_TYPES", "LightSource", "light_of", "luminance_of", "unsaid_of"]
 
 DOMES = frozenset({"DomeLight", "DomeLight_1"})
-"""Types of lights that stand for the surroundings."""
+"""Types of lights that represent the surroundings."""
 LIGHT_TYPES = DOMES | {"RectLight", "DiskLight", "SphereLight", "CylinderLight", "DistantLight"}
-"""Types of prims that shine."""
+"""Types of prims that are lights."""
 _AHEAD = {"RectLight": 1.0, "DiskLight": 1.0, "SphereLight": 1 / 4, "CylinderLight": 1 / math.pi}
-"""What share of its area a light shows to who looks at it along Z."""
+"""Share of a light's area that is visible along Z."""
 _ELLIPSOID = 1.6075
-"""Exponent of K. Thomsen's formula for the area of an ellipsoid, which is off by 1 % at most."""
+"""Exponent of K. Thomsen's formula for the area of an ellipsoid, with an error of at most 1 %."""
 _ALL_ROUND_DEG, _HALF_ROUND_DEG = 180.0, 90.0
 _LINKS = ("lightLink", "shadowLink")
 _MOST, _MOST_STOPS = 1e9, 64.0
 
 
 class LightSource(NamedTuple):
-    """A light.
+    """Photometric properties of a light.
 
     Attributes
     ----------
     kind
-        Its UsdLux type.
+        UsdLux type.
     colour_rgb
-        Linear, its colour temperature in it.
+        Linear, including its colour temperature.
     width_m, height_m
-        Its sides along X and Y, or its diameter: of a cylinder its length and its diameter.
+        Sides along X and Y, or diameter; for a cylinder its length and its diameter.
     luminance_nit
-        Of an area that shines, and of a dome; infinite where it has no area.
+        Luminance of an area light or a dome; infinite without an area.
     candela
-        Along -Z, where no cone keeps it in; 0 for lights at infinity.
+        Intensity along -Z, without a cone; 0 for lights at infinity.
     lux
-        On what faces a distant light; 0 for all others.
+        Illuminance of a surface that faces a distant light; 0 for all others.
     cone_deg
-        Between -Z and the last ray: 90 of what shines to one side, 180 of what shines all around.
+        Angle between -Z and the last ray: 90 for lights that shine to one side, 180 for all directions.
     softness
-        Over which share of the cone it falls off.
+        Share of the cone with a falloff.
     """
 
     kind: str
@@ -60,18 +60,18 @@ class LightSource(NamedTuple):
 
     @property
     def brightness(self) -> float:
-        """How bright its colour is to the eye, next to white."""
+        """Luminance of the light's colour relative to white."""
         return luminance_of(self.colour_rgb)
 
 
 def luminance_of(colour_rgb: tuple[float, float, float]) -> float:
-    """How bright a linear colour of ITU-R BT.709 is."""
+    """Compute the luminance of a linear colour of ITU-R BT.709."""
     red, green, blue = colour_rgb
     return 0.2126 * red + 0.7152 * green + 0.0722 * blue
 
 
 def light_of(prim: Usd.Prim, matrix: Matrix, metres_per_unit: float) -> LightSource:
-    """Read a light.
+    """Read the photometric properties of a light.
 
     Parameters
     ----------
@@ -80,12 +80,12 @@ def light_of(prim: Usd.Prim, matrix: Matrix, metres_per_unit: float) -> LightSou
     matrix
         From its space to that of the world, in metres.
     metres_per_unit
-        Of the stage, in whose units the area of a normalized light counts.
+        Units of the stage, for the area of a normalized light.
 
     Notes
     -----
-    UsdLux has nits: the luminance is intensity x 2^exposure, divided by the area, or what it has for a distant
-    light's angle, where ``normalize`` is on. A light whose size is 0 is what smaller and smaller ones come near to.
+    UsdLux has nits: the luminance is intensity x 2^exposure, divided by the area (for a distant light, by its angle's
+    equivalent) if ``normalize`` is on. A light of size 0 is the limit of ever smaller lights.
     """
     kind = str(prim.GetTypeName())
     light = UsdLux.LightAPI(prim)
@@ -109,7 +109,7 @@ def light_of(prim: Usd.Prim, matrix: Matrix, metres_per_unit: float) -> LightSou
 
 
 def _sizes(prim: Usd.Prim, kind: str, scale: NDArray[np.float64]) -> tuple[float, float, float, float]:
-    """Width, height, area that shines, and what of it is seen along Z; metres."""
+    """Return a light's width, height, luminous area, and the area visible along Z; metres."""
     along_x, along_y, along_z = np.nan_to_num(scale).tolist()
     radius = _number(prim, "inputs:radius") if kind in {"DiskLight", "SphereLight", "CylinderLight"} else 0.0
     if kind == "RectLight":
@@ -129,12 +129,12 @@ def _sizes(prim: Usd.Prim, kind: str, scale: NDArray[np.float64]) -> tuple[float
 
 
 def _around(one: float, other: float) -> float:
-    """The way around an ellipse by its half axes, by Ramanujan's formula."""
+    """Compute the perimeter of an ellipse from its half axes by Ramanujan's formula."""
     return math.pi * (3 * (one + other) - math.sqrt((3 * one + other) * (one + 3 * other)))
 
 
 def _distant(strength: float, angle_deg: float, *, is_normalized: bool) -> tuple[float, float]:
-    """Lux on what faces a distant light, and its luminance."""
+    """Return the illuminance of a surface facing a distant light in lux, and the light's luminance."""
     half = min(max(math.radians(angle_deg) / 2, 0.0), math.pi)
     square = math.sin(half) ** 2
     size = math.pi * (square if half <= math.pi / 2 else 2 - square) if half else 1.0
@@ -144,7 +144,7 @@ def _distant(strength: float, angle_deg: float, *, is_normalized: bool) -> tuple
 
 
 def _cone(prim: Usd.Prim) -> tuple[float, float]:
-    """The angle that keeps a light in, and how softly."""
+    """Return the cone angle of a light, and its softness."""
     shaping = UsdLux.ShapingAPI(prim)
     angle, softness = shaping.GetShapingConeAngleAttr(), shaping.GetShapingConeSoftnessAttr()
     is_shaped = angle and angle.HasAuthoredValue()
@@ -168,7 +168,7 @@ def _number(prim: Usd.Prim, name: str) -> float:
 
 
 def unsaid_of(prim: Usd.Prim) -> list[str]:
-    """What a light says besides what `LightSource` has, as reasons for remarks."""
+    """Return the properties of a light that `LightSource` omits, as reasons for remarks."""
     shaping = UsdLux.ShapingAPI(prim)
     file, focus = shaping.GetShapingIesFileAttr(), shaping.GetShapingFocusAttr()
     found = []

@@ -1,4 +1,4 @@
-"""What prims look like: every mesh and surface of a stage once."""
+"""Appearance of prims: every distinct mesh and surface of a stage once."""
 
 from collections.abc import Hashable, Iterator
 from typing import Generic, NamedTuple, TypeVar
@@ -21,14 +21,14 @@ _Value = TypeVar("_Value")
 
 
 class Numbered(Generic[_Value]):
-    """Different values in the order in which they were first met."""
+    """Distinct values, numbered in order of first occurrence."""
 
     def __init__(self) -> None:
         self.values: list[_Value] = []
         self._number_of: dict[Hashable, int] = {}
 
     def number(self, value: _Value, key: Hashable) -> int:
-        """Number of a value; values with the same key are the same."""
+        """Return the number of a value; values with the same key are equal."""
         number = self._number_of.setdefault(key, len(self.values))
         if number == len(self.values):
             self.values.append(value)
@@ -36,7 +36,7 @@ class Numbered(Generic[_Value]):
 
 
 class DrawnMesh(NamedTuple):
-    """Triangles of a prim that have one surface.
+    """Triangles of a prim with one surface.
 
     Attributes
     ----------
@@ -49,23 +49,23 @@ class DrawnMesh(NamedTuple):
 
 
 class MeshLooks:
-    """Collects what prims look like: what is the same in several places is kept once.
+    """Collector of distinct meshes and surfaces of prims.
 
     Parameters
     ----------
     is_apart_by_name
-        Whether surfaces of materials with other names are different, even if they look alike.
+        True to keep surfaces of materials of different names apart, even if they look alike.
     remarks
-        Told of what is left out; left out, new ones.
+        Collector of omitted properties; the default is a new one.
 
     Attributes
     ----------
     meshes, surfaces
-        Different ones in the order in which they were first met.
+        Distinct meshes and surfaces in order of first occurrence.
     pictures
-        What their textures show.
+        Pictures of the textures.
     remarks
-        What is left out.
+        Omitted properties.
     """
 
     def __init__(self, *, is_apart_by_name: bool = False, remarks: Remarks | None = None) -> None:
@@ -82,11 +82,11 @@ class MeshLooks:
         self._is_composed_within: dict[Hashable, bool] = {}
 
     def of_part(self, placed: PlacedObject, part: DrawnPart) -> list[DrawnMesh]:
-        """What a part of an object draws, with all that it inherits."""
+        """Return the meshes drawn by a part of an object, with its inherited appearance."""
         return self.of_prim(placed.twin_of(part), part.inherited)
 
     def of_prim(self, prim: Usd.Prim, inherited: Inherited = NOTHING) -> list[DrawnMesh]:
-        """What a prim of one of `garage2usd.reading.meshes.DRAWN_TYPES` draws; `inherited` is from outside of it."""
+        """Return the meshes of a prim of `garage2usd.reading.meshes.DRAWN_TYPES`; `inherited` is from outside it."""
         found, opinions = [], opinions_of(prim)
         for bound, faces in face_sets(prim):
             surface = self._surface(bound, prim)
@@ -102,7 +102,7 @@ class MeshLooks:
         return found
 
     def _mesh(self, prim: Usd.Prim, key: Hashable, look: SurfaceLook, faces: NDArray[np.intp] | None) -> int | None:
-        """Number of the triangles of some faces; None where there are none."""
+        """Return the number of the triangles of some faces; None without triangles."""
         # prims made of the same opinions are the same
         if key not in self._triangles_of:
             self._triangles_of[key] = triangles_of(prim, sets=look.sets, colour_name=look.colour_name)
@@ -127,9 +127,9 @@ class MeshLooks:
         return surface
 
     def _surface_of(self, material: UsdShade.Material, bound: Usd.Prim) -> tuple[int, bool]:
-        """Number of a material's surface, and whether it depends on the prim that has it.
+        """Return the number of a material's surface, and True if the surface depends on its prim.
 
-        Many prototypes have materials that are made of the same opinions.
+        Many prototypes have materials composed of the same opinions.
         """
         prim = material.GetPrim()
         key: Hashable = prim.GetName(), opinions_of(prim)
@@ -150,12 +150,12 @@ class MeshLooks:
 
 
 def _below(prim: Usd.Prim) -> Iterator[Usd.Prim]:
-    """A prim and all below it, of instances too."""
+    """Yield a prim and all prims below it, including those of instances."""
     yield from Usd.PrimRange(prim, Usd.TraverseInstanceProxies())
 
 
 def _has_arcs(prim: Usd.Prim) -> bool:
-    """Whether a prim is made of other prims or of variants."""
+    """Return True if a prim has composition arcs to other prims or to variants."""
     return bool(
         prim.HasAuthoredReferences()
         or prim.HasAuthoredPayloads()

@@ -1,4 +1,4 @@
-"""Meshes and simple shapes of a stage as triangles with one normal and one texture coordinate a vertex."""
+"""Meshes and simple shapes of a stage as triangles with one normal and one texture coordinate per vertex."""
 
 import hashlib
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ from garage2usd.reading.values import READ_AT, numbers_of
 __all__ = ["DRAWN_TYPES", "Triangles", "cross", "triangles_of"]
 
 DRAWN_TYPES = frozenset({"Mesh", "Cube", "Sphere", "Cylinder", "Cone", "Capsule", "Plane"})
-"""Types of prims that have triangles."""
+"""Types of prims with triangles."""
 
 _SMALLEST_M2 = 1e-12
 
@@ -31,15 +31,15 @@ class Triangles:
     positions_m, normals
         float32, shape (vertices, 3) each; normals are of unit length.
     coordinates
-        On textures; float32, shape (vertices, sets, 2).
+        Texture coordinates; float32, shape (vertices, sets, 2).
     colours
-        Linear; float32, shape (vertices, 3), or None where all vertices have the colour of the surface.
+        Linear; float32, shape (vertices, 3), or None if all vertices have the colour of the surface.
     indices
         uint32, shape (triangles, 3), counter-clockwise seen from outside.
     face_of
-        int32, shape (triangles,): number of the face that each triangle is a part of.
+        int32, shape (triangles,): number of each triangle's face.
     double_sided
-        Whether its back is seen as well.
+        True if the back is visible.
     """
 
     positions_m: NDArray[np.float32]
@@ -51,7 +51,7 @@ class Triangles:
     colours: NDArray[np.float32] | None = None
 
     def key(self) -> bytes:
-        """Equal for triangles that are equal in all."""
+        """Return a key that is equal for identical triangles."""
         digest = hashlib.blake2b(bytes([self.double_sided]), digest_size=16)
         colours = () if self.colours is None else (self.colours,)
         for values in (self.positions_m, self.normals, self.coordinates, self.indices, *colours):
@@ -60,7 +60,7 @@ class Triangles:
         return digest.digest()
 
     def of_faces(self, faces: NDArray[np.intp]) -> "Triangles":
-        """The triangles of some faces alone."""
+        """Return the triangles of some faces only."""
         is_wanted = np.zeros(max(int(self.face_of.max(initial=0)), int(faces.max(initial=0))) + 1, dtype=bool)
         is_wanted[faces] = True
         kept = is_wanted[self.face_of]
@@ -81,22 +81,22 @@ class Triangles:
 def triangles_of(
     prim: Usd.Prim, *, sets: Sequence[Coordinates] = (USUAL_COORDINATES,), colour_name: str = ""
 ) -> Triangles | None:
-    """Triangles of a prim of one of `DRAWN_TYPES`; None where it has none that can be drawn.
+    """Triangulate a prim of one of `DRAWN_TYPES`; None if it has no triangles.
 
     Parameters
     ----------
     prim
         The mesh or shape.
     sets
-        The texture coordinates that are wanted.
+        Sets of texture coordinates to read.
     colour_name
         Name of the primvar with the colours; empty for none.
 
     Notes
     -----
-    Faces that are holes are left out, and polygons are cut as `garage2usd.reading.polygons.triangulated` says. Without
-    authored normals a mesh is faceted, or smooth where it asks to be subdivided, which is not done. Faces that name
-    missing points are left out, as a renderer would.
+    Faces that are holes are omitted, and polygons are cut by `garage2usd.reading.polygons.triangulated`. Without
+    authored normals, a mesh is faceted, or smooth if it has a subdivision scheme; it is not subdivided. Faces that
+    refer to missing points are omitted, as in a renderer.
     """
     if prim.GetTypeName() != "Mesh":
         return _of_solid(prim, sets)
@@ -133,7 +133,7 @@ def triangles_of(
 
 
 def cross(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The cross products of vectors whose first axis is (x, y, z), without the checks of `numpy.cross`."""
+    """Compute cross products of vectors whose first axis is (x, y, z), without the checks of `numpy.cross`."""
     (x, y, z), (other_x, other_y, other_z) = one, other
     return np.stack([y * other_z - z * other_y, z * other_x - x * other_z, x * other_y - y * other_x])
 
@@ -156,7 +156,7 @@ def _normals(
     fans: NDArray[np.int64],
     face_of: NDArray[np.int32],
 ) -> NDArray[np.float32]:
-    """Normal of each corner of each triangle, shape (triangles, 3, 3)."""
+    """Return the normal of each corner of each triangle, shape (triangles, 3, 3)."""
     primvar = UsdGeom.PrimvarsAPI(mesh).GetPrimvar("normals")
     if primvar.HasAuthoredValue():
         values, interpolation = primvar.ComputeFlattened(READ_AT), primvar.GetInterpolation()
@@ -183,7 +183,7 @@ def _coordinates(
     fans: NDArray[np.int64],
     face_of: NDArray[np.int32],
 ) -> NDArray[np.float32]:
-    """Texture coordinate of each corner of each triangle, shape (triangles, 3, 2); the fallback where there is none."""
+    """Return texture coordinates of triangle corners, shape (triangles, 3, 2); the fallback without a primvar."""
     found = _primvar(prim, wanted.name, 2, points, corners, fans, face_of) if wanted.name else None
     return np.broadcast_to(np.array(wanted.fallback, np.float32), (len(fans), 3, 2)) if found is None else found
 
@@ -196,7 +196,7 @@ def _colours(
     fans: NDArray[np.int64],
     face_of: NDArray[np.int32],
 ) -> NDArray[np.float32] | None:
-    """Colour of each corner of each triangle, one after the other; None where the prim gives none."""
+    """Return the colour of each triangle corner in order; None if the prim has none."""
     found = _primvar(prim, name, 3, points, corners, fans, face_of)
     return None if found is None else np.clip(np.nan_to_num(found), 0, 1).reshape(-1, 3)
 
@@ -210,7 +210,7 @@ def _primvar(
     fans: NDArray[np.int64],
     face_of: NDArray[np.int32],
 ) -> NDArray[np.float32] | None:
-    """Vectors of a primvar at each corner of each triangle; None where it has none."""
+    """Return the vectors of a primvar at each triangle corner; None without the primvar."""
     primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(name)
     values = primvar.ComputeFlattened(READ_AT) if primvar and primvar.HasValue() else None
     if values is None or f"GfVec{width}" not in primvar.GetTypeName().type.typeName:
@@ -227,7 +227,7 @@ def _at_corners(
     fans: NDArray[np.int64],
     face_of: NDArray[np.int32] | None,
 ) -> NDArray[np.float32] | None:
-    """Values of a primvar at each corner of each triangle; None where their kind or number does not fit."""
+    """Return the values of a primvar at each triangle corner; None if their type or number does not fit."""
     try:
         found = np.asarray(values, dtype=np.float32).reshape(-1, width)
     except (TypeError, ValueError):  # for no values too
@@ -264,7 +264,7 @@ def _welded(
     *,
     double_sided: bool,
 ) -> Triangles:
-    """Corners of triangles as vertices, those that are equal in all made one."""
+    """Merge identical triangle corners to vertices."""
     sets = coordinates.shape[1]
     columns = [positions, normals, coordinates.reshape(-1, 2 * sets), *(() if colours is None else (colours,))]
     rows = np.ascontiguousarray(np.hstack(columns).astype(np.float32) + np.float32(0))

@@ -1,8 +1,8 @@
-"""The names under which number plates say what is to be read on them, and whose they are."""
+"""Names of the USD properties that hold the text and the car of number plates."""
 
 __all__ = ["CAR_OF_PLATE", "PLATE_TEXT"]
 
 PLATE_TEXT = "garage:numberPlate:text"
-"""Attribute of the prim of a car's number plates: what is to be read on both."""
+"""Attribute of the prim of a car's number plates: the text on both plates."""
 CAR_OF_PLATE = "garage:numberPlate:car"
-"""Relationship of that prim to the car's."""
+"""Relationship from the prim of number plates to the prim of their car."""

@@ -1,4 +1,4 @@
-"""The objects of a composed stage: what each is, where it stands, and which prims draw it."""
+"""The objects of a composed stage: semantic class, transform, and the prims that draw them."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -15,22 +15,22 @@ __all__ = ["DrawnPart", "Matrix", "PlacedObject", "once_for_each_look"]
 _Read = TypeVar("_Read")
 
 Matrix = NDArray[np.float64]
-"""A transform for points as rows; float64, shape (4, 4)."""
+"""A transform for points as row vectors; float64, shape (4, 4)."""
 
 
 class DrawnPart(NamedTuple):
-    """A prim that draws a piece of an object, or lights from it.
+    """A prim that draws a part of an object, or a light of it.
 
     Attributes
     ----------
     prim
         A `UsdGeom.Gprim` or a light. Instances of one prototype share it.
     path
-        From the object's path to the prim; empty where the object is the prim.
+        From the object's path to the prim; empty if the object is the prim.
     matrix
         From the prim's space to the object's.
     inherited
-        What it inherits of how it looks, from outside of its prototype too.
+        Inherited materials and primvars, including those from outside its prototype.
     """
 
     prim: Usd.Prim
@@ -46,17 +46,17 @@ class PlacedObject:
     Attributes
     ----------
     path
-        Of its prim; ``instancer[index]`` for a point of an instancer, with what follows for an object within one.
+        Path of its prim; ``instancer[index]`` for a point of an instancer, with a suffix for an object within one.
     twin
-        Path of a prim on the stage that looks like it: `path` itself but for points of instancers.
+        Path of a prim on the stage that looks like the object: equal to `path` except for points of instancers.
     label
-        Its semantic class; empty where the stage gives none.
+        Semantic class; empty if the stage has none.
     square
-        What the labels say of the square that it stands on; empty where they say nothing.
+        Label of the object's square; empty without one.
     matrix
         From its space to the world.
     parts
-        What is drawn. Objects that are instances of one prototype, and inherit the same, share the same tuple.
+        Drawn parts. Instances of one prototype that inherit the same values share one tuple.
     """
 
     path: str
@@ -67,12 +67,12 @@ class PlacedObject:
     parts: Sequence[DrawnPart] = field(default_factory=list)
 
     def twin_of(self, part: DrawnPart) -> Usd.Prim:
-        """The prim on the stage that looks like a part: it inherits what the part does, as a prototype's cannot."""
+        """Return the prim on the stage that looks like a part, with the part's inherited values."""
         return part.prim.GetStage().GetPrimAtPath(self.twin + part.path)
 
 
 def once_for_each_look(read: Callable[[PlacedObject], _Read]) -> Callable[[PlacedObject], _Read]:
-    """The same function, called for the first of all objects that share their parts; the others get its result."""
+    """Cache a function of an object by the object's parts: all objects that share their parts get one result."""
     known: dict[int, tuple[Sequence[DrawnPart], _Read]] = {}  # the parts are held, so that none takes another's id
 
     def remembered(placed: PlacedObject) -> _Read:

@@ -1,4 +1,4 @@
-"""Pictures that textures show: their bytes, their pixels, and pictures made of channels of others."""
+"""Texture pictures: their bytes, their pixels, and pictures composed of channels of others."""
 
 import io
 import math
@@ -14,22 +14,22 @@ from pxr import Ar
 __all__ = ["ALPHA", "Band", "Bands", "Picture", "Pictures", "factored", "sampled"]
 
 _PLAIN_KINDS = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
-"""The kinds of pictures that browsers and glTF take, by their first bytes."""
+"""Picture formats of browsers and glTF, by their first bytes."""
 _OPENEXR = b"\x76\x2f\x31\x01"
 _BITS_AT = 24
-"""Where a PNG says how many bits a channel has."""
+"""Offset of the bits per channel in a PNG."""
 _SIXTEEN = 16
 _COLOURED = 3
-"""From as many channels on a picture of 8 bits is taken for colours in sRGB."""
+"""Least number of channels of an 8-bit picture that is read as sRGB colours."""
 _WHOLE = {"I;16": 65535.0, "I;16B": 65535.0, "I;16L": 65535.0, "I": 65535.0, "F": 1.0}
 ALPHA = 3
-"""The last of the four channels."""
+"""Number of the alpha channel."""
 _KNEE, _SLOPE, _SHIFT, _POWER = 0.0031308, 12.92, 0.055, 2.4
-"""The curve of sRGB (IEC 61966-2-1): straight up to the knee, a power from there on."""
+"""Constants of the sRGB curve (IEC 61966-2-1): linear up to the knee, a power above."""
 
 
 class Picture(NamedTuple):
-    """A file of an image: its name, its media type, and its bytes."""
+    """An image file: its name, its media type, and its bytes."""
 
     name: str
     kind: str
@@ -37,7 +37,7 @@ class Picture(NamedTuple):
 
 
 class Band(NamedTuple):
-    """A channel of a picture, linear, times `scale` plus `bias`.
+    """A linear channel of a picture, times `scale` plus `bias`.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class Band(NamedTuple):
 
 
 class _Pixels(NamedTuple):
-    """Pixels as a file stores them; float32, shape (rows, columns, 4), the first row on top."""
+    """Pixels as stored in a file; float32, shape (rows, columns, 4), the first row on top."""
 
     values: NDArray[np.float32]
     channels: int
@@ -63,11 +63,11 @@ class _Pixels(NamedTuple):
 
 
 Bands = tuple[Band | float | None, ...]
-"""Red, green, blue and perhaps alpha: each of a picture, the same everywhere, or read by nobody."""
+"""Red, green, blue and optionally alpha: each a band of a picture, a constant, or unused."""
 
 
 def factored(bands: Iterable[Band]) -> tuple[list[float], tuple[Band, ...]]:
-    """Bands as factors from 0 to 1, and what they are multiplied with."""
+    """Split bands into factors from 0 to 1 and the bands to multiply with them."""
     factors, rest = [], []
     for band in bands:
         is_factor = band.bias == 0 and 0 <= band.scale <= 1
@@ -77,7 +77,7 @@ def factored(bands: Iterable[Band]) -> tuple[list[float], tuple[Band, ...]]:
 
 
 class Pictures:
-    """Reads pictures, each once."""
+    """Reader of texture pictures that reads each file once."""
 
     def __init__(self) -> None:
         self._data: dict[str, bytes] = {}
@@ -85,14 +85,14 @@ class Pictures:
         self._pixels: dict[str, _Pixels] = {}
 
     def data(self, file: str) -> bytes:
-        """The bytes of a file; none where it cannot be opened."""
+        """Return the bytes of a picture's file; empty if it cannot be opened."""
         if file not in self._data:
             asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(file))
             self._data[file] = bytes(asset.GetBuffer()) if asset and asset.GetSize() else b""
         return self._data[file]
 
     def fault(self, file: str) -> str:
-        """Why a picture cannot be read, as what it is or lacks; empty where it can."""
+        """Explain why a picture cannot be read; empty if it can be."""
         if file not in self._faults:
             try:
                 self._read(file)
@@ -105,7 +105,7 @@ class Pictures:
         return self._faults[file]
 
     def _read(self, file: str) -> None:
-        """Decode a file, as nothing less tells whether it is whole, and keep nothing of it."""
+        """Decode a picture to validate it completely, and discard the pixels."""
         data = self.data(file)
         if data.startswith(_OPENEXR):
             _of_openexr(data)
@@ -114,7 +114,7 @@ class Pictures:
             picture.load()
 
     def plain_kind(self, file: str) -> str:
-        """The media type of a file that browsers and glTF take as it is; empty for any other."""
+        """Return the media type of a picture that browsers and glTF support directly; empty for any other."""
         data = self.data(file)
         kind = next((kind for magic, kind in _PLAIN_KINDS.items() if data.startswith(magic)), "")
         if kind == "image/jpeg":
@@ -123,18 +123,18 @@ class Pictures:
         return kind
 
     def is_srgb(self, file: str, colour_space: str) -> bool:
-        """Whether red, green and blue are stored as sRGB; ``auto`` means colours of 8 bits."""
+        """Return True if red, green and blue are stored as sRGB; ``auto`` means 8-bit colours."""
         if colour_space in {"sRGB", "raw"}:
             return colour_space == "sRGB"
         channels, are_bytes = self._form(file)
         return are_bytes and channels >= _COLOURED
 
     def has_alpha(self, file: str) -> bool:
-        """Whether a picture has an alpha that is not opaque everywhere."""
+        """Return True if a picture has an alpha channel that is not opaque everywhere."""
         return bool((self._pixels_of(file).values[..., ALPHA] < 1).any())
 
     def _form(self, file: str) -> tuple[int, bool]:
-        """How many channels a picture has, and whether they are of 8 bits."""
+        """Return a picture's number of channels, and True if they have 8 bits."""
         data = self.data(file)
         if data.startswith(_OPENEXR):
             return _COLOURED, False
@@ -144,14 +144,14 @@ class Pictures:
             return channels, picture.mode not in _WHOLE and not _has_sixteen_bits(data)
 
     def plane(self, band: Band) -> NDArray[np.float64]:
-        """The values of a band; float64, shape (rows, columns), the first row on top."""
+        """Return the values of a band; float64, shape (rows, columns), the first row on top."""
         values = self._pixels_of(band.file).values[..., band.channel].astype(np.float64)
         if band.channel != ALPHA and self.is_srgb(band.file, band.colour_space):
             values = _linear(values)
         return values * band.scale + band.bias
 
     def mean(self, band: Band) -> float:
-        """The mean of a band."""
+        """Compute the mean of a band."""
         return float(self.plane(band).mean())
 
     def _pixels_of(self, file: str) -> _Pixels:
@@ -161,15 +161,15 @@ class Pictures:
         return self._pixels[file]
 
     def composed(self, bands: Bands, *, is_srgb: bool) -> Picture:
-        """A picture of some bands: the very file where one has them, else a PNG of 8 bits.
+        """Compose a picture of some bands: the original file if it has them unchanged, else an 8-bit PNG.
 
         Parameters
         ----------
         bands
-            Red, green, blue and, where there are four, alpha; a number for the same everywhere, None for what nobody
-            reads. One of them is a band.
+            Red, green, blue and, if there are four, alpha; a number for a constant, None for an unused channel. One of
+            them is a band.
         is_srgb
-            Whether red, green and blue are to be stored as sRGB.
+            True to store red, green and blue as sRGB.
         """
         given = [band for band in bands if isinstance(band, Band)]
         package, packed = Ar.SplitPackageRelativePathInner(given[0].file)
@@ -188,7 +188,7 @@ class Pictures:
         return Picture(name, "image/png", buffer.getvalue())
 
     def _are_stored(self, bands: Bands, *, is_srgb: bool) -> bool:
-        """Whether a file has these bands as they are."""
+        """Return True if a file has these bands unchanged."""
         files = {band.file if isinstance(band, Band) else "" for band in bands if band is not None}
         if len(files) > 1 or not self.plain_kind(file := files.pop()):
             return False
@@ -203,7 +203,7 @@ class Pictures:
 
 
 def sampled(plane: NDArray[np.float64], coordinates: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
-    """Values of a repeated picture between the middles of its pixels, linearly."""
+    """Sample a repeated picture by linear interpolation between the centres of its pixels."""
     upwards = plane[::-1]  # the last row of pixels is v = 0
     rows, columns = plane.shape
     across = coordinates[:, 0] * columns - 0.5
@@ -219,14 +219,14 @@ def sampled(plane: NDArray[np.float64], coordinates: NDArray[np.floating[Any]]) 
 
 
 def _linear(stored: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Linear light of values in sRGB."""
+    """Convert sRGB values to linear light."""
     straight = stored / _SLOPE
     curved = ((np.maximum(stored, _SLOPE * _KNEE) + _SHIFT) / (1 + _SHIFT)) ** _POWER
     return np.where(stored <= _SLOPE * _KNEE, straight, curved)
 
 
 def _stored(values: NDArray[np.float64], *, is_srgb: bool) -> NDArray[np.uint8]:
-    """Values as bytes."""
+    """Convert values to bytes."""
     kept = np.clip(np.nan_to_num(values), 0.0, 1.0)
     if is_srgb:
         curved = (1 + _SHIFT) * np.maximum(kept, _KNEE) ** (1 / _POWER) - _SHIFT
@@ -275,6 +275,6 @@ def _of_openexr(data: bytes) -> _Pixels:
 
 
 def _four(colours: list[NDArray[np.float32]], alpha: NDArray[np.float32] | None = None) -> NDArray[np.float32]:
-    """Red, green, blue and alpha of one channel or three."""
+    """Expand one channel or three to red, green, blue and alpha."""
     three = colours * 3 if len(colours) == 1 else colours
     return np.stack([*three, np.ones_like(three[0]) if alpha is None else alpha], axis=2)

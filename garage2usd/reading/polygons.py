@@ -1,4 +1,4 @@
-"""Polygons of a mesh cut into triangles."""
+"""Triangulation of the polygons of a mesh."""
 
 from typing import Any
 
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 __all__ = ["triangulated"]
 
 _FLAT = 1e-9
-"""Share of a polygon's area by which a triangle of its fan may be turned over: rounding of single precision."""
+"""Share of a polygon's area by which a triangle of its fan may be inverted: rounding of single precision."""
 _SAME_AREA = 1e-6
 _TRIANGLE = 3
 
@@ -17,7 +17,7 @@ _TRIANGLE = 3
 def triangulated(
     points: NDArray[np.floating[Any]], corners: NDArray[np.int64], counts: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
-    """Cut polygons into triangles that cover each of them once.
+    """Triangulate polygons, covering each of them once.
 
     Parameters
     ----------
@@ -26,19 +26,19 @@ def triangulated(
     corners
         Number of the point at each corner of each polygon, one polygon after the other.
     counts
-        How many corners each polygon has.
+        Number of corners of each polygon.
 
     Returns
     -------
     tuple
-        The corners of each triangle, shape (triangles, 3), as numbers into `corners`, wound as the polygon is; and the
-        number of the polygon that each is a part of, which grows.
+        The corners of each triangle, shape (triangles, 3), as indices into `corners`, with the polygon's winding; and
+        the number of each triangle's polygon, ascending.
 
     Notes
     -----
-    A polygon is a fan around its first corner, unless a triangle of that would be turned over: it is laid on its plane
-    then, by Newell's method, and triangulated by GEOS. What crosses itself, has no area or names missing points stays
-    a fan.
+    A polygon becomes a fan around its first corner. If a triangle of the fan would be inverted, the polygon is
+    projected to its plane, by Newell's method, and triangulated by GEOS. Polygons that intersect themselves, have no
+    area or refer to missing points remain fans.
     """
     fans, polygon_of = _fans(counts)
     places, normals, dented = _measured(points, corners, counts)
@@ -64,7 +64,7 @@ def triangulated(
 def _measured(
     points: NDArray[np.floating[Any]], corners: NDArray[np.int64], counts: NDArray[np.int64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
-    """Places of the corners, normals of the polygons by Newell's method, twice their areas, and the dented ones."""
+    """Return positions of the corners, Newell normals of the polygons, twice their areas, and the non-convex ones."""
     places = points[np.clip(corners, 0, len(points) - 1)].astype(np.float64)
     if not (counts > _TRIANGLE).any():
         return places, np.zeros((0, 3)), np.zeros(0, np.int64)
@@ -79,7 +79,7 @@ def _measured(
 
 
 def _fans(counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
-    """Corners of each triangle of the fans around each polygon's first corner, and the polygon of each."""
+    """Return the corners of the triangles of fans around each polygon's first corner, and each triangle's polygon."""
     triangles = np.maximum(counts - 2, 0)
     polygon_of = np.repeat(np.arange(len(counts)), triangles)
     first = (np.cumsum(counts) - counts)[polygon_of]
@@ -88,7 +88,7 @@ def _fans(counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int3
 
 
 def _cut(places: NDArray[np.float64], normal: NDArray[np.float64]) -> NDArray[np.intp] | None:
-    """Triangles of a polygon as numbers of its corners; None where it has no inside."""
+    """Triangulate a polygon by GEOS; corner numbers of the triangles, or None if the polygon has no interior."""
     normal = normal / np.linalg.norm(normal)
     across = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
     across /= np.linalg.norm(across)

@@ -1,4 +1,4 @@
-"""What prims are by their types, and what they say of being seen."""
+"""Classification of prims by type, and their visibility and purpose."""
 
 from typing import NamedTuple
 
@@ -10,14 +10,14 @@ __all__ = ["PrimType", "PrimTypes", "is_imageable", "is_visible", "purpose_of"]
 
 
 class PrimType(NamedTuple):
-    """What prims of a type are.
+    """Classification of a type of prim.
 
     Attributes
     ----------
     is_material, is_instancer
-        Whether they are materials, or instancers of points.
+        True for materials, and for point instancers.
     is_drawn
-        Whether they draw something or shine.
+        True for geometry and lights.
     """
 
     is_material: bool
@@ -25,18 +25,18 @@ class PrimType(NamedTuple):
     is_drawn: bool
 
     def draws(self, prim: Usd.Prim) -> bool:
-        """Whether a prim of this type draws something or shines, by its type or as one that is made a light."""
+        """Return True if a prim of this type is geometry or a light, by its type or by the light API."""
         return self.is_drawn or bool(prim.HasAPI(UsdLux.LightAPI))
 
 
 class PrimTypes:
-    """The types of prims, of which a stage has few; each is looked at once."""
+    """Cache of the few prim types of a stage."""
 
     def __init__(self) -> None:
         self._known: dict[str, PrimType] = {}
 
     def of(self, prim: Usd.Prim) -> PrimType:
-        """What a prim is by its type."""
+        """Return the classification of a prim by its type."""
         name = prim.GetTypeName()
         if name not in self._known:
             drawn = UsdGeom.Gprim, UsdLux.BoundableLightBase, UsdLux.NonboundableLightBase
@@ -47,19 +47,19 @@ class PrimTypes:
 
 
 def is_imageable(prim: Usd.Prim) -> bool:
-    """Whether a prim can be seen at all."""
+    """Return True if a prim is imageable."""
     return bool(prim.IsA(UsdGeom.Imageable))
 
 
 def is_visible(prim: Usd.Prim) -> bool:
-    """Whether a prim whose parents are visible is."""
+    """Return True if a prim with visible parents is visible."""
     if not is_imageable(prim):
         return True
     return bool(UsdGeom.Imageable(prim).GetVisibilityAttr().Get(READ_AT) != UsdGeom.Tokens.invisible)
 
 
 def purpose_of(prim: Usd.Prim, inherited: str) -> str:
-    """A prim's purpose: its own where it has one, else its parent's."""
+    """Return a prim's purpose: its own if authored, else its parent's."""
     if is_imageable(prim):
         own = UsdGeom.Imageable(prim).GetPurposeAttr()
         if own.HasAuthoredValue():

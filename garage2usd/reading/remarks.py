@@ -1,4 +1,4 @@
-"""What a stage says that a reader cannot carry on, by reason."""
+"""Remarks on properties of a stage that a reader omits or changes, grouped by reason."""
 
 __all__ = ["Remarks"]
 
@@ -6,17 +6,17 @@ _MOST_PLACES = 5
 
 
 class Remarks:
-    """Collects what is left out or changed: each reason with the places where it came up, each place once."""
+    """Collector of remarks: each reason with the places where it occurred, each place once."""
 
     def __init__(self) -> None:
         self._places: dict[str, dict[str, None]] = {}
 
     def add(self, reason: str, place: object) -> None:
-        """Note a place, such as a prim's path, under a reason."""
+        """Add a place, such as a prim's path, to a remark's reason."""
         self._places.setdefault(reason, {})[str(place)] = None
 
     def lines(self) -> list[str]:
-        """A line for each reason, in the order in which they came up: how many places there are, and the first few."""
+        """Format one line per reason in order of first occurrence: the number of places, and the first few."""
         return [
             f"{reason} ({len(places)}): {', '.join([*places][:_MOST_PLACES])}"
             + (", ..." if len(places) > _MOST_PLACES else "")

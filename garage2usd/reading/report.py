@@ -1,4 +1,4 @@
-"""The report of a build, JSON: the model that its writer and all who read it share."""
+"""The report of a build, in JSON: the model shared by its writer and its readers."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -27,7 +27,7 @@ __all__ = [
 
 
 class PlanFigures(Record):
-    """The figures of a plan, or what they differ by between two."""
+    """Figures of a plan, or their differences between two plans."""
 
     value: float
     stalls: int
@@ -37,7 +37,7 @@ class PlanFigures(Record):
 
 
 class LearningFigures(Record):
-    """What learning alone found, and what polish added to it."""
+    """Figures of the plan found by learning alone, and the gain by polish."""
 
     learnt: PlanFigures
     polish: PlanFigures
@@ -46,7 +46,7 @@ class LearningFigures(Record):
 
 
 class CirculationFigures(Record):
-    """How traffic circulates, which of R1 to R4 were asked for, and which of these are broken, with where."""
+    """Circulation of traffic: its figures, the required rules of R1 to R4, and the violated ones with their places."""
 
     loops: int
     longest_dead_end_m: float
@@ -60,7 +60,7 @@ class CirculationFigures(Record):
 
 
 class StairCore(Record):
-    """A stair core: (row, col) of its square, (x, z) of its door, and the stalls in whose place it stands."""
+    """A stair core: (row, col) of its square, (x, z) of its door, and the stalls that it replaces."""
 
     square: tuple[int, int]
     door_m: tuple[float, float]
@@ -68,7 +68,7 @@ class StairCore(Record):
 
 
 class FireCompartment(Record):
-    """A fire compartment with how many stalls and doors of stair cores it has."""
+    """A fire compartment with its numbers of stalls and of doors of stair cores."""
 
     name: str
     area_m2: float
@@ -77,9 +77,9 @@ class FireCompartment(Record):
 
 
 class ReportedStall(Record):
-    """A stall; squares are (row, col), its centre is (x, z), and `occupied` says whether a car stands in it.
+    """A stall in a report; squares are (row, col), its centre is (x, z), and `occupied` is true with a car in it.
 
-    That may be a misparked car of the next stall, whose name `blocked_by` is.
+    That car may be a misparked one of the adjacent stall named by `blocked_by`.
     """
 
     name: str
@@ -97,7 +97,7 @@ class ReportedStall(Record):
 
     @model_serializer(mode="wrap")
     def _where_it_is_blocked(self, handler: SerializerFunctionWrapHandler) -> dict[str, object]:
-        """Without `blocked_by` where nothing blocks it, as nothing does in most garages."""
+        """Serialize the stall, without `blocked_by` unless a car blocks it."""
         told: dict[str, object] = handler(self)
         if self.blocked_by is None:
             del told["blocked_by"]
@@ -105,7 +105,7 @@ class ReportedStall(Record):
 
 
 class UnmetClause(Record):
-    """A clause of the profile that the garage misses in some places, or that nothing checks, which has none."""
+    """A profile clause violated in some places of the garage, or one that no rule checks, which has no places."""
 
     clause: str
     places: int
@@ -116,11 +116,11 @@ class UnmetClause(Record):
 
 
 class Report(Record):
-    """A report, key by key in the order of the file.
+    """A build report, key by key in the order of the file.
 
-    What makes the garage again has to be there: ``seed``, ``config``, ``S`` as rows of symbols, ``R`` and ``C`` as
-    metres by column and by row. A report may lack the rest. An entry of ``stalls`` that is not a stall is kept as it
-    stands, for `garage2usd.checks` to name.
+    The keys that reproduce the garage are required: ``seed``, ``config``, ``S`` as rows of symbols, ``R`` and ``C`` as
+    metres by column and by row. All others are optional. An entry of ``stalls`` that is not a stall is kept unchanged:
+    `garage2usd.checks` reports it.
     """
 
     version: str = ""
@@ -154,12 +154,12 @@ class Report(Record):
     seconds: dict[str, float] | None = None
 
     def garage_config(self) -> GarageConfig:
-        """Settings that make the garage again, without planning: its lanes and sizes are given.
+        """Return the settings that reproduce the garage without planning, from its lanes and sizes.
 
         Raises
         ------
         ConfigError
-            If the sizes or the lanes are not allowed by this version.
+            If this version does not allow the sizes or the lanes.
         """
         settings = self.config.model_dump(mode="json")
         sizes = {"column_widths_m": self.R, "row_depths_m": self.C, "dimensioned": False}
@@ -168,14 +168,14 @@ class Report(Record):
 
 
 def read_report(path: Path) -> Report:
-    """Read a report.
+    """Read the report of a build.
 
     Raises
     ------
     ConfigError
-        If the file cannot be read, or a setting in it is not allowed by this version.
+        If the file cannot be read, or this version does not allow a setting in it.
     ReportError
-        If it is not a report; names the key, its value and what is allowed.
+        If the file is not a report; names the key, its value and the allowed values.
     """
     text = read_text(path, field="report", max_bytes=MAX_REPORT_BYTES)
     try:
@@ -185,7 +185,7 @@ def read_report(path: Path) -> Report:
 
 
 def report_of(document: Any, path: Path) -> Report:  # noqa: ANN401 - whatever JSON holds
-    """The report that a JSON document is; raises as `read_report`."""
+    """Convert a JSON document to a report; raises as `read_report`."""
     try:
         return Report.model_validate(document)
     except ValidationError as error:
@@ -193,7 +193,7 @@ def report_of(document: Any, path: Path) -> Report:  # noqa: ANN401 - whatever J
 
 
 def _refusal(error: ValidationError, path: Path) -> ConfigError | ReportError:
-    """The error of a setting, else that of the first key that is wrong."""
+    """Return the error of a setting, else of the first invalid key."""
     for fault in error.errors(include_url=False):
         cause = fault.get("ctx", {}).get("error")
         if isinstance(cause, ConfigError):

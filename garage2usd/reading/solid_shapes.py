@@ -1,4 +1,4 @@
-"""The simple shapes of UsdGeom as triangles."""
+"""Simple shapes of UsdGeom as triangles."""
 
 import math
 from collections.abc import Callable
@@ -18,7 +18,7 @@ _Corners = tuple[NDArray[np.float32], NDArray[np.float32]]
 
 
 def solid_faces(prim: Usd.Prim) -> _Corners | None:
-    """Positions and normals of the corners of a shape's triangles.
+    """Return positions and normals of the corners of a shape's triangles.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ def solid_faces(prim: Usd.Prim) -> _Corners | None:
     Returns
     -------
     tuple or None
-        Both float32, shape (3 x triangles, 3), in metres of the stage; None for any other type of prim.
+        Both float32, shape (3 x triangles, 3), in the shape's own space; None for any other type of prim.
     """
     make = _MAKERS.get(prim.GetTypeName())
     return None if make is None else make(prim)
@@ -110,7 +110,7 @@ def _plane(half_width: float, half_length: float, axis: int) -> _Corners:
 def _square(
     middle: NDArray[np.float64], normal: NDArray[np.float64], across: NDArray[np.float64], along: NDArray[np.float64]
 ) -> _Corners:
-    """The two triangles of a rectangle by its middle and the vectors from there to its sides."""
+    """Return the two triangles of a rectangle by its middle and the vectors from there to its sides."""
     if np.dot(np.cross(across, along), normal) < 0:
         across, along = along, across
     corners = [middle + a * across + b * along for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
@@ -119,13 +119,13 @@ def _square(
 
 
 def _arc(radius: float, end: float) -> list[_Ring]:
-    """The profile of a sphere from its top to an angle."""
+    """Return the profile of a sphere from its top to an angle."""
     angles = np.linspace(0, end, round(_CAP_RINGS * end / (math.pi / 2)) + 1).tolist()
     return [(radius * math.sin(a), radius * math.cos(a), math.sin(a), math.cos(a)) for a in angles]
 
 
 def _revolved(profile: list[_Ring], axis: int) -> _Corners:
-    """A profile of (radius, height, normal outwards, normal upwards), from the top down, turned about an axis."""
+    """Revolve a profile of (radius, height, normal outwards, normal upwards), from the top down, about an axis."""
     radius, height, outwards, upwards = np.array(profile).T
     angles = np.arange(_SIDES + 1) * math.tau / _SIDES
     cos, sin = np.cos(angles)[:, None], np.sin(angles)[:, None]

@@ -1,4 +1,4 @@
-"""Materials of a stage as the few values that surfaces take which know no networks of shaders."""
+"""Materials of a stage as values of simple surface models without shader networks."""
 
 # Over 300 lines: every input of UsdPreviewSurface is read here, as what one says depends on others.
 
@@ -33,14 +33,14 @@ _BRIGHTEST = 1e4
 _DEFAULT_ROUGHNESS = 0.5
 _DEFAULT_IOR = 1.5
 _STRAIGHT = (0.0, 0.0, 1.0)
-"""The normal of a surface without a normal map."""
+"""Normal of a surface without a normal map."""
 _MOST_IOR = 1e3
 _COLOUR_READERS = frozenset({f"{PRIMVAR_READER}float3", f"{PRIMVAR_READER}float4"})
 
 
 @dataclass(frozen=True)
 class SurfaceLook:
-    """A surface. What a texture gives is 1 here.
+    """Appearance of a surface. A value with a texture is 1.
 
     Attributes
     ----------
@@ -51,16 +51,16 @@ class SurfaceLook:
     ior
         Index of refraction.
     specular_rgb
-        What it reflects where it is met squarely, in the specular workflow; None in the metallic one.
+        Reflectance at normal incidence, in the specular workflow; None in the metallic one.
     colour_texture, emissive_texture, roughness_texture, metallic_texture, opacity_texture, clearcoat_texture,
     clearcoat_roughness_texture, occlusion_texture, specular_texture, normal_texture
         None for none.
     colour_name
         Primvar with a colour for each point, in place of `colour_rgb`; empty for none.
     opacity_threshold
-        What is less opaque is not drawn, and all else is opaque; 0 where all is drawn as opaque as it is.
+        Points of less opacity are not drawn, and all others are opaque; 0 to draw all with their opacity.
     name
-        Of the material that it is made of, empty for none; two materials of other names that look alike are equal.
+        Name of the material, empty for none; materials of different names that look alike are equal.
     """
 
     colour_rgb: Rgb = (0.5, 0.5, 0.5)
@@ -89,28 +89,28 @@ class SurfaceLook:
 
     @property
     def has_alpha(self) -> bool:
-        """Whether a texture says how opaque it is."""
+        """True if a texture gives the surface's opacity."""
         return self.opacity_texture is not None
 
     @property
     def is_blended(self) -> bool:
-        """Whether what lies behind it shows."""
+        """True if the background shows through the surface."""
         return self.has_alpha or self.opacity < 1
 
     @property
     def sets(self) -> tuple[Coordinates, ...]:
-        """The coordinates that its textures are read at, each once; one at least."""
+        """Distinct texture coordinates of the surface's textures; at least one."""
         textures = [getattr(self, name) for name in _TEXTURES]
         return tuple(dict.fromkeys(own.layout.coordinates for own in textures if own)) or (USUAL_COORDINATES,)
 
 
 _TEXTURES = tuple(own.name for own in fields(SurfaceLook) if own.name.endswith("_texture"))
 PLAIN = SurfaceLook()
-"""What has no material."""
+"""Surface without a material."""
 
 
 class _Given(NamedTuple):
-    """What an input of a surface is: numbers, a texture, or a primvar that has a value at each point."""
+    """Value of a surface input: numbers, a texture, or a primvar with a value at each point."""
 
     values: tuple[float, ...]
     texture: Texture | None = None
@@ -118,19 +118,19 @@ class _Given(NamedTuple):
 
 
 class SurfaceReader:
-    """Reads surfaces.
+    """Reader of the surfaces of a stage's materials.
 
     Parameters
     ----------
     remarks
-        Told of what is left out.
+        Collector of omitted properties.
 
     Attributes
     ----------
     pictures
-        What textures show.
+        Pictures of the textures.
     read_a_primvar
-        Whether the surface that was read last depends on the prim that has it.
+        True if the last surface read depends on its prim.
     """
 
     def __init__(self, remarks: Remarks) -> None:
@@ -139,7 +139,7 @@ class SurfaceReader:
         self._textures = TextureReader(self.pictures, remarks)
 
     def unbound(self, prim: Usd.Prim) -> SurfaceLook:
-        """The surface of a prim without a material, by what it says of itself."""
+        """Return the surface of a prim without a material, from the prim's own colour and opacity."""
         primvars = UsdGeom.PrimvarsAPI(prim)
         opacity = primvars.FindPrimvarWithInheritance("displayOpacity")
         shares = _rows(opacity, 1) if opacity and opacity.HasValue() else None
@@ -157,7 +157,7 @@ class SurfaceReader:
         return SurfaceLook(colour_rgb=(red, green, blue), opacity=share, colour_name="displayColor" if varies else "")
 
     def surface_of(self, material: UsdShade.Material, prim: Usd.Prim) -> SurfaceLook:
-        """What a material's UsdPreviewSurface says of a prim; `PLAIN` where it has none."""
+        """Return the surface of a prim from its material's UsdPreviewSurface; `PLAIN` without one."""
         self.read_a_primvar = False
         found, _, _ = material.ComputeSurfaceSource()
         if not found or found.GetIdAttr().Get() != _PREVIEW:
@@ -206,14 +206,14 @@ class SurfaceReader:
         )
 
     def _mean(self, given: _Given, name: str) -> float:
-        """The number of an input that nobody takes a texture for: the mean of what one gives."""
+        """Return the number of an input that supports no texture: the mean of a texture."""
         if given.texture is None:
             return given.values[0]
         self._remarks.add(f"textures of {name} are carried as their mean", given.texture.file)
         return self.pictures.mean(given.texture.band())
 
     def given(self, source: Source, default: tuple[float, ...], prim: Usd.Prim, *, is_colour: bool) -> _Given:
-        """What a source gives to an input."""
+        """Return the value that a source gives to a surface input."""
         if source.shader is None:
             return _Given(vector_of(source.attribute, len(default)))
         if source.node == UV_TEXTURE:
@@ -229,7 +229,7 @@ class SurfaceReader:
         return _Given(default)
 
     def _as_numbers(self, texture: Texture) -> Texture:
-        """The same texture for what is no colour: its pixels are numbers unless it says that they are sRGB."""
+        """Return a texture of a non-colour input: its pixels are numbers unless it declares sRGB."""
         if texture.colour_space != "auto" or texture.band().channel == ALPHA:
             return texture
         if self.pictures.is_srgb(texture.file, "auto"):
@@ -237,7 +237,7 @@ class SurfaceReader:
         return texture._replace(colour_space="raw")
 
     def _primvar(self, source: Source, default: tuple[float, ...], prim: Usd.Prim) -> _Given:
-        """What a primvar of a prim gives; the reader's fallback where it has none."""
+        """Return the value of a prim's primvar; the reader node's fallback without one."""
         named, fallback = source_of(source.shader, "varname"), source_of(source.shader, "fallback")
         name = str((named.attribute.Get(READ_AT) if named else "") or "")
         self.read_a_primvar = True
@@ -255,7 +255,7 @@ class SurfaceReader:
 
 
 class _Inputs(NamedTuple):
-    """The inputs of a surface's shader; most of most are as they are by default."""
+    """Inputs of a surface shader; most keep their defaults."""
 
     reader: SurfaceReader
     shader: UsdShade.Shader
@@ -263,16 +263,16 @@ class _Inputs(NamedTuple):
     said: frozenset[str]
 
     def given(self, name: str, default: tuple[float, ...], *, is_colour: bool = False) -> _Given:
-        """What an input is."""
+        """Return the value of a shader input."""
         source = source_of(self.shader, name) if f"inputs:{name}" in self.said else None
         return _Given(default) if source is None else self.reader.given(source, default, self.prim, is_colour=is_colour)
 
     def colour(self, name: str, default: Rgb) -> _Given:
-        """A colour from 0 to as bright as can be."""
+        """Return a colour input, clamped between 0 and the greatest brightness."""
         return self._clipped(self.given(name, default, is_colour=True), _BRIGHTEST)
 
     def number(self, name: str, default: float, *, most: float = 1.0) -> _Given:
-        """A number from 0 to another."""
+        """Return a number input between 0 and a maximum."""
         return self._clipped(self.given(name, (default,)), most)
 
     @staticmethod
@@ -281,7 +281,7 @@ class _Inputs(NamedTuple):
 
 
 def stands_alone(material: UsdShade.Material) -> bool:
-    """Whether what a material says depends on nothing but itself and what is below it."""
+    """Return True if a material is self-contained: its connections lead to itself and the prims below it."""
     prim = material.GetPrim()
     parts = Usd.PrimRange(prim, Usd.TraverseInstanceProxies())
     connected = (given for part in parts for given in part.GetAuthoredAttributes())
@@ -295,7 +295,7 @@ def _rgb(given: _Given) -> Rgb:
 
 
 def _rows(primvar: UsdGeom.Primvar, width: int) -> NDArray[np.float64] | None:
-    """Values of a primvar, shape (n, width); None where it has none that wide."""
+    """Return the values of a primvar, shape (n, width); None if it has no values of that width."""
     try:
         values = np.asarray(primvar.ComputeFlattened(READ_AT), dtype=np.float64)
     except (TypeError, ValueError):
@@ -307,5 +307,5 @@ def _rows(primvar: UsdGeom.Primvar, width: int) -> NDArray[np.float64] | None:
 
 
 def _within(value: float, most: float) -> float:
-    """A number of at least 0 and at most another; 0 for what is none."""
+    """Clamp a number between 0 and a maximum; 0 for NaN."""
     return 0.0 if math.isnan(value) else min(max(value, 0.0), most)

@@ -1,4 +1,4 @@
-"""Semantic labels on prims: their taxonomies, and what a prim's label says."""
+"""Semantic labels of prims: taxonomies and attributes."""
 
 from collections.abc import Sequence
 from functools import cache
@@ -20,44 +20,44 @@ __all__ = [
 ]
 
 OBJECT_TAXONOMY = "class"
-"""Instance name of the labels that name an object's class."""
+"""Instance name of the labels with an object's class."""
 SQUARE_TAXONOMY = "square"
-"""Instance name of what labels say of squares: no class of objects."""
+"""Instance name of the labels of squares, which are no object classes."""
 LABELS = "semantics:labels"
-"""Namespace of the attributes."""
+"""Namespace of the label attributes."""
 LABELS_SCHEMA = "SemanticsLabelsAPI"
-"""The schema, applied once for each taxonomy."""
+"""The label schema, applied once for each taxonomy."""
 FINISH = "garage:material:finish"
-"""Attribute of a material that names what it is made of where its own name says what it usually is."""
+"""Attribute of a material with the name of its substance, if it differs from the material's own name."""
 _ARRAYS = Vt.TokenArray, Vt.StringArray
 
 
 @cache
 def labels_name(taxonomy: str) -> str:
-    """Name of the attribute that holds the labels of a taxonomy, for example ``semantics:labels:class``."""
+    """Return the name of a taxonomy's label attribute, for example ``semantics:labels:class``."""
     return f"{LABELS}:{taxonomy}"
 
 
 def label_of(prim: Usd.Prim, taxonomy: str = OBJECT_TAXONOMY) -> str:
-    """The first label of a prim in a taxonomy; empty for none. Raises what `labels_of` raises."""
+    """Return the first label of a prim in a taxonomy; empty without one. Raises as `labels_of`."""
     labels = _value(prim, taxonomy)
     return str(labels[0]) if labels else ""
 
 
 def finish_of(material: Usd.Prim) -> str:
-    """Name of the material that a material is made of: what its finish says, else its own."""
+    """Return the name of a material's substance: its finish, else the material's own name."""
     attribute = material.GetAttribute(FINISH)
     finish = attribute.Get(READ_AT) if attribute else None
     return finish if isinstance(finish, str) and finish else material.GetName()
 
 
 def labels_of(prim: Usd.Prim, taxonomy: str) -> tuple[str, ...]:
-    """All labels of a prim in a taxonomy.
+    """Return all labels of a prim in a taxonomy.
 
     Raises
     ------
     StageError
-        If the attribute holds something else: USD gives whatever a file has, not what the schema says.
+        If the attribute has another type: USD returns the type in the file, not that of the schema.
     """
     return tuple(map(str, _value(prim, taxonomy)))
 

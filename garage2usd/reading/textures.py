@@ -1,4 +1,4 @@
-"""Textures as the nodes UsdUVTexture, UsdTransform2d and UsdPrimvarReader_float2 read them."""
+"""Textures read from the nodes UsdUVTexture, UsdTransform2d and UsdPrimvarReader_float2."""
 
 import math
 from collections.abc import Sequence
@@ -28,7 +28,7 @@ PRIMVAR_READER = "UsdPrimvarReader_"
 UV_TEXTURE, _TRANSFORM = "UsdUVTexture", "UsdTransform2d"
 _CHANNELS = {"rgb": -1, "r": 0, "g": 1, "b": 2, "a": 3}
 _DEEPEST = 16
-"""How many transforms of coordinates may follow each other: connections may lead in circles."""
+"""Greatest number of chained coordinate transforms: connections may be circular."""
 _FIRST_TILE = "1001"
 _WRAPS = {"mirror": "mirror", "clamp": "clamp", "black": "clamp"}
 _SQUARE = 1e-6
@@ -37,14 +37,14 @@ Four = tuple[float, float, float, float]
 
 
 class Coordinates(NamedTuple):
-    """Where a surface is on a texture.
+    """Texture coordinates of a surface.
 
     Attributes
     ----------
     name
-        Primvar that says so; empty for none.
+        Name of the primvar; empty for none.
     fallback
-        The place of all that has no such primvar.
+        Coordinates of a prim without the primvar.
     """
 
     name: str
@@ -55,16 +55,16 @@ USUAL_COORDINATES = Coordinates("st")
 
 
 class Layout(NamedTuple):
-    """How a texture lies on a surface.
+    """Layout of a texture on a surface.
 
     Attributes
     ----------
     coordinates
-        Which they are.
+        Texture coordinates.
     scale, rotation_rad, translation
-        What is done to them, in this order; turned counter-clockwise.
+        Transforms of the coordinates, in this order; the rotation is counter-clockwise.
     wrap_s, wrap_t
-        ``repeat``, ``mirror`` or ``clamp``: what is outside of the unit square.
+        Wrap mode outside the unit square: ``repeat``, ``mirror`` or ``clamp``.
     """
 
     coordinates: Coordinates = USUAL_COORDINATES
@@ -76,11 +76,11 @@ class Layout(NamedTuple):
 
     @property
     def is_moved(self) -> bool:
-        """Whether anything is done to the coordinates."""
+        """True if the texture coordinates are transformed."""
         return (self.scale, self.rotation_rad, self.translation) != ((1.0, 1.0), 0.0, (0.0, 0.0))
 
     def placed(self, coordinates: NDArray[_Number]) -> NDArray[_Number]:
-        """Coordinates, shape (..., 2), with all done to them."""
+        """Transform texture coordinates, shape (..., 2)."""
         if not self.is_moved:
             return coordinates
         cos, sin = math.cos(self.rotation_rad), math.sin(self.rotation_rad)
@@ -91,7 +91,7 @@ class Layout(NamedTuple):
 
 
 class Texture(NamedTuple):
-    """What an input takes from a picture: each pixel, linear, times `scale` plus `bias`.
+    """A picture as the value of an input: each pixel, linear, times `scale` plus `bias`.
 
     Attributes
     ----------
@@ -100,9 +100,9 @@ class Texture(NamedTuple):
     channel
         0 to 3 for red, green, blue and alpha; -1 for red, green and blue.
     layout
-        How it lies on the surface.
+        Layout on the surface.
     scale, bias
-        Of red, green, blue and alpha.
+        Factors and offsets of red, green, blue and alpha.
     colour_space
         ``sRGB``, ``raw`` or ``auto``.
     """
@@ -115,18 +115,18 @@ class Texture(NamedTuple):
     colour_space: str = "auto"
 
     def band(self, channel: int = 0) -> Band:
-        """What it gives as red, green, blue or alpha (0 to 3), or as a number where it gives one."""
+        """Return the texture's band of red, green, blue or alpha (0 to 3), or its single channel."""
         taken = channel if self.channel < 0 else self.channel
         return Band(self.file, taken, self.colour_space, self.scale[taken], self.bias[taken])
 
 
 class Source(NamedTuple):
-    """Where the value of an input comes from: an attribute that holds it, or the output of a shader.
+    """Source of an input's value: an attribute with the value, or the output of a shader.
 
     Attributes
     ----------
     attribute
-        What holds the value, or the output.
+        Attribute with the value, or the output.
     shader
         The shader; None for a value.
     """
@@ -136,12 +136,12 @@ class Source(NamedTuple):
 
     @property
     def node(self) -> str:
-        """The identifier of the shader; empty for a value."""
+        """Identifier of the source's shader; empty for a value."""
         return str(self.shader.GetIdAttr().Get() or "") if self.shader else ""
 
 
 def source_of(shader: UsdShade.ConnectableAPI, name: str) -> Source | None:
-    """Where an input's value comes from, through interfaces of materials and node graphs; None where it has none."""
+    """Find the source of an input's value, through interfaces of materials and node graphs; None without one."""
     given = shader.GetInput(name)
     # most inputs of most shaders are as they are by default
     if not given or not given.GetAttr().IsAuthored():
@@ -158,14 +158,14 @@ def source_of(shader: UsdShade.ConnectableAPI, name: str) -> Source | None:
 
 
 class TextureReader:
-    """Reads what UsdUVTextures give.
+    """Reader of UsdUVTexture nodes.
 
     Parameters
     ----------
     pictures
-        The pictures that they show.
+        Pictures of the textures.
     remarks
-        Told of what is left out.
+        Collector of omitted properties.
     """
 
     def __init__(self, pictures: Pictures, remarks: Remarks) -> None:
@@ -173,7 +173,7 @@ class TextureReader:
         self._whole: dict[Sdf.Path, Texture | Four] = {}
 
     def read(self, source: Source) -> Texture | Four:
-        """The texture that a UsdUVTexture gives; red, green, blue and alpha where it shows its fallback everywhere."""
+        """Return the texture of a UsdUVTexture; red, green, blue and alpha if it shows its fallback everywhere."""
         reader = source.shader
         channel = _CHANNELS.get(UsdShade.Output(source.attribute).GetBaseName(), -1)
         # several inputs read channels of one texture
@@ -186,7 +186,7 @@ class TextureReader:
         return whole if channel < 0 else (whole[channel],) * 4
 
     def _of(self, reader: UsdShade.Shader) -> Texture | Four:
-        """All channels of a texture."""
+        """Return all channels of a texture."""
         file = self._file(reader)
         if not file:
             return _numbers(reader, "fallback", (0.0, 0.0, 0.0, 1.0))
@@ -195,7 +195,7 @@ class TextureReader:
         return Texture(file, -1, layout, scale, bias, _word(reader, "sourceColorSpace", "auto"))
 
     def _file(self, reader: UsdShade.Shader) -> str:
-        """Resolved path of a texture's picture; empty where none can be read."""
+        """Return the resolved path of a texture's picture; empty if none can be read."""
         source = source_of(reader, "file")
         value = source.attribute.Get(READ_AT) if source is not None and source.shader is None else None
         if source is None or not isinstance(value, Sdf.AssetPath) or not value.path:
@@ -222,7 +222,7 @@ class TextureReader:
         return _WRAPS.get(word, "repeat")
 
     def _layout(self, reader: UsdShade.Shader) -> Layout:
-        """The coordinates that a texture is read at, and what is done to them."""
+        """Return the texture coordinates of a texture, and their transform."""
         steps: list[Layout] = []
         node, name = reader, "st"
         for _ in range(_DEEPEST):
@@ -246,7 +246,7 @@ class TextureReader:
         return Layout(Coordinates(""))
 
     def _after(self, coordinates: Coordinates, steps: Sequence[Layout], reader: UsdShade.Shader) -> Layout:
-        """What several steps do to coordinates, the last of them first, as one."""
+        """Combine several transforms of texture coordinates into one; the last is applied first."""
         if len(steps) <= 1:
             return (steps[0] if steps else Layout())._replace(coordinates=coordinates)
         corners = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
@@ -264,7 +264,7 @@ class TextureReader:
 
 
 def _tiles(path: str, attribute: Usd.Attribute) -> dict[str, str]:
-    """Resolved paths of the tiles of a texture, by their numbers."""
+    """Return the resolved paths of a texture's UDIM tiles, by tile number."""
     (opinion, *_) = attribute.GetPropertyStack(READ_AT)
     return {tile: str(found) for found, tile in UsdShade.UdimUtils.ResolveUdimTilePaths(path, opinion.layer)}
 

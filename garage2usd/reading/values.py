@@ -1,4 +1,4 @@
-"""Values of a stage: its units and axes, and numbers, which may be of another type than their schema says."""
+"""Values of a stage: its units and axes, and numbers, whose type may differ from the schema."""
 
 from typing import TypeVar
 
@@ -12,12 +12,12 @@ __all__ = ["READ_AT", "lacks", "metres_per_unit", "metres_y_up", "number_of", "n
 
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 READ_AT = Usd.TimeCode.EarliestTime()
-"""When stages are read: at the first time sample of what has samples."""
+"""Time code at which stages are read: the earliest, so the first time sample of animated attributes."""
 _Z_UP_TO_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, -1.0, 0], [0, 1.0, 0, 0], [0, 0, 0, 1.0]])
 
 
 def metres_y_up(stage: Usd.Stage) -> NDArray[np.float64]:
-    """The matrix for row vectors from a stage's coordinates to metres, Y up; float64, shape (4, 4)."""
+    """Return the matrix for row vectors from a stage's coordinates to metres, Y up; float64, shape (4, 4)."""
     matrix = np.eye(4)
     if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z:
         matrix = _Z_UP_TO_Y_UP.copy()
@@ -27,17 +27,17 @@ def metres_y_up(stage: Usd.Stage) -> NDArray[np.float64]:
 
 
 def metres_per_unit(stage: Usd.Stage) -> float:
-    """Metres in a unit of a stage; UsdGeom's own function refuses what some programs write, single precision."""
+    """Return the metres per unit of a stage; reads single-precision values too, unlike UsdGeom's function."""
     return float(stage.GetMetadata(UsdGeom.Tokens.metersPerUnit))
 
 
 def number_of(attribute: Usd.Attribute) -> float:
-    """The number that an attribute holds; 0 for none.
+    """Return the number in an attribute; 0 without a value.
 
     Raises
     ------
     StageError
-        If it holds something else: USD gives whatever a file has, not what the schema says.
+        If the value is not a number: USD returns the type in the file, not that of the schema.
     """
     value = attribute.Get(READ_AT)
     try:
@@ -47,12 +47,12 @@ def number_of(attribute: Usd.Attribute) -> float:
 
 
 def numbers_of(attribute: Usd.Attribute, dtype: type[_Scalar], *, width: int = 1) -> NDArray[_Scalar]:
-    """The numbers that an attribute holds, shape (n, width), or (n,) for a width of 1; none if it has no value.
+    """Return the numbers in an attribute, shape (n, width), or (n,) for a width of 1; none without a value.
 
     Raises
     ------
     StageError
-        If it holds something else.
+        If the value has another type.
     """
     value = attribute.Get(READ_AT)
     try:
@@ -63,12 +63,12 @@ def numbers_of(attribute: Usd.Attribute, dtype: type[_Scalar], *, width: int = 1
 
 
 def vector_of(attribute: Usd.Attribute, width: int) -> tuple[float, ...]:
-    """The first numbers that an attribute holds, each finite.
+    """Return the first numbers in an attribute, all finite.
 
     Raises
     ------
     StageError
-        If it holds fewer, or something else.
+        If the value has fewer numbers, or another type.
     """
     values = numbers_of(attribute, np.float64)
     if len(values) < width:
@@ -77,14 +77,14 @@ def vector_of(attribute: Usd.Attribute, width: int) -> tuple[float, ...]:
 
 
 def opinions_of(prim: Usd.Prim) -> tuple[tuple[str, str], ...]:
-    """Where a prim's own opinions are, by layer and path: prims with the same ones have the same values.
+    """Return layer and path of a prim's own opinions; prims with the same opinions have the same values.
 
-    Prototypes that differ in a variant share most of theirs.
+    Prototypes that differ in a variant share most of their opinions.
     """
     return tuple((spec.layer.identifier, spec.path.pathString) for spec in prim.GetPrimStack())
 
 
 def lacks(attribute: Usd.Attribute, what: str) -> StageError:
-    """The error of an attribute whose value is not of the type that its schema demands."""
+    """Return the error of an attribute whose value does not have the type of its schema."""
     file = attribute.GetStage().GetRootLayer().realPath
     return StageError(file, f"{attribute.GetPath()} does not hold {what}")

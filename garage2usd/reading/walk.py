@@ -1,4 +1,4 @@
-"""The walk through a composed stage, by UsdGeom's own computations, each prototype once."""
+"""Traversal of a composed stage, by UsdGeom's own computations, with each prototype visited once."""
 
 from dataclasses import dataclass, field, replace
 from functools import cache
@@ -17,7 +17,7 @@ __all__ = ["placed_objects"]
 
 _DRAWN_PURPOSES = frozenset({UsdGeom.Tokens.default_, UsdGeom.Tokens.render})
 _POINT_PROTOTYPES = Usd.PrimIsActive & Usd.PrimIsLoaded
-"""Prototypes of point instancers may be overs or classes, so that they are not drawn where they stand."""
+"""Traversal predicate for prototypes of point instancers, which may be overs or classes to hide the originals."""
 _VISIBILITY, _PURPOSE = UsdGeom.Tokens.visibility, UsdGeom.Tokens.purpose
 _TRANSFORM = UsdGeom.Tokens.xformOpOrder
 _CLASS, _SQUARE = labels_name(OBJECT_TAXONOMY), labels_name(SQUARE_TAXONOMY)
@@ -31,21 +31,21 @@ def placed_objects(stage: Usd.Stage, to_world: Matrix) -> list[PlacedObject]:
     Parameters
     ----------
     stage
-        The stage as it is composed now; instances and point instancers are followed.
+        The stage in its current composition; instances and point instancers are followed.
     to_world
         From the stage's space to that of the results, for example `garage2usd.reading.values.metres_y_up`.
 
     Raises
     ------
     StageError
-        If a label or a number of a point instancer is of another type than its schema says.
+        If the type of a label or of a point instancer's number differs from its schema.
 
     Notes
     -----
-    An object is a prim with a label of the taxonomy ``class``, less what is labelled below it; a point of an
-    instancer, with the nearest label; and where there is no label, a component, an instance, or a single prim. Places,
-    visibility and purpose are those that UsdGeom computes at `READ_AT`: what is invisible is left out with all below
-    it, and so are materials, guides and proxies. A transform that is not finite counts as the identity.
+    An object is a prim with a label of the taxonomy ``class``, without labelled prims below; a point of an instancer,
+    with the nearest label; and without a label, a component, an instance, or a single prim. Transforms, visibility and
+    purpose are computed by UsdGeom at `READ_AT`: invisible prims are omitted with their descendants, as are materials,
+    guides and proxies. A transform that is not finite counts as the identity.
     """
     walk = _Walk(stage)
     at = _At("", "", to_world, to_world)
@@ -56,26 +56,26 @@ def placed_objects(stage: Usd.Stage, to_world: Matrix) -> list[PlacedObject]:
 
 @dataclass(eq=False, slots=True)
 class _At:
-    """A prim that is being visited.
+    """A prim during the traversal of a stage.
 
     Attributes
     ----------
     path, twin
-        Paths of the prim, from the root of the walk on.
+        Paths of the prim, from the root of the walk.
     matrix
         From its space to that of the walk's root.
     square, purpose, inherited
-        As it inherits them.
+        Inherited values.
     stage_matrix
-        From the stage's space to that of the walk's root: where a transform stack begins that is reset.
+        From the stage's space to that of the walk's root: origin of a reset transform stack.
     holder
-        The object that it is part of, if it is part of one.
+        The object that contains the prim, if any.
     within
         From its space to the holder's.
     predicate
-        Which children are visited.
+        Predicate of the children to visit.
     found
-        The objects of the walk so far.
+        Objects found so far.
     """
 
     path: str
@@ -92,14 +92,14 @@ class _At:
 
 
 class _Prototype(NamedTuple):
-    """What a prototype holds, in its own space: objects with paths from its root on, and what belongs to none."""
+    """Contents of a prototype in its own space: objects with paths from its root, and parts outside all objects."""
 
     objects: list[PlacedObject]
     parts: tuple[DrawnPart, ...]
 
 
 class _Walk:
-    """Visits the prims of a stage, those of each prototype once."""
+    """Traversal of prims that visits those of each prototype once."""
 
     def __init__(self, stage: Usd.Stage) -> None:
         self._stage = stage
@@ -110,7 +110,7 @@ class _Walk:
         self._resets = cache(_resets)
 
     def visit(self, prim: Usd.Prim, above: _At) -> None:
-        """Find what is at and below a prim; `above` is its parent."""
+        """Find objects at and below a prim; `above` is its parent."""
         # nearly half of a garage's prims; UsdImaging looks for nothing to draw below them either
         kind = self._types.of(prim)
         if kind.is_material:
@@ -150,7 +150,7 @@ class _Walk:
         self._visit_contents(prim, kind, at)
 
     def _visit_contents(self, prim: Usd.Prim, kind: PrimType, at: _At) -> None:
-        """Find what a prim draws itself, and what is below it."""
+        """Find the drawn parts of a prim, and the objects below it."""
         if kind.draws(prim) and at.purpose in _DRAWN_PURPOSES and at.holder is not None:
             source = prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
             _append(at.holder, [DrawnPart(source, at.path.removeprefix(at.holder.path), at.within, at.inherited)])
@@ -164,7 +164,7 @@ class _Walk:
             self.visit(child, at)
 
     def _visit_points(self, prim: Usd.Prim, at: _At, label: str) -> None:
-        """Find what a point instancer draws."""
+        """Find the objects of a point instancer."""
         instancer = UsdGeom.PointInstancer(prim)
         roots = [self._stage.GetPrimAtPath(path) for path in instancer.GetPrototypesRel().GetForwardedTargets()]
         indices = numbers_of(instancer.GetProtoIndicesAttr(), np.int64)
@@ -185,7 +185,7 @@ class _Walk:
                 self._take(self._point_prototype(root, at.inherited if root.IsInPrototype() else NOTHING), here)
 
     def _prototype(self, prototype: Usd.Prim, at: _At) -> _Prototype:
-        """What a prototype of instances holds, for an instance that inherits what `at` says."""
+        """Return the contents of an instance prototype, for an instance with the inherited values of `at`."""
         inherited = at.inherited.by_instance(at.path)
         key = prototype, at.purpose, inherited, at.holder is not None
         if key not in self._prototypes:
@@ -196,7 +196,7 @@ class _Walk:
         return self._prototypes[key]
 
     def _point_prototype(self, root: Usd.Prim, inherited: Inherited) -> _Prototype:
-        """What a prototype of a point instancer holds; its own transform is the points'."""
+        """Return the contents of a point instancer's prototype; its own transform is part of the points' transforms."""
         key = root, inherited
         if key not in self._prototypes:
             self._prototypes[key] = _Prototype([], ())  # within itself it draws nothing
@@ -211,7 +211,7 @@ class _Walk:
 
     @staticmethod
     def _take(prototype: _Prototype, at: _At) -> None:
-        """Add what a prototype holds to what is found at an instance of it."""
+        """Add the contents of a prototype to the objects found at an instance."""
         above = at.holder.label if at.holder else ""
         for inner in prototype.objects:
             at.found.append(
@@ -236,13 +236,13 @@ class _Walk:
         )
 
     def _place(self, prim: Usd.Prim) -> tuple[Matrix, bool]:
-        """From a prim's space to its parent's, or to the stage's where its transform stack is reset."""
+        """Return the matrix from a prim's space to its parent's, or to the stage's if its transform stack is reset."""
         matrix, is_reset = self._places.GetLocalTransformation(prim)
         place = np.array(matrix)
         return (place if np.isfinite(place).all() else _IDENTITY), is_reset
 
     def _is_whole(self, prim: Usd.Prim) -> bool:
-        """Whether a prim without a label is an object nevertheless."""
+        """Return True if a prim without a label counts as an object."""
         if prim.IsInstance():
             return not self._has_labels(prim.GetPrototype())
         if Kind.Registry.IsA(Usd.ModelAPI(prim).GetKind(), Kind.Tokens.component):
@@ -251,12 +251,12 @@ class _Walk:
 
 
 def _hands_down(prim: Usd.Prim, kind: PrimType) -> bool:
-    """Whether there may be an instance at or below a prim: below nearly nothing that is drawn there is."""
+    """Return True if an instance is possible at or below a prim; most drawn prims have none."""
     return not kind.is_drawn or prim.IsInstance() or bool(prim.GetAllChildrenNames())
 
 
 def _inside(purpose: str, inherited: Inherited, *, is_held: bool) -> _At:
-    """The root of a prototype; what is in it is part of the object that holds an instance, if one does."""
+    """Return the start of a prototype's traversal; its contents belong to the object that contains the instance."""
     holder = PlacedObject("", "", "", "", _IDENTITY) if is_held else None
     return _At("", "", _IDENTITY, _IDENTITY, purpose=purpose, inherited=inherited, holder=holder)
 
@@ -267,7 +267,7 @@ def _held(inside: _At) -> _Prototype:
 
 
 def _twin(root: Usd.Prim) -> str:
-    """Path of a prototype of a point instancer, from the prototype of instances that it stands in if it does."""
+    """Return the path of a point instancer's prototype, relative to the instance prototype that contains it, if any."""
     path = root.GetPath()
     return str(path).removeprefix(str(path.GetPrefixes()[0])) if root.IsInPrototype() else str(path)
 
@@ -283,6 +283,6 @@ def _has_labels(root: Usd.Prim) -> bool:
 
 
 def _resets(prototype: Usd.Prim) -> bool:
-    """Whether a place in a prototype does not follow that of the instance, so that instances differ."""
+    """Return True if a prim in a prototype resets its transform stack, so that its place differs between instances."""
     below = Usd.PrimRange(prototype, Usd.TraverseInstanceProxies())
     return any(UsdGeom.Xformable(prim).GetResetXformStack() for prim in below)
