@@ -1,4 +1,4 @@
-"""Which prim each object of a layout becomes: on a tile, in a group of the building, or a point of an instancer."""
+"""Assignment of a layout's objects to prims of the stage: on a tile, in a building group or as an instancer's point."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -63,7 +63,7 @@ class Arrangement:
 
     @property
     def nested(self) -> bool:
-        """Whether equal tiles share a prototype."""
+        """True if equal tiles share a prototype."""
         return bool(self.parts)
 
     def on_part(self, part: int) -> NDArray[np.int32]:

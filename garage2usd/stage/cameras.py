@@ -39,7 +39,7 @@ _CORNER_CUTS = 3
 _STEADY = 1e-9
 """What rounding errors make of no change of speed, in metres or degrees a frame."""
 _UNSEEN_DEG = 0.02
-"""That a camera may be turned off its way: half a pixel of a picture 2000 pixels wide."""
+"""Angle by which a camera may deviate from its path: half a pixel of a picture 2000 pixels wide."""
 _FRAMES_APART = 1000.0
 _LOOK_AHEAD_M = 4.0
 _NEAR_M, _FAR_M = 0.1, 2000.0
