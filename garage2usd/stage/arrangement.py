@@ -71,7 +71,7 @@ class Arrangement:
         return self.order[self.borders[part] : self.borders[part + 1]]
 
     def on_all_tiles(self) -> NDArray[np.int32]:
-        """Rows of the objects of all tiles, one tile after the other."""
+        """Rows of the objects of all tiles, tile by tile."""
         return self.order[self.borders[0] : self.borders[-1]]
 
     def paths(self) -> list[str]:
@@ -175,12 +175,12 @@ def _numbers_among_equals(values: NDArray[np.intp]) -> NDArray[np.intp]:
 
 
 def row_name(row: int) -> str:
-    """Name of the group of a row of tiles."""
+    """Return the name of the prim that groups a row of tiles."""
     return f"Row_r{row:02d}"
 
 
 def tile_name(square: Square) -> str:
-    """Name of a tile's prim."""
+    """Return the name of a tile's prim."""
     return f"Tile_r{square[0]:02d}_c{square[1]:02d}"
 
 
