@@ -1,4 +1,4 @@
-"""Rules of headroom: nothing hangs where cars, and vans on their way to accessible stalls, would hit it."""
+"""Rules of headroom: clear height for cars, and for vans on routes to accessible stalls."""
 
 from collections.abc import Iterator
 
@@ -14,7 +14,7 @@ __all__ = ["BOOK"]
 
 BOOK = RuleBook()
 _DOOR_REACH_M = 8.0
-"""How far the door of a portal stands from the middle of its square, at most."""
+"""Greatest distance in metres from a portal's door to the middle of its square."""
 
 
 @BOOK.rule(
@@ -53,7 +53,7 @@ def _van_height(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
 
 
 def _over_van_routes(garage: BuiltGarage) -> Iterator[tuple[str, Point, float]]:
-    """Name, place and least height of what hangs over the ways to and from accessible stalls, and of their doors."""
+    """Yield name, place and least height of objects over van routes to accessible stalls, and over their doors."""
     stalls = [stall for stall in garage.stalls if stall.use is StallUse.ACCESSIBLE]
     driven = {node for stall in stalls for node in (*way_in(garage, stall), *way_out(garage, stall))}
     if not driven:

@@ -1,4 +1,4 @@
-"""Rules of light: the mean direct illuminance of the floor of lanes and stalls."""
+"""Rules of lighting: mean direct illuminance on the floor of lanes and stalls."""
 
 from collections.abc import Iterator
 
@@ -13,13 +13,13 @@ _ROUNDING = 0.99
 
 
 def _dark(what: str, garage: BuiltGarage) -> str:
-    """That something is too dark, and how many lamps are dead, which may be why."""
+    """Yield lanes or stalls below the required illuminance, with the number of dead lamps as a possible cause."""
     because = f": {garage.dead_lamps} of {garage.lamps} lamps give no light" if garage.dead_lamps else ""
     return f"the {what} are too dark{because}"
 
 
 def _lights_are_told(garage: BuiltGarage, _: Profile) -> str:
-    """A plan that could not be laid out has no lights, and not every stage of others has."""
+    """Explain why illuminance cannot be checked: the plan has no layout, or the stage has no lights."""
     return "" if garage.lane_lux is not None else "no illuminance of the floor is known"
 
 
