@@ -18,7 +18,7 @@ import shapely
 from garage2usd.config import GarageConfig
 from garage2usd.config.markets import MARKET_NAMES, load_market
 from garage2usd.config.vehicles import PAINTS, SEGMENTS, body_named
-from garage2usd.layout import Layout, Placement, Stall
+from garage2usd.layout import Layout, PlacedStall, Placement
 from garage2usd.objects.car import CarSpec
 from garage2usd.pipeline import generate
 from garage2usd.profiles import PROFILE_NAMES
@@ -53,7 +53,7 @@ class Parked(NamedTuple):
     yaw_deg: float
 
 
-def posture(car: Placement, stall: Stall) -> tuple[float, float, bool]:
+def posture(car: Placement, stall: PlacedStall) -> tuple[float, float, bool]:
     """Metres to the side, degrees, and whether nose out, of a car in its stall, measured in the garage."""
     (x, _, z), (cx, cz) = car.position_m, stall.centre_m
     (ax, az), (bx, bz) = stall.corners_m()[:2]

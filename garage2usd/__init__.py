@@ -34,14 +34,14 @@ __all__ = [
 ]
 
 _HOME = {
-    "ConfigError": "errors",
+    "ConfigError": "common.errors",
     "Garage": "pipeline",
-    "Garage2UsdError": "errors",
+    "Garage2UsdError": "common.errors",
     "GarageConfig": "config",
-    "GenerationError": "errors",
+    "GenerationError": "common.errors",
     "Optimum": "planning.optimum",
     "Structure": "structure.grid",
-    "UnreachableStallError": "errors",
+    "UnreachableStallError": "common.errors",
     "build": "pipeline",
     "export": "exports",
     "find_optimum": "planning.optimum",

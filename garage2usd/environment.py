@@ -142,7 +142,7 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
         return structure_of(self.process, self._current)
 
     def action_mask(self) -> NDArray[np.int8]:
-        """Which actions the preset allows now; int8, shape (5,)."""
+        """Return the mask of actions that the preset allows now; int8, shape (5,)."""
         mask = np.zeros(len(Action), np.int8)
         mask[list(actions(self.process, self._current))] = 1
         return mask

@@ -5,10 +5,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.assets.mesh import Part, area_vectors, next_corners
+from garage2usd.assets.mesh import Part, area_vectors, next_corners, previous_corners
 
 __all__ = ["with_manifold_points"]
 
+_APART_M = 1e-5
+"""Distance by which points of different fans part."""
 _LEAST_AREA_M2 = 1e-8
 """Twice the area of a face below which it is a sliver that cutting left."""
 
@@ -16,8 +18,8 @@ _LEAST_AREA_M2 = 1e-8
 def with_manifold_points(part: Part) -> Part:
     """Return the same mesh with one point for each fan of faces.
 
-    Two faces belong to a fan if they share an edge that no third face has. Faces of hardly any area are dropped. Points
-    of different fans remain at one place, so that the mesh looks the same.
+    Two faces belong to a fan if they share an edge that no third face has. Faces of hardly any area are dropped. Where
+    several fans met, each point moves into its own fan by 0.01 mm, so that no two points coincide.
 
     Parameters
     ----------
@@ -37,7 +39,16 @@ def with_manifold_points(part: Part) -> Part:
     facing = first[place[corner]]
     fans = _components(len(points), [(corner, after[facing]), (after[corner], facing)])
     _, firsts, number = np.unique(points * len(points) + fans, return_index=True, return_inverse=True)
-    return replace(part, points=part.points[points[firsts]], face_indices=number.reshape(-1).astype(np.int32))
+    number = number.reshape(-1)
+    split = points[firsts]
+    moved = part.points[split].astype(float)
+    inwards = np.zeros((len(split), 3))
+    corners, before = part.points[points].astype(float), previous_corners(counts)
+    np.add.at(inwards, number, corners[after] + corners[before] - 2 * corners)
+    is_shared = np.bincount(split, minlength=len(part.points))[split] > 1
+    length = np.linalg.norm(inwards, axis=1, keepdims=True)
+    moved += np.where(is_shared[:, None], _APART_M * inwards / np.maximum(length, _APART_M), 0.0)
+    return replace(part, points=moved.astype(np.float32), face_indices=number.astype(np.int32))
 
 
 def _without_slivers(part: Part) -> Part:

@@ -22,6 +22,7 @@ __all__ = [
     "make_part",
     "next_corners",
     "pascal_case",
+    "previous_corners",
     "unique_rows",
 ]
 
@@ -218,7 +219,7 @@ def _clean_loops(
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Drop corners that repeat the one before and faces without area; returns indices and counts."""
     face_of = np.repeat(np.arange(len(counts)), counts)
-    keep = flat != flat[_previous(counts)]
+    keep = flat != flat[previous_corners(counts)]
     flat, face_of = flat[keep], face_of[keep]
     counts = np.bincount(face_of, minlength=len(counts))
     solid = counts >= _MIN_CORNERS
@@ -226,7 +227,7 @@ def _clean_loops(
     return flat[solid[face_of]], counts[solid]
 
 
-def _previous(counts: NDArray[np.int64]) -> NDArray[np.int64]:
+def previous_corners(counts: NDArray[np.int64]) -> NDArray[np.int64]:
     """For each corner the index of the one before it in its face."""
     before = np.arange(counts.sum()) - 1
     starts = np.cumsum(counts) - counts
@@ -246,7 +247,7 @@ def area_vectors(corners: NDArray[np.float64], counts: NDArray[np.int64]) -> NDA
     """Newell's normal of each face, as long as twice its area; float64, shape (F, 3)."""
     starts = np.cumsum(counts) - counts
     relative = corners - np.repeat(corners[starts], counts, axis=0)
-    vectors: NDArray[np.float64] = np.add.reduceat(np.cross(relative[_previous(counts)], relative), starts)
+    vectors: NDArray[np.float64] = np.add.reduceat(np.cross(relative[previous_corners(counts)], relative), starts)
     return vectors
 
 

@@ -1,4 +1,4 @@
-"""Checks: what a garage misses of a standard, of feasibility, and of USD, as findings instead of exceptions."""
+"""Checks of a garage against a standard, feasibility and USD, reported as findings instead of exceptions."""
 
 from pathlib import Path
 
@@ -72,20 +72,20 @@ RULES: tuple[Rule, ...] = tuple(
     )
     for rule in module.BOOK.rules
 )
-"""All rules."""
+"""All rules of the garage check."""
 _LONG = (*usd.BOOK.rules, *swept_path.BOOK.rules)
 
 
 def check(garage: BuiltGarage, profile: Profile) -> list[Finding]:
-    """What a garage misses of a profile and of the rules that need none, errors first."""
+    """Return the findings of a garage under a profile and the rules that need no profile, errors first."""
     findings = (finding for rule in RULES for finding in rule.findings(garage, profile))
     return sorted(findings, key=Finding.sort_key)
 
 
 def not_checked(garage: BuiltGarage, profile: Profile) -> dict[str, str]:
-    """The clauses of a profile that no rule can check on a garage, each with the reason.
+    """Return the profile clauses that no rule can check on a garage, each with the reason.
 
-    A clause that bounds what a garage has none of, as the slope of ramps, is kept.
+    A clause about a part that the garage lacks, such as the slope of ramps, is included.
     """
     reasons = {}
     for clause, _ in profile.clauses():
@@ -97,11 +97,11 @@ def not_checked(garage: BuiltGarage, profile: Profile) -> dict[str, str]:
 
 
 def check_layout(layout: Layout, graph: LaneSquares, config: GarageConfig) -> list[Finding]:
-    """What a garage that was just made misses of its profile, errors first.
+    """Return the findings of a generated layout under its profile, errors first.
 
     Notes
     -----
-    Without what takes a stage or long: the rules of USD, and the proof that a car gets into each stall.
+    Skips the rules of USD, which need a stage, and the proof that a car drives into each stall, which is slow.
     """
     return judged_layout(layout, graph, config)[0]
 
@@ -109,7 +109,7 @@ def check_layout(layout: Layout, graph: LaneSquares, config: GarageConfig) -> li
 def judged_layout(
     layout: Layout, graph: LaneSquares, config: GarageConfig
 ) -> tuple[list[Finding], tuple[UnmetClause, ...]]:
-    """As `check_layout`, with the clauses that the garage is not designed to."""
+    """Check a layout as `check_layout` does, and return also the profile clauses that the garage does not meet."""
     garage = garage_of_layout(layout, graph, source="", kind="report")
     found = (finding for rule in RULES if rule not in _LONG for finding in rule.findings(garage, config.standard))
     findings = sorted(found, key=Finding.sort_key)
@@ -125,7 +125,7 @@ def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[lis
         A stage (``.usd``, ``.usda``, ``.usdc``, ``.usdz``), a report (``.json``), a configuration with a structure
         (``.toml``), or a structure as text, JSON, ``.npy`` or ``.npz``.
     profile
-        What it is checked against; left out, the profile that it was designed to if it tells, else ``cn-jgj100``.
+        Profile to check against. The default is the profile that the file names, or else ``cn-jgj100``.
 
     Returns
     -------
@@ -142,7 +142,7 @@ def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[lis
 
 
 def read_garage(path: str | Path, *, profile: Profile | None = None) -> tuple[BuiltGarage, Profile]:
-    """Read what is checked, and what it is checked against; as for `check_file`."""
+    """Read a garage and the profile to check it against; parameters as for `check_file`."""
     path = Path(path)
     if not is_file(path):
         raise ConfigError("PATH", str(path), "an existing file")

@@ -1,4 +1,4 @@
-"""Rules of accessible stalls: how many, how wide, the access aisle beside each, and room for vans."""
+"""Rules of accessible stalls: their number, their width, the access aisle beside each, and stalls for vans."""
 
 import math
 from collections.abc import Iterator
@@ -85,7 +85,7 @@ def _accessible(garage: BuiltGarage) -> list[Stall]:
 
 
 def _aisle_beside(stall: Stall, garage: BuiltGarage) -> float:
-    """Width of the widest access aisle that shares a long side with a stall; 0 without one."""
+    """Return the width of the widest access aisle along a long side of a stall; 0 without one."""
     beside = stall.polygon.buffer(_BESIDE_M, cap_style="flat", join_style="mitre")
     widths = [0.0]
     for index in garage.stall_grounds.tree.query(beside, predicate="intersects").tolist():

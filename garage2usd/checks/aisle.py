@@ -1,4 +1,4 @@
-"""Rules of aisles: their clear width, that nothing stands on them, and long dead ends."""
+"""Rules of aisles: clear width, obstacles on lanes, and long dead ends."""
 
 import math
 from collections.abc import Iterator
@@ -23,7 +23,7 @@ _TOUCH_M = 0.01
 
 
 class _Way:
-    """The ground of a lane graph's edge, in metres along and across its middle line."""
+    """The ground of a lane edge, in metres along and across its centre line."""
 
     def __init__(self, garage: BuiltGarage, edge: LaneEdge) -> None:
         self.start, self.end = (np.array(garage.lanes.nodes[node].position) for node in (edge.start, edge.end))
@@ -32,18 +32,18 @@ class _Way:
         self.across = np.array([-self.along[1], self.along[0]])
 
     def strip(self, half_width_m: float) -> shapely.Polygon:
-        """Its ground as far as a distance on both sides."""
+        """Return the strip of lane within a distance on both sides of its centre line."""
         side = self.across * half_width_m
         return shapely.Polygon([self.start + side, self.end + side, self.end - side, self.start - side])
 
     @property
     def middle(self) -> Point:
-        """The middle of its line."""
+        """The midpoint of the lane edge's centre line."""
         x, z = ((self.start + self.end) / 2).tolist()
         return x, z
 
     def reach(self, shape: shapely.Geometry) -> tuple[float, float]:
-        """Least and greatest distance across the line of a shape."""
+        """Return the least and greatest distance of a shape across the lane's centre line."""
         across = (shapely.get_coordinates(shape) - self.start) @ self.across
         return float(across.min()), float(across.max())
 
@@ -83,7 +83,7 @@ def _is_parked(solid: Solid, garage: BuiltGarage) -> bool:
 
 
 def _serving_edges(garage: BuiltGarage) -> list[LaneEdge]:
-    """The ways between lanes that cars turn off into a stall beside them."""
+    """Return the lane edges from which cars turn into an adjacent stall."""
     outwards: dict[int, list[Point]] = {}
     for stall in garage.parking_stalls:
         outwards.setdefault(stall.access, []).append(stall.outwards)

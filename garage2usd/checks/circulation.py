@@ -1,4 +1,4 @@
-"""Rules of circulation: deep dead ends, loops, stretches without a junction, and lanes that lie side by side."""
+"""Rules of circulation: deep dead ends, loops, stretches without a junction, and lanes side by side."""
 
 from collections.abc import Iterator, Sequence
 
@@ -87,7 +87,7 @@ def _clear_m(block: Square, nodes: dict[str, LaneNode]) -> float:
 
 
 def _joined(blocks: Sequence[Square]) -> list[list[Square]]:
-    """Blocks that share lanes, together; each field, and the fields, in reading order."""
+    """Group blocks of lanes that touch into fields; blocks and fields are in reading order."""
     left, fields = set(blocks), []
     for block in blocks:
         if block not in left:
@@ -106,7 +106,7 @@ def _joined(blocks: Sequence[Square]) -> list[list[Square]]:
 
 
 def _place(garage: BuiltGarage, square: Square) -> Point | None:
-    """Middle of a lane square as the lane graph has it, to the millimetre."""
+    """Return the middle of a lane square in the lane graph, to the millimetre."""
     name = _name(square)
     x_z = next((node.position for node in garage.lanes.nodes if node.name == name), None)
     return None if x_z is None else (round(x_z[0], 3), round(x_z[1], 3))

@@ -1,4 +1,4 @@
-"""Rules of the room around a parked car: the design car in the middle of each stall, its nose at the mouth."""
+"""Rules of clearance around a parked car: the design car in the middle of each stall, its nose at the mouth."""
 
 import math
 from collections.abc import Container, Iterable, Iterator
@@ -20,25 +20,25 @@ __all__ = ["BOOK"]
 BOOK = RuleBook()
 _WALLS = {"wall", "obstacle"}
 _ONE_BAY = 1.5
-"""Columns farther apart than so many times the grid are not those of one bay."""
+"""Greatest distance between the two columns of a bay, as a multiple of the column grid."""
 _FOOT_M = 0.5
 """Greatest height of a column's lower end, and greatest distance of a column from the line of stall mouths; metres."""
 
 
 @dataclass(frozen=True)
 class _ParkedCars:
-    """The design car in each stall that cars park in."""
+    """The design car parked in each stall that takes cars."""
 
     garage: BuiltGarage
     profile: Profile
 
     @property
     def stalls(self) -> tuple[Stall, ...]:
-        """The stalls."""
+        """The stalls that take cars."""
         return self.garage.parking_stalls
 
     def grounds(self, *, beside_m: float = 0.0, behind_m: float = 0.0) -> Grounds:
-        """The ground of each car, and as much more on both sides and behind; shape (stalls,)."""
+        """Return each parked car's footprint, widened on both sides and lengthened behind; shape (stalls,)."""
         outwards = np.array([stall.outwards for stall in self.stalls]).reshape(-1, 2)
         nose = np.array([stall.mouth for stall in self.stalls]).reshape(-1, 2)
         across = np.stack([-outwards[:, 1], outwards[:, 0]], axis=1) * (self.profile.car_width_m / 2 + beside_m)
@@ -120,7 +120,7 @@ def _spacing(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
 
 
 def _between_columns(stall: Stall, places: NDArray[np.float64]) -> float | None:
-    """Distance of the next columns on both sides of a stall's mouth, from middle to middle; None without two."""
+    """Return the centre distance of the two columns beside a stall's mouth; None without two."""
     outwards = np.array(stall.outwards)
     offset = places - np.array(stall.mouth)
     beside = np.abs(offset @ outwards) < _FOOT_M
@@ -132,7 +132,7 @@ def _between_columns(stall: Stall, places: NDArray[np.float64]) -> float | None:
 def _closest(
     cars: _ParkedCars, near: Iterable[list[Solid]], labels: Container[str], required: float, what: str
 ) -> Iterator[Miss]:
-    """Each car whose least distance to pieces of some labels is too small, apart from those that stand in its stall."""
+    """Yield parked cars too close to pieces of some labels, except pieces inside the car's own stall."""
     rows: list[tuple[int, Solid]] = []
     for number, (stall, solids) in enumerate(zip(cars.stalls, near, strict=True)):
         inside = {solid.name for solid in cars.garage.standing_in_stalls[stall]}

@@ -1,4 +1,4 @@
-"""Rules of files that contradict themselves: lane graphs with holes, stalls told twice, plans that are refused."""
+"""Rules of inconsistent garage files: lane graphs with gaps, duplicate stalls, and plans that are refused."""
 
 from collections.abc import Callable, Iterator
 

@@ -1,4 +1,4 @@
-"""Rules of fire safety as far as a garage tells them: its floor, the doors of its stair cores, and the way to them."""
+"""Rules of fire safety: floor area of fire compartments, doors of stair cores, and distance to exits."""
 
 import math
 from collections import defaultdict
@@ -25,7 +25,7 @@ def _floor_is_told(garage: BuiltGarage, profile: Profile) -> str:
 
 
 def _area_applies(garage: BuiltGarage, profile: Profile) -> str:
-    """A profile without a clause for no sprinklers asks for nothing there."""
+    """Explain why the area of fire compartments cannot be checked, as without sprinklers and a clause for that case."""
     told = _floor_is_told(garage, profile)
     return told or _applies(garage, plain=profile.fire_compartment_area is not None)
 
@@ -116,7 +116,7 @@ def _too_large(garage: BuiltGarage, clause: Area | None) -> Iterator[Miss]:
 
 
 def _too_far(garage: BuiltGarage, clause: Length | None, profile: Profile) -> Iterator[Miss]:
-    """The stall of each compartment that is farthest from its exits, as the crow flies, if it is too far."""
+    """Yield the stall of each fire compartment farthest from an exit as the crow flies, if it is too far."""
     if clause is None or not garage.stalls:
         return
     exits = defaultdict(list)
@@ -144,7 +144,7 @@ def _nearest(place: Point, exits: list[Point]) -> float:
 
 
 def _compartments(garage: BuiltGarage) -> list[tuple[int, str]]:
-    """Number and name of each fire compartment; floor that belongs to none is one without a name."""
+    """Return number and name of each fire compartment; floor outside all compartments counts as one without a name."""
     if garage.compartments is None or garage.structure is None:
         return [(0, "")]
     numbers = np.unique(garage.compartments[garage.structure.cells != Cell.OBSTACLE]).tolist()
@@ -152,7 +152,7 @@ def _compartments(garage: BuiltGarage) -> list[tuple[int, str]]:
 
 
 def _compartment_at(place: Point, garage: BuiltGarage) -> int:
-    """Number of the fire compartment that a place lies in; 0 where none are declared."""
+    """Return the number of the fire compartment at a place; 0 where none are declared."""
     square = garage.square_at(place)
     return 0 if garage.compartments is None or square is None else int(garage.compartments[square])
 

@@ -12,7 +12,7 @@ __all__ = ["BOOK", "way_in", "way_out"]
 
 BOOK = RuleBook()
 _BESIDE_M = 0.75
-"""How far from the carriageway of its lane a stall's mouth lies at most: half a column and a line."""
+"""Greatest distance in metres from a stall's mouth to the carriageway of its lane: half a column and a line."""
 
 
 @BOOK.rule("entrance-missing", asks="there is an entrance")
@@ -80,17 +80,17 @@ def _portal_routes(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 
 
 def way_in(garage: BuiltGarage, stall: Stall) -> list[int]:
-    """Nodes of a shortest way from an entrance to a stall's lane, from the entrance on; empty without one."""
+    """Return the nodes of a shortest route from an entrance to a stall's lane; empty without one."""
     return _shortest(garage.lanes.portals("entrance"), stall.access, garage.lanes.onward, garage)
 
 
 def way_out(garage: BuiltGarage, stall: Stall) -> list[int]:
-    """Nodes of a shortest way from a stall's lane to an exit, ending there; empty without one."""
+    """Return the nodes of a shortest route from a stall's lane to an exit; empty without one."""
     return _shortest(garage.lanes.portals("exit"), stall.access, garage.lanes.backward, garage)[::-1]
 
 
 def _shortest(starts: Iterable[int], goal: int, ways: Sequence[Sequence[int]], garage: BuiltGarage) -> list[int]:
-    """Fewest nodes from any start to a goal."""
+    """Return the route with the fewest lane nodes from any start to a goal."""
     came_from = _search(starts, ways, garage)
     if goal not in came_from:
         return []
@@ -105,7 +105,7 @@ def _reached(starts: Iterable[int], ways: Sequence[Sequence[int]], garage: Built
 
 
 def _search(starts: Iterable[int], ways: Sequence[Sequence[int]], garage: BuiltGarage) -> dict[int, int]:
-    """Breadth first over lanes: for each node found, the one before it, and for a start itself; portals end a way."""
+    """Search lane nodes breadth first; map each to its predecessor, and a start to itself. Routes end at portals."""
     came_from = {start: start for start in starts}
     queue = deque(came_from)
     first = set(came_from)

@@ -1,4 +1,4 @@
-"""What a check finds: which rule was missed where, by how much, and who asks for it."""
+"""The finding of a check: the violated rule, its place, the measured and required values, and their source."""
 
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
@@ -14,28 +14,28 @@ _ORDER = {Severity.ERROR: 0, Severity.WARNING: 1, Severity.INFO: 2}
 
 @dataclass(frozen=True)
 class Finding:
-    """One place that misses one rule.
+    """A place that violates a rule of the garage check.
 
     Attributes
     ----------
     rule
         Id of the rule.
     severity
-        How grave it is.
+        Severity of the violation.
     place
         Prim path, stall or square; empty for the whole garage.
     position_m
-        (x, z) of the place in metres; None where there is no one place.
+        (x, z) of the place in metres; None without a single place.
     measured, required
-        What is there and what is asked for; None where it is nothing that is measured.
+        Measured and required values; None if the rule measures nothing.
     unit
-        Of both.
+        Unit of both values.
     source
-        Who asks for it.
+        Source of the requirement.
     message
-        What is wrong, in words.
+        Violation in words.
     clause
-        Name of the clause that asks for it; empty where no profile does.
+        Name of the profile clause that states the requirement; empty without one.
     """
 
     rule: str
@@ -50,17 +50,17 @@ class Finding:
     clause: str = ""
 
     def sort_key(self) -> tuple[int, str, str]:
-        """Errors first, then by rule and place."""
+        """Key that sorts errors first, then findings by rule and place."""
         return _ORDER[self.severity], self.rule, self.place
 
 
 def as_json(findings: Iterable[Finding]) -> list[dict[str, Any]]:
-    """The findings as plain values."""
+    """Convert findings to JSON values."""
     return [asdict(finding) for finding in findings]
 
 
 def as_table(findings: Iterable[Finding], *, most: int | None = None) -> list[str]:
-    """The findings as lines of a table, at most `most` of each rule; without one, no line."""
+    """Format findings as lines of a table, at most `most` per rule; no line without findings."""
     rows, shown, left = [], dict[str, int](), dict[str, int]()
     for finding in findings:
         shown[finding.rule] = shown.get(finding.rule, 0) + 1
@@ -88,7 +88,7 @@ def as_table(findings: Iterable[Finding], *, most: int | None = None) -> list[st
 
 
 def figure(value: float | None, unit: str) -> str:
-    """A value with its unit as people read it; empty without one."""
+    """Format a measured value with its unit; empty without a value."""
     if value is None:
         return ""
     digits = f"{value:.0f}" if abs(value) >= _WHOLE_FROM else f"{value:.4g}"

@@ -1,4 +1,4 @@
-"""Rules of what people fight fires with: that enough of it is within reach of every stall and lane."""
+"""Rules of fire-fighting equipment: every stall and lane has an item within reach."""
 
 from collections.abc import Iterator
 from functools import partial
@@ -23,7 +23,7 @@ _HYDRANT = "hydrant_cabinet"
 
 
 def _out_of_reach(mounted: Mounted, garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    """The stall or lane that is farthest from what serves it, if that is too far."""
+    """Yield the stall or lane farthest from fire-fighting equipment, if it is out of reach."""
     clause: Length | None = getattr(profile, mounted.clause)
     places = [(stall.name, stall.centre) for stall in garage.stalls]
     places += [(node.name, node.position) for node in garage.lanes.nodes if not node.is_portal]
@@ -75,7 +75,7 @@ def _spacing(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
 
 
 def _places_of(garage: BuiltGarage, label: str) -> NDArray[np.float64]:
-    """The middle of the lowest piece of each object of a class; float64, shape (n, 2)."""
+    """Return the centre of the lowest piece of each object of a semantic class; float64, shape (n, 2)."""
     middles: dict[str, Point] = {}
     for solid in garage.solids.standing(label):
         middles.setdefault(solid.name, solid.centre)

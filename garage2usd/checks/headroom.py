@@ -1,4 +1,4 @@
-"""Rules of headroom: nothing hangs where cars, and vans on their way to accessible stalls, would hit it."""
+"""Rules of headroom: clear height for cars, and for vans on routes to accessible stalls."""
 
 from collections.abc import Iterator
 
@@ -14,7 +14,7 @@ __all__ = ["BOOK"]
 
 BOOK = RuleBook()
 _DOOR_REACH_M = 8.0
-"""How far the door of a portal stands from the middle of its square, at most."""
+"""Greatest distance in metres from a portal's door to the middle of its square."""
 
 
 @BOOK.rule(

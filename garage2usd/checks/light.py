@@ -1,4 +1,4 @@
-"""Rules of light: the mean direct illuminance of the floor of lanes and stalls."""
+"""Rules of lighting: mean direct illuminance on the floor of lanes and stalls."""
 
 from collections.abc import Iterator
 
@@ -19,7 +19,7 @@ def _dark(what: str, garage: BuiltGarage) -> str:
 
 
 def _lights_are_told(garage: BuiltGarage, _: Profile) -> str:
-    """A plan that could not be laid out has no lights, and not every stage of others has."""
+    """Explain why illuminance cannot be checked: the plan has no layout, or the stage has no lights."""
     return "" if garage.lane_lux is not None else "no illuminance of the floor is known"
 
 

@@ -1,4 +1,4 @@
-"""Rules of vehicle entrances and exits: how many, how far apart, how wide."""
+"""Rules of vehicle entrances and exits: their number, spacing and width."""
 
 import math
 from collections.abc import Iterator
@@ -74,6 +74,6 @@ def _inside(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 
 
 def _door_of(position: Point, garage: BuiltGarage) -> Point:
-    """Middle of a portal's door, or of its square where no door is known."""
+    """Return the middle of a portal's door, or of its square where no door is known."""
     near = [door.position for door in garage.doors if math.dist(door.position, position) < _DOOR_REACH_M]
     return min(near, key=lambda door: math.dist(door, position), default=position)

@@ -1,4 +1,4 @@
-"""Rules of ramps: how steep they are, and the gentler pieces at foot and top."""
+"""Rules of ramps: their slope, and the transition slopes at their foot and top."""
 
 from collections.abc import Iterator
 

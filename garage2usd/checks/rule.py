@@ -1,4 +1,4 @@
-"""A rule: an id, what it asks for, the clauses that it reads, how it finds what misses it, and when it cannot tell."""
+"""The rule of a garage check: its id, requirement, profile clauses, and the function that finds its violations."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -12,16 +12,16 @@ from garage2usd.profiles import Clause, Length, LengthRange, Profile
 __all__ = ["ROUNDING_M", "Miss", "Rule", "RuleBook", "always", "where_laid_out", "where_structure_is_known"]
 
 ROUNDING_M = 1e-3
-"""Lengths that differ by less are the same."""
+"""Tolerance in metres when a rule compares lengths."""
 
 
 class Miss(NamedTuple):
-    """A place that misses a rule; see `garage2usd.checks.finding.Finding`.
+    """A place that violates a rule; see `garage2usd.checks.finding.Finding`.
 
     Attributes
     ----------
     things
-        Prim paths of the objects that are at fault, where they may be in the way of other stalls too.
+        Prim paths of the objects at fault, if they can obstruct other stalls too.
     """
 
     place: str
@@ -34,45 +34,45 @@ class Miss(NamedTuple):
 
 Find = Callable[[BuiltGarage, Profile], Iterable[Miss]]
 Hindrance = Callable[[BuiltGarage, Profile], str]
-"""Why a rule cannot be checked; empty where it can."""
+"""Function that explains why a rule cannot be checked on a garage; it returns an empty string if the rule can be."""
 
 
 def always(_: BuiltGarage, __: Profile) -> str:
-    """Nothing hinders it."""
+    """Let a rule be checked on every garage."""
     return ""
 
 
 def where_laid_out(garage: BuiltGarage, _: Profile) -> str:
-    """A plan that could not be laid out has no objects."""
+    """Explain why a rule about objects cannot be checked on a plan without a layout."""
     return "" if garage.things else "there are no objects, only a plan"
 
 
 def where_structure_is_known(garage: BuiltGarage, _: Profile) -> str:
-    """The stages of others have no S, R and C."""
+    """Explain why a rule about squares cannot be checked on a stage without the matrices S, R and C."""
     return "" if garage.structure is not None else "the stage does not tell S, R and C"
 
 
 @dataclass(frozen=True)
 class Rule:
-    """One rule.
+    """A rule of the garage check.
 
     Attributes
     ----------
     name
-        Its id.
+        Id of the rule.
     asks
-        What it asks for, in words.
+        Requirement in words.
     clauses
-        The clauses of a profile that it reads.
+        Names of the profile clauses that the rule reads.
     asking
-        How many of them, from the first on, ask for something; without all of these in a profile it asks for nothing.
-        Unit, source and severity are those of the first one that there is.
+        Number of leading `clauses` that state a requirement; the rule applies only if the profile has one of these.
+        Unit, source and severity are those of the first one in the profile.
     find
-        Gives every place that misses it.
+        Function that yields every violation of the rule.
     hindrance
-        Why it cannot be checked.
+        Function that explains why the rule cannot be checked.
     severity
-        Of a rule that reads no clause.
+        Severity of a rule that reads no clause.
     """
 
     name: str
@@ -84,20 +84,20 @@ class Rule:
     hindrance: Hindrance = always
 
     def asked_by(self, profile: Profile) -> dict[str, Clause]:
-        """The clauses of a profile that ask for it, by name."""
+        """Return the profile's clauses that state the rule's requirement, by name."""
         asking = {name: getattr(profile, name) for name in self.clauses[: self.asking]}
         return {name: clause for name, clause in asking.items() if clause is not None}
 
     def applies(self, profile: Profile) -> bool:
-        """Whether it asks for anything."""
+        """Return True if a profile requires the rule."""
         return not self.clauses or bool(self.asked_by(profile))
 
     def severity_in(self, profile: Profile) -> Severity:
-        """How grave it is to miss it."""
+        """Return the severity of a violation of the rule under a profile."""
         return next((clause.severity for clause in self.asked_by(profile).values()), self.severity)
 
     def findings(self, garage: BuiltGarage, profile: Profile) -> Iterator[Finding]:
-        """What misses the rule."""
+        """Yield the rule's violations in a garage as findings."""
         if not self.applies(profile):
             return
         name, clause = next(iter(self.asked_by(profile).items()), ("", None))
@@ -117,10 +117,10 @@ class Rule:
 
 
 class RuleBook:
-    """The rules of one module, in the order in which they are written."""
+    """The rules of one module of checks, in source order."""
 
     def __init__(self) -> None:
-        """An empty one."""
+        """Create an empty rule book."""
         self.rules: list[Rule] = []
 
     def rule(
@@ -132,7 +132,7 @@ class RuleBook:
         hindrance: Hindrance = always,
         severity: Severity = Severity.ERROR,
     ) -> Callable[[Find], Find]:
-        """Make a rule of the function that finds what misses it; for the rest see `Rule`."""
+        """Register the decorated function as a rule that yields violations; for the parameters see `Rule`."""
 
         def added(find: Find) -> Find:
             self.rules.append(Rule(name, asks, clauses, find, severity, asking, hindrance))

@@ -1,4 +1,4 @@
-"""Rules of single stalls: their size, and that nothing but one car stands in each."""
+"""Rules of single stalls: their size, and no objects in them but one car."""
 
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
@@ -20,9 +20,9 @@ __all__ = ["BOOK"]
 BOOK = RuleBook()
 _TOUCH_M = 0.02
 _OVER_LINE_M = 0.1
-"""What the proofs of the next stall usually leave of it; what a car needs more than is left `swept-path` finds."""
+"""Distance in metres that a parked car may overhang its line; swept-path proofs usually leave so much clearance."""
 _BELONGS = {*CAR_LABELS, "traffic_cone", "wheel_stop", "charger", "speed_bump", "column"}
-"""What may stand in a stall, or has a rule of its own."""
+"""Semantic classes allowed in a stall, or covered by another rule."""
 
 
 @BOOK.rule("stall-width", "stall_width", asks="a stall that cars park in is wide enough")
@@ -81,7 +81,7 @@ def _outside(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 
 
 def _with_lines(stall: Stall) -> shapely.Geometry:
-    """The ground of a stall with what a car may stand over its lines."""
+    """Return the ground of a stall, widened by the permitted overhang of a parked car."""
     x, z = stall.outwards
     across = np.array([z, -x]) * (_OVER_LINE_M - _TOUCH_M)
     corners = np.array(stall.corners)

@@ -1,4 +1,4 @@
-"""The rule of driving: the design car gets into each stall and out of it without a touch."""
+"""Rules of swept paths: the design car drives into each stall and out of it without a collision."""
 
 from collections.abc import Iterator
 from weakref import WeakKeyDictionary
@@ -20,12 +20,12 @@ _PROVEN: WeakKeyDictionary[BuiltGarage, tuple[Profile, _Proofs]] = WeakKeyDictio
 """Cache of each garage's last swept-path proofs, which two rules share."""
 _NAMED = 3
 _EXPLAINED = 10
-"""For so many stalls without ways a single cause is looked for, which takes a second or two each."""
+"""Number of stalls without a path for which a single cause is sought, at one or two seconds each."""
 
 
 @BOOK.rule("swept-path", asks="the design car drives into each stall and out again while all others are taken")
 def _swept(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    """Leaves out what other rules report: stalls that have an error, and the things that are at fault elsewhere."""
+    """Yield stalls without a collision-free path, apart from stalls and objects that other rules report."""
     for at, proof in _proofs(garage, profile):
         if not (proof.is_proven or proof.is_undecided):
             required = None if proof.clearance_m is None else Limits().margin_m
@@ -44,7 +44,7 @@ def _undecided(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
 
 
 def _proofs(garage: BuiltGarage, profile: Profile) -> _Proofs:
-    """The proofs of the stalls that no other rule reports."""
+    """Return the swept-path proofs of the stalls that no other rule reports."""
     of_profile, proofs = _PROVEN.get(garage, (None, ()))
     if of_profile is not profile:
         proofs = _proven(garage, profile)
@@ -69,12 +69,12 @@ def _proven(garage: BuiltGarage, profile: Profile) -> _Proofs:
 
 
 def design_car(profile: Profile) -> DesignCar:
-    """The car of a profile: its axles are where the default car has them, in proportion.
+    """Return the design car of a profile, with its axles in proportion to those of the default car.
 
     Raises
     ------
     ConfigError
-        If no car of that size turns so tightly.
+        If no car of that size has so small a turning circle.
     """
     usual = DesignCar()
     length_m, width_m = profile.car_length_m, profile.car_width_m
@@ -89,7 +89,7 @@ def design_car(profile: Profile) -> DesignCar:
 
 
 def _reported(garage: BuiltGarage, profile: Profile) -> list[Miss]:
-    """What the rules of stalls, aisles, clearances and routes report as errors."""
+    """Return the errors that the rules of stalls, aisles, clearances and routes report."""
     faults = []
     for rule in (rule for module in (stall, aisle, clearance, feasibility) for rule in module.BOOK.rules):
         if rule.applies(profile) and rule.severity_in(profile) is Severity.ERROR:

@@ -1,4 +1,4 @@
-"""The clauses of a profile that a garage is not designed to: those that it misses, and those that nothing checks."""
+"""The profile clauses that a garage does not meet: those violated, and those without a possible check."""
 
 from collections.abc import Iterable, Mapping
 
@@ -9,12 +9,12 @@ __all__ = ["not_checked_lines", "unmet_clauses"]
 
 
 def unmet_clauses(findings: Iterable[Finding], not_checked: Mapping[str, str]) -> tuple[UnmetClause, ...]:
-    """One entry a clause.
+    """List the profile clauses that a garage does not meet, one entry per clause.
 
     Parameters
     ----------
     findings
-        Of the garage, the gravest first.
+        Findings of the garage, the most severe first.
     not_checked
         Clauses that no rule can check, each with the reason.
     """
@@ -31,7 +31,7 @@ def unmet_clauses(findings: Iterable[Finding], not_checked: Mapping[str, str]) -
 
 
 def not_checked_lines(not_checked: Mapping[str, str]) -> list[str]:
-    """A line for each reason, with all clauses that are not checked for it."""
+    """Format one line per reason, with all clauses that are not checked for that reason."""
     by_reason: dict[str, list[str]] = {}
     for clause, reason in not_checked.items():
         by_reason.setdefault(reason, []).append(clause)

@@ -1,4 +1,4 @@
-"""Rules of USD: what validators find, and what they let pass."""
+"""Rules of USD: findings of the USD validators, and faults that the validators miss."""
 
 from collections.abc import Iterator
 from pathlib import Path, PureWindowsPath
@@ -28,7 +28,7 @@ _APPROXIMATIONS = {
 
 
 def _prims(stage: Usd.Stage | None) -> Iterator[Usd.Prim]:
-    """Every prim, and in place of the instances' contents those of the prototypes that they share."""
+    """Yield every prim of a stage, with each prototype's prims once in place of those of its instances."""
     if stage is None:
         return
     yield from stage.Traverse()
@@ -136,7 +136,7 @@ def _absolute_paths(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 
 
 def _absolute(stage: Usd.Stage | None) -> Iterator[tuple[str, str]]:
-    """Each absolute path, and the name of the layer that it stands in."""
+    """Yield each absolute asset path, with the name of its layer."""
     for layer in stage.GetUsedLayers() if stage else ():
         if layer.anonymous:
             continue
@@ -182,7 +182,7 @@ def _miss(prim: Usd.Prim, message: str) -> Miss:
 
 
 def _place(prim: Usd.Prim) -> str:
-    """Path of a prim, or where the first instance has it if a prototype holds it."""
+    """Return the path of a prim; for a prim in a prototype, its path in the first instance."""
     if not prim.IsInPrototype():
         return str(prim.GetPath())
     prototype = prim

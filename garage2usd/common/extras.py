@@ -11,7 +11,7 @@ from garage2usd.common.system import HAS_EMBREE
 __all__ = ["BLENDER", "PICTURES", "RAYS", "is_there", "of_extra", "require"]
 
 BLENDER = ("bpy", "OpenEXR")
-"""What draws pictures and reads them."""
+"""Modules that render pictures with Blender and read them."""
 PICTURES = ("OpenEXR",)
 """What reads pictures that an installed Blender draws."""
 RAYS = ("embreex", "trimesh") if HAS_EMBREE else ("trimesh",)
@@ -58,7 +58,7 @@ def require(purpose: str, modules: Iterable[str], *, without: str = "") -> None:
 
 
 def is_there(module: str) -> bool:
-    """Whether a module of an extra is installed, without loading it."""
+    """True if a module of an optional extra is installed; does not import the module."""
     return find_spec(module) is not None
 
 

@@ -32,7 +32,7 @@ __all__ = [
 ]
 
 HIDDEN_PREFIX = ".garage2usd-"
-"""What the names of files begin with that are not in their place yet."""
+"""Prefix of the names of temporary output files, before they are moved into place."""
 _KEY = "work.txt"
 _AT_WORK = "another run is at work in it; wait until that has ended, or name another folder"
 _LOCK = "lock.bin"
@@ -316,7 +316,7 @@ def store(path: Path, data: bytes) -> None:
 
 
 def _holds(path: Path, data: bytes) -> bool:
-    """Whether a file can be read and holds `data`."""
+    """True if a file is readable and holds `data`."""
     try:
         return path.stat().st_size == len(data) and path.read_bytes() == data
     except OSError:

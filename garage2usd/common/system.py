@@ -50,11 +50,11 @@ __all__ = [
 _T = TypeVar("_T")
 
 LIBRARY_SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
-"""How the name of the library of compiled loops ends."""
+"""File extension of the library of compiled loops."""
 HAS_EMBREE = platform.machine() != "aarch64"
-"""Whether Embree's Python package exists for this machine: for all but Linux on 64-bit Arm."""
+"""True if Embree's Python package exists for this machine: everywhere except Linux on 64-bit Arm."""
 KEEPS_OPEN_FILES = sys.platform == "win32"
-"""Whether no file can be removed that a program has open."""
+"""True if a file cannot be removed while a program has it open."""
 OUT_OF_TIME = getattr(signal, "SIGXCPU", None)
 """The signal that ends a process without processor time left; None where no system limits it."""
 LONGEST_PATH = 240 if sys.platform == "win32" else None
@@ -69,7 +69,7 @@ _THREADS = Path("/proc/self/task")
 
 
 def cores() -> int:
-    """How many cores this process may use."""
+    """Return the number of CPU cores available to this process."""
     if sys.platform == "linux":
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1

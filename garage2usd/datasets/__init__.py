@@ -1,4 +1,4 @@
-"""Data sets of many garages that differ, made by a recipe on many processes."""
+"""Data sets of many distinct garages, generated from a recipe by many processes."""
 
 from typing import TYPE_CHECKING
 
@@ -27,5 +27,5 @@ __getattr__ = on_first_use(__name__, _HOME)
 
 
 def __dir__() -> list[str]:
-    """The public names."""
+    """Return the public names."""
     return __all__

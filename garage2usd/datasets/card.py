@@ -1,4 +1,4 @@
-"""The data card: the README of a data set, which says what is in it, where it is from and how it is read."""
+"""The data card of a data set: a README of its contents, origin and use."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -20,7 +20,7 @@ _TEMPLATE = jinja2.Template(
 
 
 def data_card(recipe: Recipe, rows: Sequence[ManifestRow]) -> str:
-    """The data card of a data set, Markdown."""
+    """Write the data card of a data set in Markdown."""
     made = [row for row in rows if not row.error]
     splits = [
         {

@@ -1,4 +1,4 @@
-"""Figures of variety as charts: SVG that stands in a page and takes its colour of ink and its letters."""
+"""Charts of a data set's variety: SVG for a page, in the page's text colour and font."""
 
 import io
 import re
@@ -20,13 +20,13 @@ with of_extra("the page of a data set"):
 __all__ = ["bars", "histogram", "split_colours"]
 
 _PALETTE = ("#4878a8", "#d9973a", "#57a773", "#b5599b", "#8b7d6b", "#3fa7b5")
-"""Told apart in grey and by colour-blind people for the first three, which are as many splits as there usually are."""
+"""Palette of splits; the first three colours differ in grey and for colour-blind readers."""
 _INK = "#010203"
-"""Stands for the page's own colour."""
+"""Placeholder for the page's text colour."""
 _SIZE_IN = (3.2, 2.2)
 _BINS, _MOST_UNIT_BINS = 24, 24
 _FEW_EDGES, _BAR_SHARE = 9, 0.7
-"""Few bars stand apart, each as wide as this share of its room."""
+"""Number of bin edges below which bars are separated, and their share of the bin's width."""
 _SETTINGS: dict[Any, Any] = {
     "svg.hashsalt": "garage2usd",
     "svg.fonttype": "none",
@@ -46,24 +46,24 @@ _SETTINGS: dict[Any, Any] = {
 
 
 def split_colours(splits: Sequence[str]) -> dict[str, str]:
-    """The colour of each split in charts, ``#rrggbb``; from the seventh on they come again."""
+    """Return the colour of each split in charts, ``#rrggbb``; colours repeat from the seventh split."""
     return {split: _PALETTE[number % len(_PALETTE)] for number, split in enumerate(splits)}
 
 
 def histogram(values: Mapping[str, NDArray[np.float64]], title: str) -> str:
-    """A histogram of a figure, the splits one upon the other.
+    """Draw a stacked histogram of a figure of plans, by split.
 
     Parameters
     ----------
     values
         The figure of the plans of each split; float64, shape (plans,).
     title
-        What the figure is, with its unit.
+        Title of the figure, with its unit.
 
     Returns
     -------
     str
-        An ``svg`` element. The same values give the same text.
+        An ``svg`` element, reproducible from the values.
     """
     edges = _edges(np.concatenate([*values.values(), np.zeros(0)]))
     is_whole = bool((edges % 1 == 0.5).all())  # noqa: PLR2004 - around whole numbers
@@ -79,14 +79,14 @@ def histogram(values: Mapping[str, NDArray[np.float64]], title: str) -> str:
 
 
 def bars(counts: Mapping[str, Mapping[str, int]], title: str) -> str:
-    """A bar for each kind of plan, the splits one upon the other.
+    """Draw stacked bars of the kinds of plans, by split.
 
     Parameters
     ----------
     counts
-        How many plans of each split are of each kind, the kinds of all splits in the same order.
+        Number of plans by split and kind; all splits have the same order of kinds.
     title
-        What the kinds are.
+        Title of the kinds.
 
     Returns
     -------
@@ -107,7 +107,7 @@ def bars(counts: Mapping[str, Mapping[str, int]], title: str) -> str:
 
 
 def _edges(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Borders of bins: around whole numbers where there are few of them, else evenly spaced."""
+    """Compute bin edges: around whole numbers if there are few, otherwise evenly spaced."""
     if not values.size:
         return np.array([0.0, 1.0])
     low, high = float(values.min()), float(values.max())
@@ -132,7 +132,7 @@ def _drawn(draw: Callable[[Axes], None], title: str) -> str:
 
 
 def _in_a_page(svg: str, title: str) -> str:
-    """The ``svg`` element of a file alone, in the page's ink, without ids that nothing refers to."""
+    """Extract the ``svg`` element from an SVG file for a page, in the page's text colour, without unused ids."""
     svg = svg[svg.index("<svg") :]
     svg = re.sub(r"<metadata>.*?</metadata>\s*", "", svg, flags=re.DOTALL).replace(_INK, "currentColor")
     used = set(re.findall(r"#([\w-]+)", svg))

@@ -1,4 +1,4 @@
-"""Work on many processes by Dask: on this machine, or on a cluster that is there."""
+"""Parallel work by Dask, on this machine or on an existing cluster."""
 
 import logging
 from collections import Counter
@@ -21,23 +21,23 @@ Task = TypeVar("Task")
 Outcome = TypeVar("Outcome")
 
 _TRIES = 10
-"""How often a task is given anew that was given up as its workers were lost, which Dask does when four were."""
+"""Number of retries of a task that Dask gave up after it had lost four workers."""
 _AT_ONCE = 4
-"""How many tasks a core is given ahead, so that none waits and what they return is taken up as it comes."""
+"""Number of tasks queued per core."""
 _LEAST_CORES = 4
-"""For how many tasks are given ahead while workers still start."""
+"""Least number of cores for which tasks are queued while workers start."""
 _START_S = 180
-"""A worker takes a few seconds to start, on a machine that is very busy a minute."""
+"""Timeout in seconds for workers to start: some seconds usually, a minute on a busy machine."""
 _CONNECT_S = 10.0
 
 
 class Workers:
-    """Processes that work on tasks.
+    """Dask worker processes that run tasks.
 
     Parameters
     ----------
     client
-        Their scheduler's.
+        Client of the workers' scheduler.
     """
 
     def __init__(self, client: Client) -> None:
@@ -46,28 +46,28 @@ class Workers:
     def each(
         self, function: Callable[..., Outcome], tasks: Sequence[Task], *shared: object
     ) -> Iterator[tuple[Task, Outcome]]:
-        """Work on tasks.
+        """Run a function on each task, and yield results as they finish.
 
         Parameters
         ----------
         function
-            Takes the shared values and a task; a function that any process can import, which gives the same for a task
-            each time, as a task whose worker is lost is done again.
+            Function of the shared values and a task, importable by any process and deterministic, since the task of a
+            lost worker is repeated.
         tasks
             The tasks.
         shared
-            What the function takes before the task; small, as it is sent with each.
+            Leading arguments of the function; small, since they are sent with each task.
 
         Yields
         ------
         tuple
-            A task and what the function gave for it, in the order in which they are done.
+            A task and its result, in order of completion.
 
         Raises
         ------
         Exception
-            The first that the function raises, or `DataSetError` for a task that crashes every worker; what was begun
-            is given up.
+            The first exception of the function, or `DataSetError` for a task that crashes every worker; pending tasks
+            are cancelled.
         """
         if not tasks:
             return
@@ -106,12 +106,12 @@ class Workers:
 
 @contextmanager
 def workers(*, count: int | None = None, scheduler: str | None = None) -> Iterator[Workers]:
-    """Workers on this machine, or those of a scheduler.
+    """Start Dask workers on this machine, or connect to those of a scheduler.
 
     Parameters
     ----------
     count
-        How many processes, where they are started here; left out, one a core.
+        Number of local processes; one per core if left out.
     scheduler
         Address of the scheduler of a cluster (``tcp://host:8786``), whose workers have the same version of garage2usd
         and see the same files.
@@ -119,9 +119,9 @@ def workers(*, count: int | None = None, scheduler: str | None = None) -> Iterat
     Raises
     ------
     ConfigError
-        If there is no such scheduler, or its workers have another version.
+        If the scheduler is unreachable, or its workers have another version.
     DataSetError
-        If no worker starts here.
+        If no local worker starts.
     """
     if scheduler is not None:
         with _connected(scheduler) as client:
@@ -181,7 +181,7 @@ def _connected(scheduler: str) -> Iterator[Client]:
 
 
 def _run(function: Callable[..., Outcome], *arguments: object) -> tuple[Outcome | None, Garage2UsdError | None]:
-    """What a function gives, or the error of ours that it raises, without the worker's stack."""
+    """Call a function and return its result or its Garage2UsdError, without the worker's stack."""
     try:
         return function(*arguments), None
     except Garage2UsdError as error:

@@ -1,4 +1,4 @@
-"""The shape of a garage's contour: rectangle, L, T, U, or other."""
+"""Classification of a garage's contour: rectangle, L, T, U or other."""
 
 from enum import StrEnum
 from itertools import pairwise
@@ -12,7 +12,7 @@ __all__ = ["ContourShape", "contour_shape"]
 
 
 class ContourShape(StrEnum):
-    """What a contour looks like, however it is turned."""
+    """Shape of a garage's contour, independent of rotation and reflection."""
 
     RECTANGLE = "rectangle"
     L = "L"
@@ -27,11 +27,11 @@ _SHAPE_OF = {
     "01101111": ContourShape.T,
     "00111111": ContourShape.U,
 }
-"""By the corners in turn, 1 where it juts out and 0 where it is re-entrant, from where the numeral is least."""
+"""Contour shapes by their sequence of corners, 1 convex and 0 reflex, rotated to the least numeral."""
 
 
 def contour_shape(cells: CellArray) -> ContourShape:
-    """The shape of a contour by the corners of its outline, one after the other.
+    """Classify the contour of a garage by the sequence of its corners.
 
     Parameters
     ----------
@@ -40,15 +40,15 @@ def contour_shape(cells: CellArray) -> ContourShape:
 
     Notes
     -----
-    A rectangle has four corners that jut out. An L has one re-entrant corner besides. Of the two of a U nothing lies
-    between, as the recess has them at its bottom; between the two of a T lie the two corners of its stem. Everything
-    else, also a step or a Z, is other. Squares on the ground plan count, not metres; obstacles inside do not count.
+    A rectangle has four convex corners; an L has one reflex corner in addition. The two reflex corners of a U are
+    adjacent, at the bottom of its recess. Those of a T have the two corners of its stem between them. Every other
+    shape, such as a step or a Z, is other. The contour is that of squares, not metres; obstacles inside are ignored.
     """
     return _SHAPE_OF.get(_least_turned(_corners(~outside_squares(cells))), ContourShape.OTHER)
 
 
 def _corners(is_inside: Mask) -> str:
-    """The corners of an outline in turn, as in `_SHAPE_OF`; empty where it is not one ring."""
+    """Return the corners of an outline in order, as in `_SHAPE_OF`; empty unless the outline is a single ring."""
     rows, cols = np.nonzero(is_inside)
     ground = shapely.union_all(shapely.box(cols, rows, cols + 1, rows + 1))
     if not isinstance(ground, shapely.Polygon) or ground.is_empty or ground.interiors:
@@ -60,6 +60,6 @@ def _corners(is_inside: Mask) -> str:
 
 
 def _least_turned(corners: str) -> str:
-    """The same corners from where they read as the least numeral, in the direction in which they do."""
+    """Rotate and reflect a sequence of corners to its least numeral."""
     both = (corners, corners[::-1])
     return min((way[start:] + way[:start] for way in both for start in range(len(way))), default="")

@@ -1,4 +1,4 @@
-"""How difficult stalls and garages are, from 0 to 1 and in three levels, measured against a fixed set of garages."""
+"""Difficulty of stalls and garages: a score from 0 to 1 and three levels, relative to a reference set of garages."""
 
 import math
 from collections import Counter
@@ -47,11 +47,11 @@ _HARDER = MappingProxyType(
         "illuminance_lux": -1,
     }
 )
-"""The features that make the score: whether more of it is harder (1) or easier (-1)."""
+"""Features of the difficulty score, with 1 if larger values are harder and -1 if they are easier."""
 
 
 class Level(StrEnum):
-    """How difficult a stall or a garage is: a third of the reference is of each level."""
+    """Level of difficulty of a stall or a garage; each level has a third of the reference set."""
 
     NORMAL = "normal"
     COMPLEX = "complex"
@@ -60,18 +60,18 @@ class Level(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class StallDifficulty:
-    """How difficult it is to park in a stall and to leave it.
+    """Difficulty of parking in a stall and leaving it.
 
     Attributes
     ----------
     stall
-        Its name.
+        Name of the stall.
     features
-        What was measured.
+        Measured features.
     score
-        From 0, easier than all of the reference, to 1; None where no ways are proven.
+        Score from 0 (easier than the whole reference set) to 1; None without proven drives.
     level
-        None where no ways are proven.
+        None without proven drives.
     """
 
     stall: str
@@ -82,18 +82,18 @@ class StallDifficulty:
 
 @dataclass(frozen=True, slots=True)
 class GarageDifficulty:
-    """How difficult the stalls of a garage are together.
+    """Difficulty of a garage, aggregated over its stalls.
 
     Attributes
     ----------
     score
-        Mean of its stalls' scores; None where no stall is proven.
+        Mean of the stalls' scores; None without proven stalls.
     level
-        By the scores of the garages of the reference; None where no stall is proven.
+        Level relative to the reference garages' scores; None without proven stalls.
     normal, complex, extreme
-        How many of its stalls are of each level.
+        Number of stalls of each level.
     unproven
-        How many of its stalls take cars and have no proven ways; they count for nothing else.
+        Number of stalls for cars without proven drives; they do not affect the other fields.
     """
 
     score: float | None
@@ -105,50 +105,50 @@ class GarageDifficulty:
 
 
 class ReferenceGarage(Record):
-    """A garage of the reference set."""
+    """A garage of the difficulty reference set."""
 
     seed: int
-    """By which `garage2usd.datasets.reference` makes it."""
+    """Seed of the garage in `garage2usd.datasets.reference`."""
     stalls: int
-    """How many of its stalls take cars and are proven."""
+    """Number of proven stalls for cars."""
     unproven: int
-    """How many take cars and are not."""
+    """Number of unproven stalls for cars."""
     score: float
-    """Mean of the scores of those that are proven."""
+    """Mean score of the proven stalls."""
 
 
 class Reference(Record):
-    """The set of garages that difficulty is measured against."""
+    """The reference set of garages for difficulty."""
 
     stalls: int
-    """How many proven stalls it has in all."""
+    """Total number of proven stalls."""
     quantiles: dict[str, tuple[float, ...]]
-    """Of each feature, of all proven stalls: evenly spaced quantiles from the least value to the greatest."""
+    """Evenly spaced quantiles of each feature over all proven stalls, from the least to the greatest value."""
     stall_scores: tuple[float, ...]
-    """The same of the stalls' scores."""
+    """Evenly spaced quantiles of the stalls' scores."""
     stall_terciles: tuple[float, float]
-    """The greatest score of a stall of the level normal, and of the level complex."""
+    """Greatest stall score of the level normal, and of the level complex."""
     garage_terciles: tuple[float, float]
-    """The same of garages."""
+    """Greatest garage score of the level normal, and of the level complex."""
     garages: tuple[ReferenceGarage, ...]
-    """Its garages."""
+    """Garages of the reference set."""
 
 
 @cache
 def reference() -> Reference:
-    """The reference set that the package ships, made by `garage2usd.datasets.reference`."""
+    """Load the shipped difficulty reference set, made by `garage2usd.datasets.reference`."""
     return Reference.model_validate(read_json(REFERENCE_FILE, field="reference", max_bytes=MAX_SETTINGS_BYTES))
 
 
 def stall_difficulties(garage: Garage, *, proofs: Sequence[StallProof] | None = None) -> tuple[StallDifficulty, ...]:
-    """How difficult each stall of a garage is that takes cars, in the order of the layout.
+    """Rate the difficulty of each stall for cars in a garage, in the order of the layout.
 
     Parameters
     ----------
     garage
         The garage.
     proofs
-        What `garage2usd.driving.prove_stalls` found for it; left out, it is asked here.
+        Result of `garage2usd.driving.prove_stalls` for the garage; computed if left out.
 
     Raises
     ------
@@ -158,21 +158,20 @@ def stall_difficulties(garage: Garage, *, proofs: Sequence[StallProof] | None = 
     Notes
     -----
     The score is the mean of a stall's ranks in the reference set, each from 0 for the easiest to 1 for the hardest:
-    by changes of gear on both ways together, clearance, whether the ways are clear when the garage is full, clear
-    width of the aisle, occupied neighbours and illuminance. Equal values share the middle of their ranks, so that a
-    feature in which most stalls are alike hardly tells them apart. A stall without proven ways has no score, as
-    nothing says that the task can be solved at all.
+    gear changes on both drives, clearance, clearance in the full garage, clear width of the aisle, occupied neighbours
+    and illuminance. Equal values share their mid-rank, so a feature that is equal for most stalls has little effect. A
+    stall without proven drives has no score, since the task may be infeasible.
     """
     return ranked(measured_stalls(garage, proofs=proofs), reference())
 
 
 def garage_difficulty(stalls: Sequence[StallDifficulty]) -> GarageDifficulty:
-    """How difficult a garage is, by its stalls.
+    """Rate the difficulty of a garage by its stalls.
 
     Parameters
     ----------
     stalls
-        What `stall_difficulties` has for it.
+        Result of `stall_difficulties` for the garage.
     """
     scores = [stall.score for stall in stalls if stall.score is not None]
     count = Counter(stall.level for stall in stalls)
@@ -188,7 +187,7 @@ def garage_difficulty(stalls: Sequence[StallDifficulty]) -> GarageDifficulty:
 
 
 def ranked(features: Sequence[StallFeatures], against: Reference) -> tuple[StallDifficulty, ...]:
-    """Score and level of stalls that were measured, against a reference set."""
+    """Rate measured stalls against a reference set."""
     scores = iter(scores_of(features, against.quantiles).tolist())
     found = []
     for stall in features:
@@ -198,14 +197,14 @@ def ranked(features: Sequence[StallFeatures], against: Reference) -> tuple[Stall
 
 
 def scores_of(features: Sequence[StallFeatures], quantiles: Mapping[str, ArrayLike]) -> NDArray[np.float64]:
-    """Scores of the proven ones of some stalls.
+    """Compute the difficulty scores of proven stalls; unproven ones are skipped.
 
     Parameters
     ----------
     features
-        What was measured of the stalls.
+        Measured features of the stalls.
     quantiles
-        Of each feature, as `Reference` has them.
+        Quantiles of each feature, as in `Reference`.
 
     Returns
     -------
@@ -221,7 +220,7 @@ def scores_of(features: Sequence[StallFeatures], quantiles: Mapping[str, ArrayLi
 
 
 def proven_values(features: Sequence[StallFeatures]) -> dict[str, NDArray[np.float64]]:
-    """The features that make the score, by their names, of the proven ones of some stalls; each of shape (proven,)."""
+    """Return the scored features of proven stalls by name; each of shape (proven,)."""
     rows = [
         (
             (stall.gear_changes_in or 0) + (stall.gear_changes_out or 0),
@@ -239,7 +238,7 @@ def proven_values(features: Sequence[StallFeatures]) -> dict[str, NDArray[np.flo
 
 
 def midranks(values: ArrayLike, quantiles: ArrayLike) -> NDArray[np.float64]:
-    """Shares of a distribution that lie below some values, and half of what is equal to them.
+    """Compute mid-ranks: the share of a distribution below each value, plus half of the share equal to it.
 
     Parameters
     ----------

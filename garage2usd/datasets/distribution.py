@@ -1,4 +1,4 @@
-"""Distributions that a recipe has in place of values: choice, range, log range, and mixes of them."""
+"""Distributions of settings in a recipe: choice, range, log range, and mixtures."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -17,12 +17,12 @@ _MOST_CHOICES = 10_000
 
 
 class Choice(Settings):
-    """One of some values."""
+    """A discrete choice of values."""
 
     choice: tuple[Any, ...] = Field(min_length=1, max_length=_MOST_CHOICES)
-    """The values, of any kind that the setting takes."""
+    """The values, of any type that the setting takes."""
     weights: tuple[Weight, ...] | None = None
-    """How often each is drawn in relation to the others; left out, all alike."""
+    """Relative weights of the values; equal if left out."""
 
     @model_validator(mode="after")
     def _one_weight_each(self) -> Self:
@@ -31,19 +31,19 @@ class Choice(Settings):
         return self
 
     def draw(self, random: np.random.Generator) -> Any:  # noqa: ANN401 - a value of any setting
-        """One of the values."""
+        """Draw one of the values."""
         return self.choice[_weighted(random, self.weights or (1.0,) * len(self.choice))]
 
     def ends(self) -> tuple[Any, ...]:
-        """All values."""
+        """Return all values."""
         return self.choice
 
 
 class Range(Settings):
-    """A number between two, both of them possible: whole where both are, each as likely as any other."""
+    """A uniform distribution between two numbers, both inclusive; of integers if both are integers."""
 
     range: tuple[Number, Number]
-    """The least and the largest."""
+    """Least and greatest value."""
 
     @model_validator(mode="after")
     def _ordered(self) -> Self:
@@ -51,22 +51,22 @@ class Range(Settings):
         return self
 
     def draw(self, random: np.random.Generator) -> Number:
-        """A number of the range."""
+        """Draw a number from the range."""
         low, high = self.range
         if isinstance(low, int) and isinstance(high, int):
             return int(random.integers(low, high, endpoint=True))
         return float(random.uniform(low, high))
 
     def ends(self) -> tuple[Number, Number]:
-        """The least and the largest."""
+        """Return the least and greatest value."""
         return self.range
 
 
 class LogRange(Settings):
-    """A number over 0 between two, whose logarithm is as likely as any other; rounded to whole where both are whole."""
+    """A log-uniform distribution between two positive numbers, rounded to integers if both are integers."""
 
     log_range: tuple[Number, Number]
-    """The least and the largest."""
+    """Least and greatest value."""
 
     @model_validator(mode="after")
     def _ordered(self) -> Self:
@@ -74,7 +74,7 @@ class LogRange(Settings):
         return self
 
     def draw(self, random: np.random.Generator) -> Number:
-        """A number of the range."""
+        """Draw a number from the log range."""
         low, high = self.log_range
         # nine digits, as machines may differ in the last one of a logarithm
         drawn = float(f"{math.exp(random.uniform(math.log(low), math.log(high))):.9g}")
@@ -83,24 +83,24 @@ class LogRange(Settings):
         return min(max(drawn, low), high)
 
     def ends(self) -> tuple[Number, Number]:
-        """The least and the largest."""
+        """Return the least and greatest value."""
         return self.log_range
 
 
 class MixPart(Settings):
-    """A part of a mix."""
+    """A component of a mixture."""
 
     weight: Weight = 1.0
-    """How often it is drawn in relation to the others."""
+    """Weight of the component relative to the others."""
     value: Any
-    """A value, or a distribution."""
+    """A value or a distribution."""
 
 
 class Mix(Settings):
-    """One of some distributions or values, by their weights."""
+    """A weighted mixture of distributions and values."""
 
     mix: tuple[MixPart, ...] = Field(min_length=1, max_length=_MOST_CHOICES)
-    """The parts."""
+    """Components of the mixture."""
 
     @model_validator(mode="after")
     def _readable(self) -> Self:
@@ -109,13 +109,13 @@ class Mix(Settings):
         return self
 
     def draw(self, random: np.random.Generator) -> Any:  # noqa: ANN401 - a value of any setting
-        """A value of one of the parts."""
+        """Draw a value from one component."""
         part = self.mix[_weighted(random, [part.weight for part in self.mix])].value
         inner = distribution_of(part, field="mix")
         return part if inner is None else inner.draw(random)
 
     def ends(self) -> tuple[Any, ...]:
-        """The ends of all parts."""
+        """Return the extreme values of all components."""
         return tuple(self._ends())
 
     def _ends(self) -> Iterator[Any]:
@@ -130,7 +130,7 @@ _KINDS: dict[_Key, type[Distribution]] = {"choice": Choice, "range": Range, "log
 
 
 def distribution_of(value: object, *, field: str) -> Distribution | None:
-    """The distribution that a value of a recipe is; None where it is the value itself.
+    """Parse a recipe's value as a distribution; None for a plain value.
 
     Parameters
     ----------
@@ -142,7 +142,7 @@ def distribution_of(value: object, *, field: str) -> Distribution | None:
     Raises
     ------
     ConfigError
-        If it has one of these keys and is no such distribution.
+        If the mapping has one of these keys but is not a valid distribution.
     """
     if not isinstance(value, Mapping):
         return None
@@ -153,7 +153,7 @@ def distribution_of(value: object, *, field: str) -> Distribution | None:
 
 
 def _weighted(random: np.random.Generator, weights: Sequence[float]) -> int:
-    """The number of one of some weights."""
+    """Draw an index by weights."""
     reached = np.cumsum(weights)
     return int(np.searchsorted(reached, random.random() * reached[-1], side="right"))
 

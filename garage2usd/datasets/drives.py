@@ -1,4 +1,4 @@
-"""Drives through the garages of a data set, recorded with a rig and packed, each into one file."""
+"""Drives through the garages of a data set, recorded with a rig and packed into one file each."""
 
 import zipfile
 from pathlib import Path
@@ -27,33 +27,33 @@ __all__ = ["DrivesConfig", "check_drives", "record_drives"]
 _TEXTS = {".json", ".yaml"}
 _FIRST_DATE = (1980, 1, 1, 0, 0, 0)
 _SEEDS = 2**31
-"""Blender takes seeds below that."""
+"""Upper limit of Blender's seeds."""
 
 
 class DrivesConfig(Settings):
-    """Drives that are recorded in each garage, by the names of `garage2usd render --rig`."""
+    """Settings of the drives recorded in each garage; names as in `garage2usd render --rig`."""
 
     rig: Rig
-    """Name of a shipped rig, or in a recipe's file the path of a TOML file of your own, or its table."""
+    """Name of a shipped rig; in a recipe file also the path of a TOML file, or its table."""
     count: int = Field(1, ge=1, le=1000)
-    """How many drives, each from the nearest entrance to a stall that is drawn by the garage's seed among those with a
-    proven way; fewer where there are fewer such stalls."""
+    """Number of drives, each from the nearest entrance to a stall with a proven drive, drawn by the garage's seed;
+    fewer if there are fewer such stalls."""
     every_m: float = Field(5.0, ge=0.01, le=1000)
-    """Metres between two places on the way."""
+    """Distance in metres between two poses of the drive."""
     scale: float = Field(1.0, gt=0, le=16)
-    """Of the sides of the pictures."""
+    """Scale of the sides of the pictures."""
     samples: int = Field(64, ge=1, le=65_536)
-    """Samples of each pixel of the colour."""
+    """Samples per pixel of the colour picture."""
     pictures: Annotated[tuple[Picture, ...], Field(min_length=1)] = tuple(Picture)
-    """What the cameras' pictures show."""
+    """Kinds of pictures of the cameras."""
     points: Annotated[tuple[CloudFormat, ...], Field(min_length=1)] = tuple(CloudFormat)
-    """What the points of LiDARs are written as."""
+    """File formats of the LiDARs' point clouds."""
     slots: tuple[SlotFormat, ...] = ()
-    """In which formats the slots of each frame are told."""
+    """Formats of the slot labels of each frame."""
     also: tuple[SequenceFormat, ...] = ()
-    """What the whole drive is written as too."""
+    """Additional sequence formats of the drive."""
     birds_eye: BirdsEye | None = None
-    """Bird's-eye views at each place too."""
+    """Settings of additional bird's-eye views at each pose; none if left out."""
 
     @field_validator("rig", mode="before")
     @classmethod
@@ -66,14 +66,14 @@ class DrivesConfig(Settings):
 
 
 def check_drives(config: DrivesConfig) -> None:
-    """Find out whether drives can be recorded.
+    """Check that the drives of a data set can be recorded.
 
     Raises
     ------
     ConfigError
-        If the rig cannot record what is asked for.
+        If the rig does not support the requested output.
     MissingExtraError
-        If what records it is not installed.
+        If a required package is not installed.
     """
     try:
         check_recording(
@@ -91,20 +91,20 @@ def check_drives(config: DrivesConfig) -> None:
 def record_drives(
     stage: Path, config: DrivesConfig, proofs: "Sequence[StallProof]", *, seed: int, settings: DriveConfig
 ) -> tuple[Path, ...]:
-    """Record drives through a garage.
+    """Record drives through a garage of a data set.
 
     Parameters
     ----------
     stage
-        Its stage.
+        Stage of the garage.
     config
-        With what, and how many.
+        Settings of the drives.
     proofs
-        What is proven of each of its stalls.
+        Swept-path proofs of the stalls.
     seed
-        By which stalls are drawn, and the seed of samples and of LiDARs' noise.
+        Seed of the drawn stalls, the render samples and the LiDARs' noise.
     settings
-        How the car drives.
+        Limits of the car's motion.
 
     Returns
     -------
@@ -140,7 +140,7 @@ def record_drives(
 
 
 def _pack(folder: Path, path: Path) -> None:
-    """Pack a folder, the same bytes each time; pictures and points are compressed already."""
+    """Pack a folder into a reproducible ZIP archive, without compression of compressed files."""
     with zipfile.ZipFile(path, "w") as archive:
         for file in sorted(folder.rglob("*")):
             if file.is_file():

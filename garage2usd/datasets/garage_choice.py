@@ -1,4 +1,4 @@
-"""Some garages of a recipe by their numbers: as its data set has them, or as they are drawn."""
+"""Selected garages of a recipe by number, from its data set or drawn anew."""
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -16,7 +16,7 @@ __all__ = ["chosen_garages"]
 
 
 def chosen_garages(path: Path, numbers: Sequence[int]) -> Iterator[SheetGarage]:
-    """Garages of a recipe, each as soon as its plan is there.
+    """Yield selected garages of a recipe, each as soon as it is planned.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def chosen_garages(path: Path, numbers: Sequence[int]) -> Iterator[SheetGarage]:
 
 
 def _drawn(recipe: Recipe, number: int) -> DrawnPlan:
-    """The first plan of a garage that is possible; the last one where none is."""
+    """Draw the first feasible plan of a garage, or the last attempt if none is feasible."""
     for attempt in range(recipe.attempts):
         (drawn,) = planned(recipe, [(number, attempt)])
         if not drawn.error:

@@ -1,4 +1,4 @@
-"""A data set made: plans first, then shards, then what tells of them; interrupted at any time, it goes on."""
+"""Generation of a data set: plans, shards, then manifest and page; resumable after interruption."""
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -38,16 +38,16 @@ _JOURNAL = f"{HIDDEN_PREFIX}plans.jsonl"
 
 @dataclass(frozen=True)
 class DataSet:
-    """A data set that was made.
+    """A generated data set.
 
     Attributes
     ----------
     folder
-        Where it is.
+        Folder of the data set.
     rows
-        A row a garage, by number; those that could not be made have an error.
+        One row per garage, by number; failed garages have an error.
     splits
-        The names of its splits, also of those that are too small for a garage.
+        Names of all splits, including empty ones.
     """
 
     folder: Path
@@ -56,11 +56,11 @@ class DataSet:
 
     @property
     def failed(self) -> tuple[ManifestRow, ...]:
-        """The garages that could not be made."""
+        """Rows of the garages that failed."""
         return tuple(row for row in self.rows if row.error)
 
     def counts(self) -> dict[str, int]:
-        """How many garages each split has, in the recipe's order."""
+        """Count the garages of each split, in the recipe's order."""
         counted = Counter(row.split for row in self.rows if not row.error)
         return {split: counted[split] for split in self.splits}
 
@@ -74,25 +74,25 @@ def make_dataset(
     resume: bool = False,
     progress: Progress = silent,
 ) -> DataSet:
-    """Make the garages of a recipe, on many processes.
+    """Generate the data set of a recipe with many processes.
 
-    The bytes are the same with any number of workers, and however often it was interrupted.
+    The result is reproducible byte for byte, independent of the number of workers and of interruptions.
 
     Parameters
     ----------
     recipe
-        What is made.
+        The recipe.
     folder
-        Where it goes: a new or empty folder; or with `resume` that of a run of this recipe that was interrupted, or
-        whose files were damaged since, which are made again.
+        A new or empty folder; with `resume` the folder of an interrupted run of this recipe, or of a finished one,
+        whose damaged files are made again.
     worker_count
-        How many processes are started on this machine; left out, one a core.
+        Number of local processes; one per core if left out.
     scheduler
         Address of a Dask scheduler whose workers do the work instead; they see the folder under the same path.
     resume
-        Whether to go on where a run of this recipe ended.
+        True to continue a previous run of this recipe.
     progress
-        Called with how many garages are planned, then made.
+        Called with the number of planned, then of generated garages.
 
     Raises
     ------
@@ -135,7 +135,7 @@ def _make(recipe: Recipe, folder: Path, pool: "Workers", progress: Progress) -> 
 
 
 def _check_folder(recipe: Recipe, folder: Path, *, resume: bool) -> None:
-    """Find out whether a folder is new or empty, or holds this recipe's data set and is to be gone on with."""
+    """Check that a folder is new or empty, or holds this recipe's data set for a resumed run."""
     note = folder / RECIPE_FILE
     with writing(folder):
         there = folder.iterdir() if folder.exists() else ()
@@ -150,7 +150,7 @@ def _check_folder(recipe: Recipe, folder: Path, *, resume: bool) -> None:
 
 
 def _plans(recipe: Recipe, folder: Path, pool: "Workers", progress: Progress) -> list[DrawnPlan]:
-    """The plan of each garage, drawn or read."""
+    """Draw or read the plan of each garage of the data set."""
     file, journal = folder / PLAN_FILE, folder / _JOURNAL
     with suppress(OSError, ValueError, pa.ArrowException):
         if read_sums(folder).get(PLAN_FILE, known := sha256_of(file)) != known:
@@ -175,7 +175,7 @@ def _plans(recipe: Recipe, folder: Path, pool: "Workers", progress: Progress) ->
 
 
 def _journalled(journal: Path) -> Iterator[DrawnPlan]:
-    """What an interrupted run drew; a line that was cut off is left aside."""
+    """Yield the plans in an interrupted run's journal, without an incomplete last line."""
     if not journal.is_file():
         return
     for line in journal.read_text(encoding="utf-8", errors="replace").splitlines():
@@ -186,7 +186,7 @@ def _journalled(journal: Path) -> Iterator[DrawnPlan]:
 def _made(
     recipe: Recipe, folder: Path, pool: "Workers", shards: Sequence[Shard], progress: Progress
 ) -> list[ManifestRow]:
-    """The rows of all garages that have a plan; shards that are not there whole are made."""
+    """Generate missing or incomplete shards, and return the rows of all planned garages."""
     total = sum(len(shard.plans) for shard in shards)
     rows: dict[str, list[ManifestRow]] = {}
     for shard in shards:
@@ -232,7 +232,7 @@ def _plan_figures(row: ManifestRow, drawn: DrawnPlan) -> PlanFigures:
 
 
 def _finish(recipe: Recipe, folder: Path, plans: Sequence[DrawnPlan], rows: Sequence[ManifestRow]) -> None:
-    """Write what tells of the whole; the sums last, as they say that it is whole."""
+    """Write manifest, card and page of the data set; the checksums come last, as a mark of completion."""
     from garage2usd.contact_sheet import SHEET_SUFFIXES  # noqa: PLC0415 - it brings USD, for which no refusal waits
     from garage2usd.datasets.page import write_page  # noqa: PLC0415 - it brings Matplotlib likewise
 

@@ -1,4 +1,4 @@
-"""The manifest of a data set: a row a garage, with what it is, what it has, and its files with their digests."""
+"""The manifest of a data set: one row per garage with its properties, files and digests."""
 
 import json
 from collections.abc import Iterable, Sequence
@@ -21,7 +21,7 @@ __all__ = [
 
 
 class FileEntry(Record):
-    """A file of a garage: what its name ends in after the garage's key, its size, and its SHA-256."""
+    """A file of a garage: suffix after the garage's key, size and SHA-256."""
 
     suffix: str
     bytes: int
@@ -29,7 +29,7 @@ class FileEntry(Record):
 
 
 class ManifestRow(Record):
-    """A garage of a data set.
+    """The manifest row of a garage.
 
     Attributes
     ----------
@@ -111,31 +111,31 @@ MANIFEST_SCHEMA = pa.schema(
         for name, field in ManifestRow.model_fields.items()
     ]
 )
-"""The columns of ``manifest.parquet``: those of `ManifestRow`, ``alternatives`` as JSON, none of them null."""
+"""Columns of ``manifest.parquet``: those of `ManifestRow`, ``alternatives`` as JSON, none nullable."""
 
 
 def manifest_table(rows: Sequence[ManifestRow]) -> pa.Table:
-    """Rows as a table."""
+    """Convert manifest rows to a table."""
     return pa.Table.from_pylist([_flat(row) for row in rows], schema=MANIFEST_SCHEMA)
 
 
 def rows_of_table(table: pa.Table) -> list[ManifestRow]:
-    """The rows of a table."""
+    """Convert a table to manifest rows."""
     return [_row(row) for row in table.to_pylist()]
 
 
 def text_of_rows(rows: Iterable[ManifestRow]) -> str:
-    """Rows as JSON lines, with the columns of the table."""
+    """Format manifest rows as JSON lines with the table's columns."""
     return "".join(json.dumps(_flat(row), separators=(",", ":")) + "\n" for row in rows)
 
 
 def rows_of_text(text: str) -> list[ManifestRow]:
-    """The rows of JSON lines; raises ValueError for what are none."""
+    """Parse manifest rows from JSON lines; raises ValueError for invalid lines."""
     return [_row(json.loads(line)) for line in text.splitlines()]
 
 
 def table_bytes(table: pa.Table) -> bytes:
-    """A table as Parquet, the same bytes each time."""
+    """Serialize a table to reproducible Parquet bytes."""
     sink = pa.BufferOutputStream()
     pq.write_table(table, sink, compression="zstd")
     return bytes(sink.getvalue())

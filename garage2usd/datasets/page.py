@@ -1,4 +1,4 @@
-"""The page of a data set: what its plans look like and how much they differ, in one file that opens offline."""
+"""The HTML page of a data set: plans and their variety, in one file for offline use."""
 
 import base64
 from collections.abc import Mapping, Sequence
@@ -46,7 +46,7 @@ def write_page(
     most_drawn: int = _MOST_DRAWN,
     sheets: Sequence[Path] = (),
 ) -> Variety:
-    """Write the page of a set of plans.
+    """Write the HTML page of a set of plans.
 
     Parameters
     ----------
@@ -95,18 +95,18 @@ def write_page(
 
 
 def _evenly(plans: Sequence[PlanFigures], most: int) -> list[PlanFigures]:
-    """At most so many plans, evenly spread, the first and the last one among them."""
+    """Select at most a number of plans, evenly spaced, including first and last."""
     count = min(len(plans), most)
     return [plans[place] for place in np.linspace(0, len(plans) - 1, count).round().astype(int).tolist()]
 
 
 def _columns(variety: Variety, figure: str) -> list[Spread]:
-    """The spread of a figure over all plans and over those of each split."""
+    """Compute the spread of a figure over all plans and over each split."""
     return [variety.spread(figure, split=split) for split in (None, *variety.splits)]
 
 
 def _kinds(variety: Variety) -> dict[str, dict[str, list[int]]]:
-    """How many plans are of each shape of contour and level of difficulty: in all, and in each split."""
+    """Count plans by contour shape and by difficulty level, in total and for each split."""
     splits = (None, *variety.splits)
     contours = [variety.contours(split=split) for split in splits]
     levels = [variety.levels(split=split) for split in splits]
@@ -136,7 +136,7 @@ def _thumbnail(plan: PlanFigures) -> Markup:
 
 
 def _picture(path: Path) -> str:
-    """A picture as an address that holds it."""
+    """Encode a picture as a data URL."""
     kind = "png" if path.suffix.lower() == ".png" else "jpeg"
     return f"data:image/{kind};base64,{base64.b64encode(path.read_bytes()).decode()}"
 
@@ -150,7 +150,7 @@ def _css(colour: Colour) -> str:
 
 
 def _number(value: Any) -> str:  # noqa: ANN401 - whatever the template has
-    """A figure as people read it: whole, with a decimal, or a dash where there is none."""
+    """Format a figure for readers: an integer, one decimal, or a dash for a missing value."""
     if value is None:
         return "\N{EN DASH}"
     return f"{value:,.0f}" if float(value).is_integer() else f"{value:,.1f}"

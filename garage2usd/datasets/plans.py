@@ -1,4 +1,4 @@
-"""Plans of a data set: drawn first, compared turned and mirrored, and drawn again where one is there already."""
+"""Plans of a data set: drawn, compared up to symmetry, and redrawn if duplicate."""
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
@@ -29,7 +29,7 @@ _SAME = 1e-9
 
 
 class DrawnPlan(Record):
-    """A plan of a data set, or why there is none.
+    """A drawn plan of a data set, or the reason for its failure.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class DrawnPlan(Record):
 
     @property
     def structure(self) -> Structure:
-        """S, R and C."""
+        """The structure of the plan: S, R and C."""
         cells = cells_from_text("\n".join(self.rows), field="S")
         return Structure(cells, np.array(self.column_widths_mm), np.array(self.row_depths_mm))
 
@@ -119,19 +119,19 @@ def _level(config: GarageConfig, plan: Plan) -> Level | None:
 
 
 def said(error: Exception) -> str:
-    """An error in one line."""
+    """Format an error in one line."""
     text = " ".join(str(error).split())
     return text if isinstance(error, Garage2UsdError) else f"{type(error).__name__}: {text}"
 
 
 def replanned(drawn: DrawnPlan, config: GarageConfig) -> Plan:
-    """The plan itself, without what learning met on the way."""
+    """Replan a drawn garage, without the intermediate plans of learning."""
     structure = drawn.structure
     return Plan(structure, evaluate(structure, bay=config.bay, plan=config.plan), gave_way=drawn.gave_way)
 
 
 class PlanDraw:
-    """Which plans a data set takes: each garage draws until it has one that no garage before it has.
+    """Selection of distinct plans: each garage is redrawn until its plan differs from all earlier ones.
 
     Of two garages that draw one plan at the same attempt the one with the lesser number keeps it, and one that was
     taken at an earlier attempt stays, so that the outcome is the same in whatever order plans are made.
@@ -154,11 +154,11 @@ class PlanDraw:
         self._attempt = 0
 
     def add(self, drawn: Iterable[DrawnPlan]) -> None:
-        """Note what was drawn."""
+        """Add drawn plans."""
         self._found.update(((each.number, each.attempt), each) for each in drawn)
 
     def asked(self) -> list[tuple[int, int]]:
-        """(number, attempt) of what is to be drawn next; empty when all garages have a plan or no attempt is left.
+        """Return the (number, attempt) pairs to draw next; empty if every garage has a plan or no attempts left.
 
         Raises
         ------
@@ -185,7 +185,7 @@ class PlanDraw:
         return []
 
     def plans(self) -> list[DrawnPlan]:
-        """One of each garage, by number; with an error where its attempts were used up."""
+        """Return one plan for each garage, by number; with an error if its attempts are exhausted."""
         return [
             self._taken.get(number)
             or DrawnPlan(
@@ -210,12 +210,12 @@ class PlanDraw:
         return True
 
     def _why(self, number: int) -> str:
-        """What was wrong with a garage at the last attempt."""
+        """Return the error of a garage's last attempt."""
         return self._found[number, self._recipe.attempts - 1].error or "its plans are those of other garages"
 
 
 def proportional(ratios: Mapping[Key, float], total: int) -> dict[Key, int]:
-    """Whole numbers in these ratios that add up to a total, by the method of largest remainders (Hamilton)."""
+    """Apportion a total to integer shares by ratios, by the method of largest remainders (Hamilton)."""
     if not ratios:
         return {}
     shares = np.array(list(ratios.values())) / sum(ratios.values()) * total
@@ -226,7 +226,7 @@ def proportional(ratios: Mapping[Key, float], total: int) -> dict[Key, int]:
 
 
 def chunks(asked: Sequence[tuple[int, int]]) -> list[Sequence[tuple[int, int]]]:
-    """What is planned at once: seconds, which is little where a worker is lost."""
+    """Split requested plans into tasks of some seconds, so that a lost worker costs little."""
     return [asked[first : first + _CHUNK] for first in range(0, len(asked), _CHUNK)]
 
 
@@ -249,7 +249,7 @@ _SCHEMA = pa.schema(
 
 
 def plan_table(plans: Sequence[DrawnPlan]) -> pa.Table:
-    """Plans as a table, from which `plans_of` reads them again; what learning found is JSON in it."""
+    """Convert plans to a table, the inverse of `plans_of`; results of learning are JSON."""
     rows = []
     for drawn in plans:
         row = drawn.model_dump(mode="json")
@@ -261,7 +261,7 @@ def plan_table(plans: Sequence[DrawnPlan]) -> pa.Table:
 
 
 def plans_of(table: pa.Table) -> list[DrawnPlan]:
-    """The plans of a table."""
+    """Convert a table to plans."""
     plans = []
     for row in table.to_pylist():
         for name in ("alternatives", "gave_way"):

@@ -1,4 +1,4 @@
-"""The recipe of a data set: which garages, what is made of each, and into which splits and shards they go."""
+"""The recipe of a data set: settings of garages, their outputs, splits and shards."""
 
 import json
 import zlib
@@ -37,59 +37,59 @@ _DECIDED = {
     ("bay", "column_widths_file"): "column_widths_m, as a data set is made on several machines",
     ("bay", "row_depths_file"): "row_depths_m, as a data set is made on several machines",
 }
-"""Settings that a recipe cannot have, and what it can have in their place."""
+"""Settings that a recipe must not have, and their alternatives."""
 
 Name = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_-]*$", max_length=60)]
 
 
 class Distinct(StrEnum):
-    """What no two garages of a data set share."""
+    """Distinctness of a data set's garages."""
 
     PLAN = "plan"
-    """The plan in squares, also turned or mirrored."""
+    """Plans differ, up to rotation and reflection."""
     SEED = "seed"
-    """Nothing but the seed: plans may be equal."""
+    """Only seeds differ; plans may be equal."""
 
 
 class ShardForm(StrEnum):
-    """How the files of garages are kept."""
+    """Storage of garages' files."""
 
     TAR = "tar"
-    """In tar archives, as WebDataset reads them."""
+    """Tar archives, as read by WebDataset."""
     FOLDER = "folder"
-    """In folders, which are those archives unpacked."""
+    """Folders, with the contents of those archives."""
 
 
 class Alternative(Settings):
-    """Settings that are drawn together."""
+    """An alternative of a group: settings drawn together."""
 
     name: Name
-    """What the manifest calls it."""
+    """Name of the alternative in the manifest."""
     weight: Weight = 1.0
-    """How often it is drawn in relation to the other alternatives of its group."""
+    """Weight of the alternative relative to the others of its group."""
     garage: dict[str, Any] = Field(default_factory=dict)
-    """Settings, as in the recipe's own table of that name, over which they go."""
+    """Settings of the alternative, which override the recipe's table of that name."""
 
 
 class MakeConfig(Settings):
-    """What is made of each garage, by the names of `garage2usd build`."""
+    """Settings of the outputs for each garage, named as in `garage2usd build`."""
 
     stage: bool = True
-    """Whether there is a stage (``.usdc``, or ``.usdz`` where garages are self-contained)."""
+    """True to write a stage (``.usdc``, or ``.usdz`` if self-contained)."""
     plan: bool = True
-    """Whether there is a picture of the plan (``.plan.png``)."""
+    """True to write a picture of the plan (``.plan.png``)."""
     labels: bool = True
-    """Whether there is a table of the classes and bounds of all objects (``.labels.json``)."""
+    """True to write a table of the classes and bounds of all objects (``.labels.json``)."""
     difficulty: bool = True
-    """Whether the ways into each stall are proven and rated (``.difficulty.json``), and so the garage."""
+    """True to prove the drives of each stall and rate the difficulty of stalls (``.difficulty.json``) and garage."""
     exports: tuple[Literal["glb", "osm", "xodr", "xosc", "yaml"], ...] = ()
-    """Formats that each stage is exported to, as by `build --with`."""
+    """Formats to which each stage is exported, as by `build --with`."""
     drives: DrivesConfig | None = None
-    """Drives that are recorded with a rig, as by `render --rig` (``.drive_0.zip``); left out, none."""
+    """Settings of drives recorded with a rig, as by `render --rig` (``.drive_0.zip``); none if left out."""
     gzip: bool = False
-    """Whether files of text (maps, reports, labels) are compressed and end in ``.gz``: a tenth of their size."""
+    """True to compress text files (maps, reports, labels) to ``.gz``, a tenth of their size."""
     self_contained: bool = False
-    """Whether each stage is a ``.usdz`` with its assets, instead of referring to the data set's."""
+    """True to make each stage a ``.usdz`` with its assets, instead of referring to the data set's assets."""
 
     @field_validator("exports")
     @classmethod
@@ -106,46 +106,46 @@ class MakeConfig(Settings):
 
 
 class ShardsConfig(Settings):
-    """How garages are kept in files."""
+    """Settings of the storage of garages."""
 
     form: ShardForm = ShardForm.TAR
     """'tar' or 'folder'."""
     garages: int = Field(100, ge=1, le=100_000)
-    """How many garages a shard has at most: what is made at once, and made again if it is interrupted."""
+    """Maximum number of garages per shard, which is the unit of generation and of repetition after an interruption."""
 
 
 class Recipe(Settings):
-    """Everything that decides a data set. The same recipe and version give the same bytes."""
+    """The recipe of a data set, which determines its bytes for a given version of garage2usd."""
 
     name: Name
-    """What the data set is called."""
+    """Name of the data set."""
     description: str = Field("", max_length=10_000)
-    """What it is for, in a sentence or two; for the data card."""
+    """Purpose of the data set in a sentence or two, for the data card."""
     licence: str = Field("", max_length=200)
-    """Under which licence it is given to others; for the data card."""
+    """Licence of the data set, for the data card."""
     seed: int = Field(0, ge=0, lt=2**63)
-    """Seed of every draw."""
+    """Seed of all random draws."""
     count: int = Field(100, ge=1, le=10_000_000)
-    """How many garages."""
+    """Number of garages."""
     distinct: Distinct = Distinct.PLAN
-    """'plan': no two garages have one plan, turned or mirrored; 'seed': they may."""
+    """'plan': plans differ, up to rotation and reflection; 'seed': plans may be equal."""
     attempts: int = Field(40, ge=1, le=10_000)
-    """How often a garage is drawn at most, until one is possible and its plan is not there yet."""
+    """Maximum number of draws of a garage until it is feasible and its plan is new."""
     garage: dict[str, Any] = Field(default_factory=dict)
-    """The settings of `garage2usd build`; in place of any value a distribution may stand."""
+    """Settings of `garage2usd build`; any value may be a distribution."""
     difficulty: dict[Level, Annotated[float, Field(gt=0, le=1e9)]] = Field(default_factory=dict)
-    """How many garages are of each level of difficulty ('normal', 'complex', 'extreme'), in relation to each other;
-    garages of other levels are drawn again. Left out, as they come."""
+    """Relative numbers of garages of each level of difficulty ('normal', 'complex', 'extreme'); garages of other levels
+    are redrawn. Levels are not controlled if left out."""
     groups: dict[Name, tuple[Alternative, ...]] = Field(default_factory=dict)
-    """Of each group one alternative is drawn for each garage, whose settings go over `garage`."""
+    """Groups of alternatives; each garage draws one alternative of each group, whose settings override `garage`."""
     make: MakeConfig = MakeConfig()
-    """What is made of each garage."""
+    """Outputs for each garage."""
     shards: ShardsConfig = ShardsConfig()
-    """How they are kept."""
+    """Storage of the garages."""
     splits: dict[Name, Annotated[float, Field(gt=0, le=1e9)]] = Field(
         default_factory=lambda: {"train": 0.8, "validation": 0.1, "test": 0.1}, min_length=1
     )
-    """The parts of the data set and their sizes in relation to each other."""
+    """Splits of the data set and their relative sizes."""
 
     @field_validator("groups")
     @classmethod
@@ -157,11 +157,11 @@ class Recipe(Settings):
         return groups
 
     def garage_seed(self, number: int, attempt: int) -> int:
-        """The seed of a garage at an attempt to draw it."""
+        """Return the seed of a garage at an attempt."""
         return derived_seed(self.seed, Step.GARAGES, number, attempt)
 
     def drawn(self, seed: int) -> tuple[GarageConfig, dict[str, str]]:
-        """The configuration of a garage, and the names of its alternatives by group.
+        """Draw the configuration of a garage and its alternatives, by group.
 
         Each distribution has a generator of its own, by the name of its setting, so that one that is added or taken
         away leaves the others' draws as they are.
@@ -187,11 +187,11 @@ class Recipe(Settings):
         return self._config(resolved(settings, "garage", draw), seed), chosen
 
     def record(self) -> str:
-        """The recipe with the version of garage2usd as JSON, which `load_recipe` reads again."""
+        """Return the recipe and the version of garage2usd as JSON, which `load_recipe` reads."""
         return json.dumps({_VERSION_KEY: VERSION, _RECIPE_KEY: self.model_dump(mode="json")}, indent=1) + "\n"
 
     def check(self) -> None:
-        """Find out whether settings that may be drawn can be used.
+        """Check that the settings which a recipe may draw are valid.
 
         Tried are the ends of each distribution, with the first values of the others.
 
@@ -208,7 +208,7 @@ class Recipe(Settings):
                     self._config(resolved(settings, "garage", partial(first_value, ends_of={}, given={asked: end})), 0)
 
     def _variants(self) -> Iterator[dict[str, Any]]:
-        """The settings with each alternative, beside the first ones of other groups."""
+        """Yield the settings of each alternative, combined with the first ones of other groups."""
         first = self.garage
         for alternatives in self.groups.values():
             first = over(first, alternatives[0].garage)
@@ -234,7 +234,7 @@ class Recipe(Settings):
 
 
 def load_recipe(path: str | Path) -> Recipe:
-    """Read a recipe: TOML, or the ``recipe.json`` of a data set.
+    """Load a recipe from TOML or from a data set's ``recipe.json``.
 
     Parameters
     ----------
@@ -267,7 +267,7 @@ def load_recipe(path: str | Path) -> Recipe:
 
 
 def _recorded(path: Path) -> dict[str, Any]:
-    """The settings of a recipe that stands in a data set."""
+    """Read the settings of a data set's own recipe."""
     document = read_json(path, field="RECIPE", max_bytes=MAX_SETTINGS_BYTES)
     if not isinstance(document, dict) or not isinstance(document.get(_RECIPE_KEY), dict):
         raise ConfigError("RECIPE", str(path), f"a recipe (TOML), or a data set's {RECIPE_FILE}")
@@ -275,14 +275,14 @@ def _recorded(path: Path) -> dict[str, Any]:
 
 
 def _generator(seed: int, field: str) -> np.random.Generator:
-    """The generator of one distribution of one garage."""
+    """Create the random generator of one distribution for one garage."""
     return np.random.Generator(
         np.random.PCG64(np.random.SeedSequence([seed, int(Step.SETTINGS), zlib.crc32(field.encode())]))
     )
 
 
 def _refuse(settings: Mapping[str, Any], keys: tuple[str, ...], allowed: str) -> None:
-    """Raise `ConfigError` for settings that a recipe cannot have."""
+    """Raise `ConfigError` for settings that a recipe must not have."""
     value: Any = settings
     for key in keys:
         if not isinstance(value, Mapping) or key not in value:

@@ -1,4 +1,4 @@
-"""The reference set of difficulties made: 200 garages of mixed sizes and settings, and what their stalls are like.
+"""The difficulty reference set: 200 garages of mixed sizes and settings, with features of their stalls.
 
 ``python -m garage2usd.datasets.reference FOLDER`` writes ``difficulty.json``, which the package ships, in about two
 minutes.
@@ -34,7 +34,7 @@ _DIGITS = 6
 
 
 def reference_settings(seed: int) -> dict[str, Any]:
-    """The configuration of one garage of the reference set, drawn by its seed alone.
+    """Draw the configuration of a reference garage from its seed.
 
     Notes
     -----
@@ -71,7 +71,7 @@ def reference_settings(seed: int) -> dict[str, Any]:
 
 
 def reference_stalls(seed: int) -> tuple[StallFeatures, ...] | None:
-    """The stalls of one garage of the reference set, None where its settings make no garage."""
+    """Measure the stalls of a reference garage; None if its settings are infeasible."""
     try:
         return measured_stalls(generate(GarageConfig(**reference_settings(seed))))
     except Garage2UsdError:
@@ -79,7 +79,7 @@ def reference_stalls(seed: int) -> tuple[StallFeatures, ...] | None:
 
 
 def make_reference(garages: Mapping[int, tuple[StallFeatures, ...]]) -> Reference:
-    """The reference of some garages.
+    """Compute the difficulty reference set from garages' stalls.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def _terciles(values: NDArray[np.float64]) -> tuple[float, float]:
 
 
 def _garages() -> Iterator[tuple[int, tuple[StallFeatures, ...]]]:
-    """The first garages from seed 0 on, those left out that cannot be made."""
+    """Yield the first feasible reference garages, from seed 0."""
     count = seed = 0
     while count < GARAGES:
         found = reference_stalls(seed)

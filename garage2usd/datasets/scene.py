@@ -1,4 +1,4 @@
-"""One garage of a data set as files beside each other, whose names begin with its number."""
+"""Generation of one garage of a data set as files whose names begin with its number."""
 
 import gzip
 import hashlib
@@ -32,14 +32,14 @@ _TEXTS = {".json", ".osm", ".xodr", ".xosc", ".yaml"}
 
 
 def key_of(shard: str, number: int) -> str:
-    """What the paths of a garage's files begin with, within the folder of shards."""
+    """Return the key of a garage: the prefix of its files' paths within the folder of shards."""
     return f"{shard}/{number:0{_DIGITS}}"
 
 
 def make_scene(
     recipe: Recipe, drawn: DrawnPlan, folder: Path, *, split: str, shard: str, assets: Path | None
 ) -> ManifestRow:
-    """Make a garage's files.
+    """Generate the files of one garage of a data set.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def make_scene(
 
 
 def _write_files(garage: Garage, folder: Path, stem: str, make: MakeConfig, assets: Path | None) -> Path | None:
-    """Write what says how a garage is; the stage, if there is one."""
+    """Write the report, labels, plan picture and stage of a garage; return the stage, if any."""
     stage = None
     arrangement = arrangement_of(garage.layout, garage.config.stage)
     if make.stage:
@@ -134,7 +134,7 @@ def _write_files(garage: Garage, folder: Path, stem: str, make: MakeConfig, asse
 
 
 def _difficulty(garage: Garage, proofs: Sequence[StallProof], path: Path) -> dict[str, str | int | float]:
-    """What the manifest says of the difficulty of a garage, whose stalls have theirs in a file."""
+    """Write the difficulty of each stall to a file, and return the manifest's difficulty fields."""
     stalls = stall_difficulties(garage, proofs=proofs)
     table = [{"score": stall.score, "level": stall.level, **asdict(stall.features)} for stall in stalls]
     path.write_text(json_text({"stalls": table}), encoding="utf-8", newline="\n")
@@ -174,7 +174,7 @@ def _figures(garage: Garage, report: Report) -> dict[str, str | int | float]:
 
 
 def _compress(folder: Path, stem: str) -> None:
-    """Compress a garage's files of text, the same bytes each time."""
+    """Compress a garage's text files reproducibly."""
     for path in sorted(folder.glob(f"{stem}.*")):
         if path.suffix in _TEXTS:
             path.with_name(f"{path.name}.gz").write_bytes(gzip.compress(path.read_bytes(), compresslevel=6, mtime=0))

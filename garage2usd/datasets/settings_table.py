@@ -1,4 +1,4 @@
-"""Tables of settings as recipes have them, with distributions in place of values."""
+"""Tables of a recipe's settings, with distributions in place of values."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -12,7 +12,7 @@ __all__ = ["first_value", "over", "pin_textures", "resolved"]
 
 
 def over(settings: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:
-    """Settings with others over them, table by table; a distribution goes over a table or value as a whole."""
+    """Merge settings over others, table by table; a distribution replaces a table or value as a whole."""
     merged = dict(settings)
     for key, value in above.items():
         below = merged.get(key)
@@ -21,12 +21,12 @@ def over(settings: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any
 
 
 def _is_table(value: object, key: str) -> TypeGuard[Mapping[str, Any]]:
-    """Whether a value holds settings, and is no distribution."""
+    """Test if a value is a table of settings and not a distribution."""
     return isinstance(value, Mapping) and distribution_of(value, field=key) is None
 
 
 def resolved(settings: Mapping[str, Any], within: str, resolve: Callable[[Any, str], Any]) -> dict[str, Any]:
-    """Settings with a value for each distribution, which `resolve` gives for it and its dotted name."""
+    """Replace each distribution in settings by `resolve` of the distribution and its dotted name."""
     found = {}
     for key, value in settings.items():
         field = f"{within}.{key}"
@@ -40,7 +40,7 @@ def resolved(settings: Mapping[str, Any], within: str, resolve: Callable[[Any, s
 def first_value(
     value: object, field: str, *, ends_of: dict[str, tuple[Any, ...]], given: Mapping[str, Any] | None = None
 ) -> object:
-    """The given or else the first value of a distribution, whose ends are noted."""
+    """Return the given or else the first value of a distribution, and record its extreme values."""
     distribution = distribution_of(value, field=field)
     if distribution is None:
         return value
@@ -51,7 +51,7 @@ def first_value(
 
 
 def pin_textures(recipe: Mapping[str, Any], folder: Path) -> None:
-    """Put the whole paths of folders of textures, with the digests of what they hold, in the place of relative ones.
+    """Make paths of texture folders in a recipe absolute, and add digests of their contents.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Shards: garages of one split that are made, packed and put into place together, whole or not at all."""
+"""Shards of a data set: garages of one split, generated, packed and published together."""
 
 import hashlib
 import io
@@ -26,7 +26,7 @@ _SHARD_DIGITS = 6
 
 @dataclass(frozen=True)
 class Shard:
-    """Garages that go into one file or folder.
+    """A shard: the garages of one file or folder.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class Shard:
 
 
 def shards_of(recipe: Recipe, plans: Sequence[DrawnPlan]) -> list[Shard]:
-    """Deal the garages out to splits, by ratio and seed, and within these to shards by number.
+    """Assign garages to splits by ratio and seed, and within splits to shards by number.
 
     Parameters
     ----------
@@ -67,12 +67,12 @@ def shards_of(recipe: Recipe, plans: Sequence[DrawnPlan]) -> list[Shard]:
 
 
 def empty_splits(recipe: Recipe) -> list[str]:
-    """The splits that get no garage, as their shares of so few round to none."""
+    """Return the splits without garages, whose share rounds to none."""
     return [split for split, count in proportional(recipe.splits, recipe.count).items() if not count]
 
 
 def make_shard(recipe: Recipe, folder: Path, shard: Shard) -> list[ManifestRow]:
-    """Make a shard's garages and put them into place, with their rows beside them.
+    """Generate a shard's garages and publish them with their manifest rows.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def _row(recipe: Recipe, drawn: DrawnPlan, staging: Path, shard: Shard, assets: 
 
 
 def failed_row(drawn: DrawnPlan, error: str, *, split: str = "") -> ManifestRow:
-    """The row of a garage that there is not."""
+    """Return the manifest row of a failed garage."""
     return ManifestRow(
         number=drawn.number,
         key="",
@@ -137,7 +137,7 @@ def failed_row(drawn: DrawnPlan, error: str, *, split: str = "") -> ManifestRow:
 
 
 def made_rows(folder: Path, shard: Shard, form: ShardForm) -> list[ManifestRow] | None:
-    """The rows of a shard that is there and holds what they say; None where it has to be made."""
+    """Read the rows of a complete and intact shard; None if the shard must be generated."""
     try:
         rows = rows_of_text((folder / SHARD_FOLDER / f"{shard.name}.jsonl").read_text(encoding="utf-8"))
     except (OSError, ValueError, KeyError):
@@ -156,7 +156,7 @@ def made_rows(folder: Path, shard: Shard, form: ShardForm) -> list[ManifestRow] 
 
 
 def shard_members(folder: Path, name: str, form: ShardForm) -> Iterator[tuple[str, bytes]]:
-    """Name and contents of each file of a shard; raises OSError or tarfile.TarError where it is damaged."""
+    """Yield name and contents of each file of a shard; raises OSError or tarfile.TarError for a damaged shard."""
     if form is ShardForm.FOLDER:
         for path in sorted((folder / SHARD_FOLDER / name).iterdir()):
             yield path.name, path.read_bytes()
@@ -168,7 +168,7 @@ def shard_members(folder: Path, name: str, form: ShardForm) -> Iterator[tuple[st
 
 
 def sweep(folder: Path) -> None:
-    """Remove what runs that were killed left unfinished."""
+    """Remove unfinished files of killed runs."""
     for path in (folder / SHARD_FOLDER).glob(f"{HIDDEN_PREFIX}*"):
         if path.is_dir():
             shutil.rmtree(path, ignore_errors=True)
@@ -177,7 +177,7 @@ def sweep(folder: Path) -> None:
 
 
 def _pack(path: Path, folder: Path, rows: Sequence[ManifestRow]) -> None:
-    """Pack the files of garages, which stay together, as WebDataset wants them; the same bytes each time."""
+    """Pack the files of garages in WebDataset's order, reproducibly."""
     with tarfile.open(path, "w", format=tarfile.USTAR_FORMAT) as archive:
         for row in rows:
             for file in row.files:
@@ -190,7 +190,7 @@ def _pack(path: Path, folder: Path, rows: Sequence[ManifestRow]) -> None:
 
 @contextmanager
 def _hidden_folder(place: Path) -> Iterator[Path]:
-    """A folder in `place` to make files in, which is gone afterwards unless it was renamed."""
+    """Yield a hidden temporary folder in `place`, removed afterwards unless renamed."""
     place.mkdir(parents=True, exist_ok=True)
     folder = place / f"{HIDDEN_PREFIX}{secrets.token_hex(8)}"
     folder.mkdir()

@@ -1,4 +1,4 @@
-"""What makes a stall hard to drive into, measured on the proof of its ways and on the layout."""
+"""Features of a stall's difficulty, measured on its proven drives and on the layout."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ _SAME_ROW_M = 0.01
 
 @dataclass(frozen=True, slots=True)
 class StallFeatures:
-    """What is known of one stall that takes cars.
+    """Difficulty features of one stall for cars.
 
     Attributes
     ----------
@@ -55,12 +55,12 @@ class StallFeatures:
 
     @property
     def is_proven(self) -> bool:
-        """Whether there are ways in and out."""
+        """True if drives in and out are proven."""
         return self.clearance_m is not None
 
 
 def measured_stalls(garage: Garage, *, proofs: Sequence[StallProof] | None = None) -> tuple[StallFeatures, ...]:
-    """Measure each stall that takes cars, in the order of the layout.
+    """Measure the difficulty features of each stall for cars, in the order of the layout.
 
     Parameters
     ----------
@@ -111,14 +111,14 @@ def _features(
 
 
 def _stall_lux(layout: Layout) -> NDArray[np.float64]:
-    """Illuminance in the middle of each stall, from the tubes inside and not from those over ramps; shape (stalls,)."""
+    """Compute the illuminance in each stall's middle, without the lamps over ramps; shape (stalls,)."""
     tubes = [place for place in layout.of_kind("light") if place.square is not None]
     lux: NDArray[np.float64] = layout.illuminance.luminance_nit * direct_lux(layout.stalls.centre_m, tubes)
     return lux
 
 
 def _occupied_neighbours(layout: Layout) -> NDArray[np.int64]:
-    """How many of the stalls beside each stall hold a car; shape (stalls,)."""
+    """Count the occupied stalls beside each stall; shape (stalls,)."""
     stalls, is_taken = layout.stalls, layout.cars_in_stalls() >= 0
     x, z = stalls.centre_m.T
     cos, sin = np.array([cos_sin(yaw) for yaw in stalls.yaw_rad.tolist()]).reshape(-1, 2).T

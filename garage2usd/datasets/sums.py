@@ -1,4 +1,4 @@
-"""The SHA-256 of each file of a data set, as ``sha256sum`` writes and checks them."""
+"""SHA-256 checksums of a data set's files, in the format of ``sha256sum``."""
 
 import hashlib
 import re
@@ -16,12 +16,12 @@ _NAMED = re.compile(r".*_([0-9a-f]{16})\.[a-z]+")
 
 
 def sums_text(folder: Path) -> str:
-    """A line for each file of a data set: its SHA-256, two blanks, and its path with slashes."""
+    """Format a checksum line for each file of a data set: SHA-256, two blanks, and path with slashes."""
     return "".join(f"{sha256_of(folder / name)}  {name}\n" for name in files_of(folder))
 
 
 def read_sums(folder: Path) -> dict[str, str]:
-    """SHA-256 by path, as they stand in a data set; empty where it has none yet.
+    """Read the checksums of a data set by path; empty if it has none.
 
     Raises
     ------
@@ -41,7 +41,7 @@ def read_sums(folder: Path) -> dict[str, str]:
 
 
 def files_of(folder: Path) -> Iterator[str]:
-    """The paths of the files of a data set, with slashes, in order; without the sums and what is unfinished."""
+    """Yield the paths of a data set's files, sorted, without checksums and unfinished files."""
     for path in sorted(folder.rglob("*")):
         name = path.relative_to(folder).as_posix()
         if path.is_file() and name != SUMS_FILE and HIDDEN_PREFIX not in name:
@@ -49,13 +49,13 @@ def files_of(folder: Path) -> Iterator[str]:
 
 
 def sha256_of(path: Path) -> str:
-    """The SHA-256 of a file, in hexadecimal digits."""
+    """Compute the SHA-256 of a file in hexadecimal."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def damaged_assets(folder: Path) -> list[str]:
-    """Assets of a data set that are not there, or that do not hold what their names say and are removed."""
+    """Find missing and corrupt assets of a data set, and remove the corrupt ones."""
     try:
         listed = {name for name in read_sums(folder) if name.startswith(f"{ASSET_FOLDER}/")}
     except (OSError, ValueError):

@@ -1,4 +1,4 @@
-"""How much the plans of a set differ: figures of each, of each split, and how far each is from the next one."""
+"""Variety of a data set's plans: figures of plans and splits, and distances between nearest plans."""
 
 import math
 from collections import Counter
@@ -18,12 +18,12 @@ from garage2usd.structure.symmetry import canonical_cells, eight_symmetries, pla
 __all__ = ["FIGURES", "PlanFigures", "Spread", "Variety", "nearest_shares"]
 
 _ROWS_AT_ONCE = 1024
-"""Bounds the memory that pairs of plans take."""
+"""Number of plans compared at once, which limits memory."""
 
 
 @dataclass(frozen=True, eq=False)
 class PlanFigures:
-    """A plan of a data set with what is known of it.
+    """A plan of a data set with its figures.
 
     Attributes
     ----------
@@ -59,17 +59,17 @@ class PlanFigures:
 
     @cached_property
     def canonical(self) -> CellArray:
-        """S cropped and turned, as `garage2usd.structure.symmetry.canonical_cells` has it."""
+        """Canonical form of S, as in `garage2usd.structure.symmetry.canonical_cells`."""
         return canonical_cells(self.cells)
 
     @cached_property
     def digest(self) -> str:
-        """The same for all turns and mirror images of a plan."""
+        """Digest of the plan, equal for its rotations and reflections."""
         return plan_digest(self.canonical)
 
     @property
     def squares(self) -> int:
-        """How many squares lie inside, obstacles apart."""
+        """Number of squares inside the contour, without obstacles."""
         return int((self.cells != Cell.OBSTACLE).sum())
 
 
@@ -83,12 +83,12 @@ FIGURES = MappingProxyType(
         "nearest_share": "Distance to the nearest plan, %",
     }
 )
-"""What is told of a set of plans, with its name and unit for people; `Variety.values` has the numbers."""
+"""Figures of a set of plans, with title and unit; `Variety.values` returns their values."""
 
 
 @dataclass(frozen=True, slots=True)
 class Spread:
-    """A figure over some plans.
+    """Range and mean of a figure over plans.
 
     Attributes
     ----------
@@ -123,7 +123,7 @@ class Variety:
         self.nearest_share = nearest_shares([plan.canonical for plan in self.plans])
 
     def values(self, figure: str, *, split: str | None = None) -> NDArray[np.float64]:
-        """One of `FIGURES` of the plans that have it, in the order of the plans, the nearest share in per cent.
+        """Return a figure of all plans that have it, in order; nearest shares are in per cent.
 
         Parameters
         ----------
@@ -141,30 +141,30 @@ class Variety:
         return values
 
     def spread(self, figure: str, *, split: str | None = None) -> Spread:
-        """Least, mean and greatest of one of `FIGURES`; parameters as for `values`."""
+        """Compute least, mean and greatest value of a figure; parameters as for `values`."""
         values = self.values(figure, split=split).tolist()
         if not values:
             return Spread(0, None, None, None)
         return Spread(len(values), min(values), math.fsum(values) / len(values), max(values))
 
     def contours(self, *, split: str | None = None) -> dict[ContourShape, int]:
-        """How many plans have each shape of contour, of a split or of all."""
+        """Count plans by contour shape, of a split or in total."""
         count = Counter(plan.contour for plan in self._of(split))
         return {shape: count[shape] for shape in ContourShape}
 
     def levels(self, *, split: str | None = None) -> dict[Level, int]:
-        """How many plans are of each level of difficulty, of a split or of all; those without any are left out."""
+        """Count plans by difficulty level, of a split or in total, without unrated ones."""
         count = Counter(plan.level for plan in self._of(split))
         return {level: count[level] for level in Level}
 
     @cached_property
     def distinct(self) -> int:
-        """How many plans there are that are not the same but for a turn or a mirror image."""
+        """Number of plans that are distinct up to rotation and reflection."""
         return len({plan.digest for plan in self.plans})
 
     @cached_property
     def shared(self) -> int:
-        """How many plans are in more than one split, turned or mirrored maybe."""
+        """Number of plans that occur in several splits, up to rotation and reflection."""
         splits_of: dict[str, set[str]] = {}
         for plan in self.plans:
             splits_of.setdefault(plan.digest, set()).add(plan.split)
@@ -175,7 +175,7 @@ class Variety:
 
 
 def nearest_shares(plans: Sequence[CellArray]) -> NDArray[np.float64]:
-    """How far each plan is from the nearest other one of its shape.
+    """Compute the distance of each plan to the nearest other plan of equal shape.
 
     Parameters
     ----------
@@ -205,7 +205,7 @@ def nearest_shares(plans: Sequence[CellArray]) -> NDArray[np.float64]:
 
 
 def _nearest_of_shape(plans: NDArray[np.int8]) -> NDArray[np.float64]:
-    """The same for at least two plans of one shape; int8, shape (plans, rows, cols)."""
+    """Compute nearest distances of at least two plans of one shape; int8, shape (plans, rows, cols)."""
     count, squares = len(plans), plans[0].size
     own = _indicators(plans)
     # the image of each plan under a symmetry is that symmetry of the numbers of the squares
@@ -224,7 +224,7 @@ def _nearest_of_shape(plans: NDArray[np.int8]) -> NDArray[np.float64]:
 
 
 def _indicators(plans: NDArray[np.int8]) -> NDArray[np.float32]:
-    """1 where a square has a value; float32, shape (plans, values, squares)."""
+    """One-hot encode the squares of plans; float32, shape (plans, values, squares)."""
     flat = plans.reshape(len(plans), 1, -1)
     indicators: NDArray[np.float32] = (flat == np.array(list(Cell), dtype=np.int8)[:, None]).astype(np.float32)
     return indicators

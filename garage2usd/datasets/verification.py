@@ -1,4 +1,4 @@
-"""A data set verified: every file hashed, every stage opened and checked, every plan compared with all others."""
+"""Verification of a data set: file hashes, checks of stages, and comparison of plans."""
 
 import hashlib
 import tarfile
@@ -30,7 +30,7 @@ _STAGES = (".usdc", ".usdz")
 
 @dataclass(frozen=True, order=True)
 class Fault:
-    """What is wrong with a data set, and where: a file, or a garage's key."""
+    """A fault of a data set with its place: a file, or a garage's key."""
 
     place: str
     what: str
@@ -43,7 +43,7 @@ def verify_dataset(
     scheduler: str | None = None,
     progress: Progress = silent,
 ) -> list[Fault]:
-    """Find what is wrong with a data set.
+    """Verify a data set and list its faults.
 
     That is files that are not as they were made, stages that do not open or have errors by `garage2usd check`, rows
     that contradict files, and plans that are there twice.
@@ -93,14 +93,14 @@ def verify_dataset(
 
 @dataclass(frozen=True)
 class _Task:
-    """A shard that is verified, with the rows of its garages."""
+    """A shard to verify, with the rows of its garages."""
 
     shard: str
     rows: tuple[ManifestRow, ...]
 
 
 def _of_files(folder: Path) -> Iterator[Fault]:
-    """Files that are missing, are others than they were, or do not belong there."""
+    """Yield faults of files: missing, modified or unexpected ones."""
     try:
         sums = read_sums(folder)
     except ValueError as error:
@@ -124,7 +124,7 @@ def _rows(folder: Path) -> list[ManifestRow]:
 
 
 def _of_rows(folder: Path, rows: Sequence[ManifestRow]) -> Iterator[Fault]:
-    """Manifests that contradict each other."""
+    """Yield contradictions between manifests."""
     by_number = {row.number: row for row in rows}
     texts = [LINES_FILE, *(f"{SHARD_FOLDER}/{name}.jsonl" for name in sorted({row.shard for row in rows if row.shard}))]
     for name in texts:
@@ -139,7 +139,7 @@ def _of_rows(folder: Path, rows: Sequence[ManifestRow]) -> Iterator[Fault]:
 
 
 def _of_plans(recipe: Recipe, rows: Sequence[ManifestRow], plans: Sequence[DrawnPlan]) -> Iterator[Fault]:
-    """Plans that are there twice, or are others than rows say."""
+    """Yield duplicate plans, and plans that contradict their rows."""
     by_number = {drawn.number: drawn for drawn in plans}
     same: dict[str, list[ManifestRow]] = defaultdict(list)
     for row in rows:
@@ -159,7 +159,7 @@ def _of_plans(recipe: Recipe, rows: Sequence[ManifestRow], plans: Sequence[Drawn
 
 
 def _of_shard(folder: Path, recipe: Recipe, task: _Task) -> list[Fault]:
-    """What is wrong with the garages of a shard."""
+    """List the faults of a shard's garages."""
     return list(_faults_of_shard(folder, recipe, task))
 
 

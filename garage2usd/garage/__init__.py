@@ -1,6 +1,6 @@
-"""The neutral garage: a directed metric lane graph and stalls as quads, in metres, Y up, seen from above as (x, z).
+"""The garage as a neutral model: a directed lane graph in metres and stalls as quads, Y up, seen from above as (x, z).
 
-Layouts and the readers of files make it; driving, checks, maps, sensors and data sets take it. It knows no grid.
+Layouts and file readers produce this model; driving, checks, maps, sensors and data sets read it. It has no grid.
 """
 
 from garage2usd.garage.lanes import DEAD_END_LIMIT_M, Arc, DeadEnd, LaneEdge, LaneGraph, LaneKind, LaneNode, Point

@@ -19,16 +19,16 @@ __all__ = ["DEAD_END_LIMIT_M", "Arc", "DeadEnd", "LaneEdge", "LaneGraph", "LaneK
 Point = tuple[float, float]
 """(x, z) in metres."""
 Arc = tuple[int, int]
-"""Numbers of two nodes, in the direction of driving."""
+"""Numbers of two lane nodes, in the direction of driving."""
 DEAD_END_LIMIT_M = 26.0
-"""A dead-end aisle of at most this length is backed out of; a longer one keeps a turning stall free."""
+"""Greatest length of a dead-end aisle that cars back out of; a longer one needs a turning bay."""
 _DIGITS = 4
-"""Of lengths that are compared with a limit, so that the single precision of a stage makes no difference."""
+"""Decimals of lengths compared with a limit, so that the single precision of a stage makes no difference."""
 _STRAIGHT_M = 1e-3
 
 
 class LaneKind(StrEnum):
-    """The paper's three kinds of lane square, and the portals."""
+    """Kinds of lane node: the paper's three kinds of lane square, entrances and exits."""
 
     CROSSROADS = "crossroads"
     T_JUNCTION = "t_junction"
@@ -39,24 +39,24 @@ class LaneKind(StrEnum):
 
 @dataclass(frozen=True)
 class LaneNode:
-    """A place on the lanes, or a portal.
+    """A node of the lane graph: a place on the lanes, or a portal.
 
     Attributes
     ----------
     kind
-        A `LaneKind`; whatever word an edited file has.
+        A `LaneKind`, or any other word from an edited file.
     position
-        Its middle.
+        (x, z) of the middle of the node.
     widths_m
         Metres between the columns across X and Z.
     name
-        Its square, as ``[row, col]``.
+        Square of the node, as ``[row, col]``.
     height_m
-        Of the floor there.
+        Height of the floor there.
     level
         Number of its level, from 0.
     sides_m
-        Extent of its ground along X and Z; left out, what is clear between the columns.
+        Extent of the node's ground along X and Z; the default is the clear width between the columns.
     """
 
     kind: str
@@ -69,11 +69,11 @@ class LaneNode:
 
     @property
     def is_portal(self) -> bool:
-        """Whether cars enter or leave the garage here."""
+        """True if the node is an entrance or exit of the garage."""
         return self.kind in {LaneKind.ENTRANCE, LaneKind.EXIT}
 
     def reach_m(self, along: Point) -> float:
-        """Metres from its middle to the end of its ground in a direction, a unit vector."""
+        """Return the distance from the node's middle to the end of its ground along a unit vector."""
         across_x, across_z = self.sides_m or self.widths_m
         return (abs(along[0]) * across_x + abs(along[1]) * across_z) / 2
 
@@ -88,7 +88,7 @@ class LaneEdge(NamedTuple):
     width_m
         Width of the carriageway between the columns.
     one_way
-        Whether it is driven from `start` to `end` only.
+        True if cars drive from `start` to `end` only.
     """
 
     start: int
@@ -98,22 +98,22 @@ class LaneEdge(NamedTuple):
 
     @property
     def arcs(self) -> tuple[Arc, ...]:
-        """The directions that it is driven in."""
+        """Arcs of the edge, one for each direction of driving."""
         there, back = (self.start, self.end), (self.end, self.start)
         return (there,) if self.one_way else (there, back)
 
 
 class DeadEnd(NamedTuple):
-    """An aisle that ends in nothing.
+    """A dead-end aisle of the lane graph.
 
     Attributes
     ----------
     nodes
-        Its nodes from the tip back to the next junction or portal, without that.
+        Nodes of the aisle from its tip back to the next junction or portal, without that one.
     length_m
-        From border to border.
+        Length from border to border.
     mouth
-        The junction or portal; None where there is none.
+        The junction or portal where the aisle begins; None without one.
     """
 
     nodes: list[int]
@@ -123,14 +123,14 @@ class DeadEnd(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class LaneGraph:
-    """The lanes and portals of a garage.
+    """The lane graph of a garage.
 
     Attributes
     ----------
     nodes
-        Lanes and portals; their numbers are their places.
+        Lanes and portals; the number of a node is its index.
     edges
-        The stretches of lane between them.
+        Stretches of lane between the nodes.
     """
 
     nodes: tuple[LaneNode, ...]
@@ -143,12 +143,12 @@ class LaneGraph:
 
     @cached_property
     def arcs(self) -> dict[Arc, LaneEdge]:
-        """The edge of each direction of driving, in the order of the edges."""
+        """The edge of each directed arc, in the order of the edges."""
         return {arc: edge for edge in self.edges for arc in edge.arcs}
 
     @cached_property
     def graph(self) -> "nx.DiGraph[int]":
-        """The same as a frozen `networkx.DiGraph`.
+        """The lane graph as a frozen `networkx.DiGraph`.
 
         A node has ``kind``, ``x_m``, ``z_m``, ``height_m`` and ``level``; an arc has ``width_m``, ``length_m``,
         ``climb_m`` and the ``levels`` of its two ends.
@@ -171,56 +171,56 @@ class LaneGraph:
 
     @cached_property
     def onward(self) -> tuple[tuple[int, ...], ...]:
-        """For each node, the nodes that are driven to from it."""
+        """Successors of each lane node."""
         return self._following(arc for edge in self.edges for arc in edge.arcs)
 
     @cached_property
     def backward(self) -> tuple[tuple[int, ...], ...]:
-        """For each node, the nodes that are driven from to it."""
+        """Predecessors of each lane node."""
         return self._following((other, node) for node, others in enumerate(self.onward) for other in others)
 
     @cached_property
     def beside(self) -> tuple[tuple[int, ...], ...]:
-        """For each node, the nodes that it is joined to, whichever way it is driven."""
+        """Neighbours of each lane node in either direction of driving."""
         ends = ((edge.start, edge.end) for edge in self.edges)
         return self._following(arc for one, other in ends for arc in ((one, other), (other, one)))
 
     def floor_m(self, level: int = 0) -> float:
-        """Height of the floor of a level, the median of its nodes; 0 where it has none."""
+        """Return the floor height of a level, the median of its lane nodes; 0 for a level without nodes."""
         heights = [node.height_m for node in self.nodes if node.level == level]
         return median(heights) if heights else 0.0
 
     def portals(self, *kinds: str) -> list[int]:
-        """Numbers of the nodes of some kinds."""
+        """Return the numbers of the lane nodes of some kinds."""
         return [number for number, node in enumerate(self.nodes) if node.kind in kinds]
 
     def joined_portals(self, *kinds: str) -> list[int]:
-        """Those of them that join a lane."""
+        """Return the numbers of the portals of some kinds that join a lane."""
         return [number for number in self.portals(*kinds) if self.beside[number]]
 
     @cached_property
     def arriving(self) -> frozenset[Arc]:
-        """Arcs that cars come to from an entrance, driving forward and turning round nowhere."""
+        """Arcs reachable from an entrance by driving forward without a U-turn."""
         return self._spread(self.onward, LaneKind.ENTRANCE)
 
     @cached_property
     def leaving(self) -> frozenset[Arc]:
-        """Arcs that lead on to an exit, likewise."""
+        """Arcs from which an exit is reachable by driving forward without a U-turn."""
         return frozenset((one, other) for other, one in self._spread(self.backward, LaneKind.EXIT))
 
     def near(self, node: int, most_edges: int) -> list[Arc]:
-        """The arcs between nodes that are at most so many edges from one, the nearest first."""
+        """Return the arcs between nodes within some number of edges of a lane node, the nearest first."""
         steps = nx.single_source_shortest_path_length(self._undirected, node, cutoff=most_edges)
         arcs = [(one, other) for one in steps for other in self.graph[one] if other in steps]
         return sorted(arcs, key=lambda arc: (steps[arc[0]] + steps[arc[1]], arc))
 
     @cached_property
     def dead_ends(self) -> tuple[DeadEnd, ...]:
-        """The aisles that end in nothing, in the order of their tips."""
+        """The dead-end aisles of the lane graph, in the order of their tips."""
         return tuple(self._dead_ends())
 
     def into_dead_ends(self, most_m: float) -> frozenset[Arc]:
-        """The arcs that lead into a dead end of at most some length, up to its tip."""
+        """Return the arcs that lead into a dead-end aisle of at most some length, up to its tip."""
         arcs: list[Arc] = []
         for dead_end in self.dead_ends:
             if round(dead_end.length_m, _DIGITS) <= most_m:
@@ -230,7 +230,7 @@ class LaneGraph:
         return frozenset(arcs)
 
     def clear_aisle_m(self, access: int, outwards: Point) -> float:
-        """Metres between the columns on both sides of an aisle, for stalls that open onto a node.
+        """Return the width between the columns on both sides of an aisle, for stalls that open onto a lane node.
 
         Parameters
         ----------
@@ -242,11 +242,11 @@ class LaneGraph:
         return self.nodes[access].widths_m[int(abs(outwards[1]) > abs(outwards[0]))]
 
     def length_m(self, start: int, end: int) -> float:
-        """Metres from the middle of a node to that of another."""
+        """Return the distance in metres between the middles of two lane nodes."""
         return math.dist(self.nodes[start].position, self.nodes[end].position)
 
     def edge_name(self, edge: LaneEdge) -> str:
-        """An edge by the names of its ends."""
+        """Name a lane edge after its two end nodes."""
         return f"{self.nodes[edge.start].name}-{self.nodes[edge.end].name}"
 
     @cached_property
@@ -254,7 +254,7 @@ class LaneGraph:
         return self.graph.to_undirected()
 
     def _following(self, arcs: Iterable[Arc]) -> tuple[tuple[int, ...], ...]:
-        """For each node, the ends of the arcs that begin there; each once, though edges may join two nodes twice."""
+        """List for each lane node the distinct end nodes of its outgoing arcs."""
         following: list[dict[int, None]] = [{} for _ in self.nodes]
         for start, end in arcs:
             following[start][end] = None
@@ -291,6 +291,6 @@ class LaneGraph:
             yield DeadEnd(lanes, length_m, mouth)
 
     def _clear_m(self, node: int, other: int) -> float:
-        """Metres between the columns at a node along the aisle to another."""
+        """Return the width between the columns at a lane node along the aisle to another."""
         is_along_z = abs(self.nodes[node].position[0] - self.nodes[other].position[0]) < _STRAIGHT_M
         return self.nodes[node].widths_m[int(is_along_z)]

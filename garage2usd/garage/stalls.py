@@ -1,4 +1,4 @@
-"""The stalls of a garage as quads on the ground, and what a file says of lanes and stalls that contradicts itself."""
+"""The stalls of a garage as quads on the ground, and contradictions in a file's lanes and stalls."""
 
 import math
 from dataclasses import dataclass, replace
@@ -13,54 +13,54 @@ from garage2usd.garage.lanes import Point
 __all__ = ["Fault", "Stall", "StallKind", "StallUse"]
 
 _SQUARE_DEG = 1.0
-"""How far from a right angle the sides of a stall still count as square to its mouth."""
+"""Tolerance in degrees for a stall whose sides are perpendicular to its mouth."""
 _LEAST_SKEW = 1e-4
 _YAW_DIGITS = 5
 
 
 class StallUse(StrEnum):
-    """What a stall is for."""
+    """Use of a stall."""
 
     STANDARD = "standard"
     TURNING = "turning"
-    """Kept free, so that cars turn at the end of a long dead-end aisle."""
+    """Turning bay, kept free at the end of a long dead-end aisle."""
     EV = "ev"
-    """With a charger."""
+    """Stall with a charger for electric cars."""
     ACCESSIBLE = "accessible"
-    """For people with a disability, beside an access aisle."""
+    """Stall for people with a disability, beside an access aisle."""
     ACCESS_AISLE = "access_aisle"
-    """Hatched and kept free, so that wheelchairs get to the accessible stalls beside it."""
+    """Hatched access aisle for wheelchairs, kept free beside accessible stalls."""
     UNREACHABLE = "unreachable"
-    """Hatched and kept free, because cars do not get into it and out of it."""
+    """Hatched stall, kept free because cars cannot drive into it and out of it."""
 
     @property
     def takes_cars(self) -> bool:
-        """Whether cars park there."""
+        """True if cars park in a stall of this use."""
         return self not in {StallUse.TURNING, StallUse.ACCESS_AISLE, StallUse.UNREACHABLE}
 
 
 class StallKind(StrEnum):
-    """How a stall lies to the lane that it opens onto."""
+    """Orientation of a stall relative to its lane."""
 
     PERPENDICULAR = "perpendicular"
-    """Square to its mouth, and at least as long as wide."""
+    """Perpendicular to the lane, and at least as long as wide."""
     PARALLEL = "parallel"
-    """Square to its mouth, and wider than long: a car stands along the lane."""
+    """Parallel to the lane: square to its mouth, and wider than long."""
     ANGLED = "angled"
-    """With sides that are not square to its mouth."""
+    """At an angle to the lane: its sides are not square to its mouth."""
 
 
 class Fault(NamedTuple):
-    """A contradiction in what a file says of its lanes and stalls.
+    """A contradiction in a file's description of its lanes and stalls.
 
     Attributes
     ----------
     rule
-        Id of the rule of `garage2usd.checks` that reports it.
+        Id of the rule of `garage2usd.checks` that reports the fault.
     place, position
-        Where; the position is None where it has none.
+        Place of the fault; the position is None if unknown.
     message
-        What is wrong.
+        Fault in words.
     """
 
     rule: str
@@ -71,22 +71,22 @@ class Fault(NamedTuple):
 
 @dataclass(frozen=True)
 class Stall:
-    """A stall.
+    """A parking stall.
 
     Attributes
     ----------
     name
-        Its id.
+        Id of the stall.
     corners
-        (x, z) in metres: mouth left, mouth right, rear right, rear left as a driver sees them.
+        (x, z) in metres: mouth left, mouth right, rear right, rear left as seen by a driver entering the stall.
     use
-        What it is for.
+        Use of the stall.
     access
-        Number of the lane node that its mouth opens onto.
+        Number of the lane node in front of the stall's mouth.
     facts
-        What else is said of it, by name: its number, its type, its square, the edge of the square that it opens onto
-        whether a car stands in it (`occupied`), as far as they are known, and the id of the stall of the misparked
-        car that blocks it (`blocked_by`), if one does.
+        Further properties by name, as far as known: number, type, square, the edge of the square at the mouth, whether
+        a car is parked there (`occupied`), and the id of the stall of the misparked car that blocks the stall
+        (`blocked_by`).
     level
         Number of its level, from 0.
     """
@@ -100,46 +100,46 @@ class Stall:
 
     @property
     def number(self) -> str | int | None:
-        """What is painted in it, where that is known."""
+        """Number painted in the stall, if known."""
         return dict(self.facts).get("number")
 
     @property
     def blocked_by(self) -> str | None:
-        """Id of the stall of the misparked car that blocks it, if one does."""
+        """Id of the stall of the misparked car that blocks this stall; None without one."""
         found = dict(self.facts).get("blocked_by")
         return None if found is None else str(found)
 
     @property
     def is_occupied(self) -> bool | None:
-        """Whether a car stands in it, its own or one that blocks it; None where that is not said."""
+        """True if a car parks in the stall or blocks it; None if unknown."""
         found = dict(self.facts).get("occupied")
         return None if found is None else bool(found)
 
     def vacated(self) -> "Stall":
-        """The same without a car in it."""
+        """Return the stall without a parked car."""
         kept = ((fact, value) for fact, value in self.facts if fact not in {"occupied", "blocked_by"})
         return replace(self, facts=(*kept, ("occupied", 0)))
 
     @property
     def takes_cars(self) -> bool:
-        """Whether cars park there."""
+        """True if cars park in the stall."""
         return self.use.takes_cars
 
     @property
     def width_m(self) -> float:
-        """From line to line."""
+        """Width of the stall between its lines in metres."""
         left, right, rear_right, rear_left = self.corners
         return min(math.dist(left, right), math.dist(rear_left, rear_right))
 
     @property
     def length_m(self) -> float:
-        """From mouth to rear."""
+        """Length of the stall from mouth to rear in metres."""
         left, right, rear_right, rear_left = self.corners
         return min(math.dist(left, rear_left), math.dist(right, rear_right))
 
     @property
     def angle_deg(self) -> float:
-        """From its mouth, left to right, to its left side; 90 where they are square."""
+        """Angle in degrees from the stall's mouth to its left side; 90 for a perpendicular stall."""
         (left_x, left_z), (right_x, right_z), _, (rear_x, rear_z) = self.corners
         right, forward = right_x - left_x, right_z - left_z
         along, back = rear_x - left_x, rear_z - left_z
@@ -148,31 +148,31 @@ class Stall:
 
     @property
     def kind(self) -> StallKind:
-        """How it lies to its lane."""
+        """Orientation of the stall relative to its lane."""
         if abs(self.angle_deg - 90) > _SQUARE_DEG:
             return StallKind.ANGLED
         return StallKind.PARALLEL if self.width_m > self.length_m else StallKind.PERPENDICULAR
 
     @cached_property
     def centre(self) -> Point:
-        """Its middle."""
+        """Centre of the stall."""
         return _middle(*self.corners)
 
     @cached_property
     def mouth(self) -> Point:
-        """Middle of its mouth."""
+        """Midpoint of the stall's mouth."""
         return _middle(*self.corners[:2])
 
     @cached_property
     def outwards(self) -> Point:
-        """Unit vector from its rear to its mouth."""
+        """Unit vector from the stall's rear to its mouth."""
         rear, mouth = _middle(*self.corners[2:]), self.mouth
         length = math.dist(rear, mouth) or 1.0
         return (mouth[0] - rear[0]) / length, (mouth[1] - rear[1]) / length
 
     @property
     def yaw_rad(self) -> float:
-        """Turn about +Y of a car that stands in it nose in, 0 where that looks to -Z; quarter turns are exact."""
+        """Yaw about +Y of a car parked nose in, 0 where its nose points to -Z; quarter turns are exact."""
         x, z = self.outwards
         if abs(x * z) > _LEAST_SKEW:
             return round(math.atan2(x, z), _YAW_DIGITS)
@@ -180,7 +180,7 @@ class Stall:
 
     @cached_property
     def polygon(self) -> shapely.Polygon:
-        """Its ground."""
+        """The stall's ground as a polygon."""
         return shapely.Polygon(self.corners)
 
 

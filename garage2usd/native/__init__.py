@@ -1,6 +1,6 @@
-"""The numeric loops in C: Python functions that are declared in Python and written in the `.c` files beside this one.
+"""Compiled C loops behind Python functions: declared in Python, implemented in the `.c` files of this folder.
 
-They are compiled when garage2usd is installed, into one library that needs nothing of Python.
+The C files are compiled into one library when garage2usd is installed. The library does not link to Python.
 """
 
 import ctypes
@@ -47,10 +47,10 @@ Float64s = Annotated[NDArray[np.float64], np.dtype(np.float64)]
 P = ParamSpec("P")
 T = TypeVar("T")
 Words = tuple[str, list[int | float]]
-"""The layout of some fields as the module `struct` writes it, and their numbers."""
+"""Layout of a C struct's fields as a format string of the module `struct`, and their values."""
 
 LIBRARY = Path(__file__).with_name(f"loops{LIBRARY_SUFFIX}")
-"""The library that `hatch_build.py` makes of the C files."""
+"""Path of the shared library that `hatch_build.py` compiles from the C files."""
 _CALLED = ContextVar("called", default=LIBRARY)
 
 _NUMBERS: dict[Any, tuple[Callable[[Any], Any], Any]] = {
@@ -63,12 +63,12 @@ _NUMBERS: dict[Any, tuple[Callable[[Any], Any], Any]] = {
 
 @functools.cache
 def load(path: Path = LIBRARY) -> ctypes.CDLL:
-    """Open the library of compiled loops.
+    """Open the shared library of compiled C loops.
 
     Raises
     ------
     RuntimeError
-        If it is not there, or was compiled from other C files than those beside it: it may lay out structs otherwise.
+        If the library is missing, or was compiled from other C files, whose structs may have another layout.
     """
     remedy = "install garage2usd, or run python hatch_build.py in its repository"
     if not path.exists():
@@ -87,7 +87,7 @@ def load(path: Path = LIBRARY) -> ctypes.CDLL:
 
 @contextmanager
 def using(library: Path) -> Iterator[None]:
-    """Call the functions of another library, such as one with a fault in it."""
+    """Call the C functions of another shared library, such as one with an injected fault."""
     token = _CALLED.set(library)
     try:
         yield
@@ -132,12 +132,12 @@ def in_c(function: Callable[P, T]) -> Callable[P, T]:
 
 
 def numbers_of(hint: Any) -> np.dtype[Any] | None:  # noqa: ANN401 - an annotation
-    """The type of the numbers of an array that is annotated as `Int64s` and the like; None for what is no array."""
+    """Return the NumPy scalar type of an array annotation such as `Int64s`; None for other annotations."""
     return next((one for one in typing.get_args(hint)[1:] if isinstance(one, np.dtype)), None)
 
 
 def _packer(hint: Any) -> tuple[Callable[[Any], Any], Any]:  # noqa: ANN401 - an annotation
-    """How an argument is handed to C by its annotation, and its type there."""
+    """Return the function that converts an argument of some annotation for C, and its ctypes type."""
     if hint in _NUMBERS:
         return _NUMBERS[hint]
     dtype = numbers_of(hint)
@@ -149,13 +149,13 @@ def _packer(hint: Any) -> tuple[Callable[[Any], Any], Any]:  # noqa: ANN401 - an
 
 
 def packed(kind: type, value: Any) -> bytes:  # noqa: ANN401 - a named tuple
-    """The fields of a named tuple as C has them."""
+    """Pack a named tuple as its C struct."""
     layout, numbers = _words(kind, value)
     return struct.pack(f"={layout}", *numbers)
 
 
 def _words(kind: type, value: Any) -> Words:  # noqa: ANN401 - a named tuple
-    """The fields of a named tuple in words of 8 bytes."""
+    """Return the fields of a named tuple as 8-byte words for its C struct."""
     layout: list[str] = []
     numbers: list[int | float] = []
     for field, (hint, dtype) in zip(value, _fields(kind), strict=True):
@@ -177,7 +177,7 @@ def _words(kind: type, value: Any) -> Words:  # noqa: ANN401 - a named tuple
 
 @functools.cache
 def _fields(kind: type) -> list[tuple[Any, np.dtype[Any] | None]]:
-    """The annotations of a named tuple, and of arrays the types of their numbers."""
+    """Return the annotations of a named tuple's fields, with the number type of each array."""
     hints = typing.get_type_hints(kind, include_extras=True).values()
     return [(hint, numbers_of(hint)) for hint in hints]
 

@@ -1,4 +1,4 @@
-"""The digest of the C sources, which the build compiles into the library and `load` compares."""
+"""Digest of the C sources, compiled into the shared library and compared by `load`."""
 
 import hashlib
 from pathlib import Path
@@ -7,7 +7,7 @@ __all__ = ["digest_of"]
 
 
 def digest_of(folder: Path) -> str:
-    """Digest the C files and headers of a folder by SHA-256, with their names; 64 hexadecimal digits."""
+    """Compute the SHA-256 digest of a folder's C files and headers, including their names; 64 hexadecimal digits."""
     digest = hashlib.sha256()
     for path in sorted(path for path in folder.iterdir() if path.suffix in {".c", ".h"}):
         text = path.read_bytes()

@@ -78,14 +78,14 @@ def shared_folder(path: Path, config: StageConfig) -> Path | None:
 
 
 class StageFiles(NamedTuple):
-    """What a stage consists of: its file, and the folder of what it refers to unless the file holds that itself."""
+    """The files of a USD stage: the stage itself and, unless it embeds them, the folder of its assets."""
 
     stage: Path
     assets: Path | None
 
 
 def arrangement_of(layout: Layout, config: StageConfig) -> Arrangement:
-    """Which prim each object of a layout is in a stage of the form that the settings ask for."""
+    """Assign each object of a layout to its prim in the USD stage, as the stage settings require."""
     return arrange(layout, nested=config.is_nested(int((layout.structure.cells != Cell.OBSTACLE).sum())))
 
 
@@ -216,7 +216,7 @@ def _asset_files(
 
 
 def _contents(assets: Iterable[AssetFile]) -> dict[str, bytes]:
-    """What the files of some assets and of their textures hold, by their names in the folder of the assets."""
+    """Return the contents of asset files and their textures, by name in the stage's asset folder."""
     contents: dict[str, bytes] = {}
     for asset in assets:
         contents[asset.layer.name] = asset.layer.data

@@ -1,4 +1,4 @@
-"""Which prim each object of a layout becomes: on a tile, in a group of the building, or a point of an instancer."""
+"""Assignment of a layout's objects to prims of the stage: on a tile, in a building group or as an instancer's point."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -63,7 +63,7 @@ class Arrangement:
 
     @property
     def nested(self) -> bool:
-        """Whether equal tiles share a prototype."""
+        """True if equal tiles share a prototype."""
         return bool(self.parts)
 
     def on_part(self, part: int) -> NDArray[np.int32]:
@@ -71,7 +71,7 @@ class Arrangement:
         return self.order[self.borders[part] : self.borders[part + 1]]
 
     def on_all_tiles(self) -> NDArray[np.int32]:
-        """Rows of the objects of all tiles, one tile after the other."""
+        """Rows of the objects of all tiles, tile by tile."""
         return self.order[self.borders[0] : self.borders[-1]]
 
     def paths(self) -> list[str]:
@@ -175,12 +175,12 @@ def _numbers_among_equals(values: NDArray[np.intp]) -> NDArray[np.intp]:
 
 
 def row_name(row: int) -> str:
-    """Name of the group of a row of tiles."""
+    """Return the name of the prim that groups a row of tiles."""
     return f"Row_r{row:02d}"
 
 
 def tile_name(square: Square) -> str:
-    """Name of a tile's prim."""
+    """Return the name of a tile's prim."""
     return f"Tile_r{square[0]:02d}_c{square[1]:02d}"
 
 

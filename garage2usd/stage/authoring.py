@@ -1,4 +1,4 @@
-"""Small steps of authoring Sdf specs, with no stage open."""
+"""Helpers that author prims, attributes and layers as Sdf specs, without an open USD stage."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -44,7 +44,7 @@ def new_layer(path: Path, *, default_prim: str) -> Iterator[Sdf.Layer]:
 
 
 def set_units(layer: Sdf.Layer) -> None:
-    """Metres, kilograms, Y up."""
+    """Set a layer's units to metres and kilograms, and its up axis to Y."""
     pseudo_root = layer.pseudoRoot
     pseudo_root.SetInfo(UsdGeom.Tokens.upAxis, UsdGeom.Tokens.y)
     pseudo_root.SetInfo(UsdGeom.Tokens.metersPerUnit, 1.0)
@@ -99,13 +99,13 @@ def connect(
 
 
 def relationship(prim: Sdf.PrimSpec, name: str, targets: Iterable[Sdf.Path]) -> None:
-    """A relationship to some prims."""
+    """Author a relationship from a prim to target prims."""
     spec = Sdf.RelationshipSpec(prim, name, custom=False)
     spec.targetPathList.explicitItems = list(targets)
 
 
 def words(prim: Sdf.PrimSpec, name: str, values: Iterable[str]) -> None:
-    """An attribute that holds an array of tokens."""
+    """Author an attribute that holds an array of tokens."""
     attribute(prim, name, Sdf.ValueTypeNames.TokenArray, Vt.TokenArray(list(values)))
 
 
@@ -125,7 +125,7 @@ def operation(prim: Sdf.PrimSpec, name: str, type_name: Sdf.ValueTypeName, value
 
 
 def order_operations(prim: Sdf.PrimSpec, names: Iterable[str]) -> None:
-    """Say which transform operations apply, outermost first."""
+    """Set the order of a prim's transform operations, outermost first."""
     order = Vt.TokenArray([f"xformOp:{name}" for name in names])
     attribute(prim, "xformOpOrder", Sdf.ValueTypeNames.TokenArray, order, uniform=True)
 

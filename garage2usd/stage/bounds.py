@@ -1,4 +1,4 @@
-"""How far objects reach."""
+"""Bounding boxes of the stage's objects."""
 
 from functools import lru_cache
 
@@ -29,7 +29,7 @@ def points_of(spec: Spec, piece: str | None = None) -> NDArray[np.float64]:
 def world_bounds_m(
     objects: ObjectTable, rows: NDArray[np.intp] | slice = slice(None), *, piece: str | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Least and greatest (x, y, z) in the world of the objects in some rows; float64, shape (n, 3) each.
+    """Compute the world bounding boxes of objects: least and greatest (x, y, z); float64, shape (n, 3) each.
 
     Of one labelled `piece` of each alone, where its class is given; they must have it.
     """
@@ -46,7 +46,7 @@ def world_bounds_m(
 
 @lru_cache(maxsize=8192)
 def _turned_bounds_m(spec: Spec, piece: str | None, yaw_rad: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Bounds of an asset, or of a piece of it, turned about +Y."""
+    """Compute the bounding box of an asset, or of a piece of the asset, rotated about +Y."""
     points = points_of(spec, piece)
     cos, sin = np.cos(yaw_rad), np.sin(yaw_rad)
     turned = points @ np.array([[cos, 0.0, -sin], [0.0, 1.0, 0.0], [sin, 0.0, cos]])

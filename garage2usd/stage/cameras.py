@@ -1,4 +1,4 @@
-"""The cameras: at the entrance, over the garage, and one that drives from an entrance to an exit."""
+"""Cameras of the stage: at the entrance, above the garage, and moving from an entrance to an exit."""
 
 import math
 from itertools import pairwise
@@ -29,7 +29,7 @@ __all__ = [
 
 FRAMES_PER_SECOND = 24.0
 EYE_M = 1.5
-"""Of a driver over the floor."""
+"""Height of a driver's eye above the floor."""
 FOCAL_MM = 20.0
 APERTURE_MM = (36.0, 20.25)
 """Horizontal and vertical aperture of all cameras, which have that focal length."""
@@ -39,7 +39,7 @@ _CORNER_CUTS = 3
 _STEADY = 1e-9
 """What rounding errors make of no change of speed, in metres or degrees a frame."""
 _UNSEEN_DEG = 0.02
-"""That a camera may be turned off its way: half a pixel of a picture 2000 pixels wide."""
+"""Angle by which a camera may deviate from its path: half a pixel of a picture 2000 pixels wide."""
 _FRAMES_APART = 1000.0
 _LOOK_AHEAD_M = 4.0
 _NEAR_M, _FAR_M = 0.1, 2000.0
@@ -67,7 +67,7 @@ def write_drive(path: Path, layout: Layout, graph: LaneSquares) -> int:
 
 
 def set_frames(layer: Sdf.Layer, last_frame: int) -> None:
-    """Say which frames a layer has, from 0 on."""
+    """Set the frame range of a layer, from 0."""
     layer.framesPerSecond = layer.timeCodesPerSecond = FRAMES_PER_SECOND
     layer.startTimeCode, layer.endTimeCode = 0.0, float(last_frame)
 
@@ -154,7 +154,7 @@ def _turns(yaws_deg: NDArray[np.float64]) -> list[int]:
 
 
 def _rounded(way: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The route with its corners rounded by Chaikin's corner cutting (1974)."""
+    """Round the corners of the moving camera's route by Chaikin's corner cutting (1974)."""
     for _ in range(_CORNER_CUTS):
         cut = [way[0]]
         for one, other in pairwise(way):

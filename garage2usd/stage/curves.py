@@ -1,4 +1,4 @@
-"""Guide curves over the floor."""
+"""Guide curves above the floor of a USD stage."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,13 +30,13 @@ def author_curves(
     line_m
         The points (x, z) of all curves, one after the other; float64, shape (points, 2).
     counts
-        How many points each curve has; int32, shape (curves,).
+        Number of points of each curve; int32, shape (curves,).
     lift_m
         Height over the floor.
     width_m
         Width of the drawn line.
     closed
-        Whether each curve ends where it begins.
+        True if the curves are closed.
     """
     points = np.full((len(line_m), 3), lift_m, dtype=np.float32)
     points[:, [0, 2]] = line_m

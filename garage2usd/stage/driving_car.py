@@ -190,7 +190,7 @@ def _author_body(layer: Sdf.Layer, car: Sdf.Path, body: CarBody, states: Traject
 
 
 def _turns(part: Part, body: CarBody) -> NDArray[np.bool_]:
-    """Which faces of a part belong to wheels: its tyres and rims, or what lies within the wheels of one's own car."""
+    """Find the faces of a part on a car's wheels: tyres and rims, or faces inside the wheels of a custom car."""
     if not isinstance(body, OwnCar):
         return np.full(len(part.face_counts), part.material in {"tyre", "rim"})
     x, y, z = part.points.astype(np.float64).T

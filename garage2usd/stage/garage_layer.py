@@ -184,7 +184,7 @@ def _pieces(
 
 
 def _tile_labels(graph: LaneSquares, squares: NDArray[np.intp]) -> list[str]:
-    """What a label says of each tile: the kind of its lane square, or the type of its stalls."""
+    """Return the semantic label of each tile: the kind of its lane square, or the type of its stalls."""
     stalls = {square: f"stall_{stall_type.value}" for square, stall_type in graph.stall_types.items()}
     kinds = {square: kind.value for square, kind in graph.graph.nodes(data="kind")}
     return [kinds.get((row, col)) or stalls[row, col] for row, col in squares.tolist()]

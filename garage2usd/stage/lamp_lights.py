@@ -57,7 +57,7 @@ _LAMPS = {
 
 
 def lamp_places(asset: Asset) -> dict[str, NDArray[np.float64]]:
-    """Where the lights of a car's lamps are: before the middle of the lenses of either side.
+    """Return the light positions of a car's lamps, in front of the middle of the lenses on each side.
 
     Returns
     -------

@@ -11,7 +11,7 @@ __all__ = ["PACKED_CHANNELS", "TEXTURE_FOLDER", "define_material", "label_materi
 TEXTURE_FOLDER = "textures"
 """Folder of the textures beside the assets that use them."""
 PACKED_CHANNELS = {"r": "occlusion", "g": "roughness", "b": "metallic"}
-"""What each channel of a packed texture is to the surface."""
+"""Surface property in each channel of a packed texture."""
 _MATERIAL_TAXONOMY = "material"
 """Taxonomy of what materials are made of, beside the classes of objects."""
 _NON_VISUAL = "omni:simready:nonvisual"

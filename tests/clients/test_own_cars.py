@@ -23,7 +23,7 @@ from support.viewer_page import viewed
 
 import garage2usd
 from garage2usd.as_built.driven_ground import driven_garage
-from garage2usd.checks import check_file, read_subject
+from garage2usd.checks import check_file, read_garage
 from garage2usd.config import GarageConfig
 from garage2usd.exports import export
 from garage2usd.maps.parked_cars import parked_cars
@@ -88,7 +88,7 @@ def own(tmp_path_factory):
 
 
 def test_checks_and_scenarios_take_each_class_for_parked_cars(own):
-    subject, _ = read_subject(own.built.stage)
+    subject, _ = read_garage(own.built.stage)
     assert subject.cars.keys() == own.cars.keys()
     assert all(home is not None for _, home in subject.cars.values())
     assert len(parked_cars(subject)) == len(own.cars)

@@ -24,7 +24,8 @@ def covered(read, garage, proofs, car):
     runs = shapely.STRtree(shapely.box(x[start] - half, y[row] - half, x[end - 1] + half, y[row] + half))
     found = []
     for stall, proof in zip(garage.stalls, proofs, strict=True):
-        own = shapely.union_all(shapely.polygons(garage.standing.only(*stall.own).pieces * (1, -1)))
+        belongings = garage.standing.only(*garage.own.get(stall.name, ()))
+        own = shapely.union_all(shapely.polygons(belongings.pieces * (1, -1)))
         around = own.buffer(read.side)
         shapely.prepare(around)
         for way in filter(None, (proof.way_in, proof.way_out)):

@@ -44,7 +44,7 @@ def test_time_is_limited_where_it_is_asked_for_and_lifted_where_not():
 
 
 def test_limits_hold_only_where_they_are_enforced():
-    code = "import resource; from garage2usd import limits; before = resource.getrlimit(resource.RLIMIT_CPU)\n"
+    code = "import resource; from garage2usd.common import limits; before = resource.getrlimit(resource.RLIMIT_CPU)\n"
     code += "limits.allow_seconds(1); assert resource.getrlimit(resource.RLIMIT_CPU) == before"
     subprocess.run([sys.executable, "-c", code], check=True)
 

@@ -169,8 +169,8 @@ FAULTS = (
     Fault(
         "what hangs counts",
         "occupied_ground",
-        "subject.solids.between(low_m, high_m)",
-        "subject.solids.between(low_m, 9.0)",
+        "garage.solids.between(low_m, high_m)",
+        "garage.solids.between(low_m, 9.0)",
     ),
     Fault("speed bumps stand", "occupied_ground", "_RAMP, _DRIVEN_OVER}", "_RAMP}"),
     Fault(
@@ -179,7 +179,7 @@ FAULTS = (
         "            yield solid.footprint",
         "            yield solid.footprint.boundary",
     ),
-    Fault("no floor of ramps", "occupied_ground", "[*tiles, *ramp_floors(subject)]", "tiles"),
+    Fault("no floor of ramps", "occupied_ground", "[*tiles, *ramp_floors(garage)]", "tiles"),
 )
 
 

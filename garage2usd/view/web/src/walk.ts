@@ -9,8 +9,8 @@ export const EYE_M = 1.65;
 const SPEED_M_S = 3.2;
 const RUN = 2.4;
 const BODY_M = 0.32;
-const KNEE_M = 0.3;
-const SHOULDER_M = 1.35;
+/** Heights at which a body meets obstacles: below a bumper, at a bonnet and at a shoulder. */
+const HEIGHTS_M = [0.3, 0.75, 1.35];
 const STEP_M = 0.35;
 const LONGEST_STEP_M = 0.25;
 const FLATTEST = 0.6;
@@ -117,7 +117,7 @@ export class Walker {
     if (length < 1e-6) return null;
     const [dx, dz] = [way.x / length, way.y / length];
     let nearest: { distance: number; normal: THREE.Vector2 } | null = null;
-    for (const height of [KNEE_M, SHOULDER_M])
+    for (const height of HEIGHTS_M)
       for (const side of [-0.8, 0, 0.8]) {
         const origin = [this.feet.x - side * BODY_M * dz, this.feet.y + height, this.feet.z + side * BODY_M * dx] as const;
         const hit = this.rays.cast(origin, [dx, 0, dz], BODY_M + length, this.solid);
@@ -130,7 +130,7 @@ export class Walker {
   private isCramped(x: number, ground: number, z: number): boolean {
     for (let k = 0; k < 8; k++) {
       const angle = (k * Math.PI) / 4;
-      for (const height of [KNEE_M, SHOULDER_M])
+      for (const height of HEIGHTS_M)
         if (this.rays.cast([x, ground + height, z], [Math.cos(angle), 0, Math.sin(angle)], BODY_M + 0.1, this.solid)) return true;
     }
     // beneath a car or inside a wall the way up is short
