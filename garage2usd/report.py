@@ -21,6 +21,7 @@ from garage2usd.planning import (
     neither_share,
     principles,
     rank_of,
+    settings_of_runs,
     tape_of,
 )
 from garage2usd.planning.circulation import rules_of
@@ -94,6 +95,7 @@ def make_report(
         S=tuple(str(structure).splitlines()),
         R=tuple(structure.R[0].tolist()),
         C=tuple(structure.C[:, 0].tolist()),
+        stall_runs=settings_of_runs(plan.runs),
         score=plan.score,
         learning=learning or learning_figures(plan, config),
         principles=principles(structure, bay=config.bay),

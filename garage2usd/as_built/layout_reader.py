@@ -49,7 +49,7 @@ def garage_without_layout(
     return BuiltGarage(
         source=source,
         kind=kind,
-        stalls=tuple(garage_stalls(stalls_of(TileGrid(structure, graph, bay), graph, bay), graph)),
+        stalls=tuple(garage_stalls(stalls_of(TileGrid(structure, graph, bay), graph), graph)),
         lanes=graph.lanes,
         structure=structure,
         faults=faults,

@@ -13,13 +13,14 @@ from garage2usd.config.files import is_array_file, matrices_of
 from garage2usd.driving import without_unreachable
 from garage2usd.garage import Fault
 from garage2usd.layout import Layout, PlacedStall, lay_out
-from garage2usd.planning import dimensioned
+from garage2usd.planning import given_plan, runs_of_settings, with_stall_kinds
 from garage2usd.profiles import Profile
 from garage2usd.reading.report import ReportedStall, report_of
 from garage2usd.site import with_sides
 from garage2usd.site.given import check_structure
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph, unproven_lane_graph
+from garage2usd.structure.stall_runs import StallRun
 
 __all__ = ["garage_of_plan"]
 
@@ -91,7 +92,8 @@ def _of_config(config: GarageConfig, path: Path, *, kind: str) -> BuiltGarage:
     if config.site.structure is None:
         raise ConfigError(_FIELD, str(path), "a plan with lanes; build this configuration first and check what is made")
     structure = with_sides(cells_from_text(config.site.structure, field="site.structure"), config.bay)
-    return _read(dimensioned(structure, config.bay), config, path, kind=kind)
+    plan = with_stall_kinds(given_plan(structure, bay=config.bay), config)
+    return _read(plan.structure, config, path, kind=kind, runs=plan.runs)
 
 
 def _of_report(document: Mapping[str, Any], path: Path) -> tuple[BuiltGarage, GarageConfig]:
@@ -101,7 +103,8 @@ def _of_report(document: Mapping[str, Any], path: Path) -> tuple[BuiltGarage, Ga
         raise ConfigError(_FIELD, str(path), f"a report with config, S, R and C ({error.reason})") from None
     structure = Structure.from_arrays(cells_from_text("\n".join(report.S), field="S"), report.R, report.C)
     told, unreachable = report.stalls, report.unreachable_stalls
-    garage = _read(structure, report.config, path, kind="report", listed=told, unreachable=unreachable)
+    runs = runs_of_settings(report.stall_runs, report.config.bay, report.config.stalls)
+    garage = _read(structure, report.config, path, kind="report", runs=runs, listed=told, unreachable=unreachable)
     return garage, report.config
 
 
@@ -111,13 +114,14 @@ def _read(
     path: Path,
     *,
     kind: str,
+    runs: Sequence[StallRun],
     listed: Sequence[Any] | None = None,
     unreachable: Sequence[str] | None = None,
 ) -> BuiltGarage:
     if not (structure.cells == Cell.LANE).any():
         raise ConfigError(_FIELD, str(path), "a plan with lanes; build it first and check what is made")
-    graph = unproven_lane_graph(structure, config.bay)
-    layout, refusal = _laid_out(structure, config, unreachable)
+    graph = unproven_lane_graph(structure, config.bay, runs)
+    layout, refusal = _laid_out(structure, config, runs, unreachable)
     if layout is None:
         faults = () if refusal is None else (Fault("plan-refused", "", None, refusal),)
         return garage_without_layout(structure, graph, config.bay, source=str(path), kind=kind, faults=faults)
@@ -126,7 +130,7 @@ def _read(
 
 
 def _laid_out(
-    structure: Structure, config: GarageConfig, unreachable: Sequence[str] | None
+    structure: Structure, config: GarageConfig, runs: Sequence[StallRun], unreachable: Sequence[str] | None
 ) -> tuple[Layout | None, str | None]:
     """Lay out a plan; return None and the reason if it is refused, without a reason for faults that rules report.
 
@@ -134,7 +138,7 @@ def _laid_out(
     """
     try:
         check_structure(structure.cells)
-        graph = build_lane_graph(structure, config.bay)
+        graph = build_lane_graph(structure, config.bay, runs)
     except (ConfigError, UnreachableStallError):
         return None, None
     if not graph.stall_rows:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.solids import Solid
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
-from garage2usd.garage import Stall
+from garage2usd.garage import Point, Stall, StallKind
 from garage2usd.layout.grounds import Grounds, grounds_of
 from garage2usd.profiles import Profile
 
@@ -39,11 +39,18 @@ class _ParkedCars:
 
     def grounds(self, *, beside_m: float = 0.0, behind_m: float = 0.0) -> Grounds:
         """Return each parked car's footprint, widened on both sides and lengthened behind; shape (stalls,)."""
-        outwards = np.array([stall.outwards for stall in self.stalls]).reshape(-1, 2)
-        nose = np.array([stall.mouth for stall in self.stalls]).reshape(-1, 2)
-        across = np.stack([-outwards[:, 1], outwards[:, 0]], axis=1) * (self.profile.car_width_m / 2 + beside_m)
-        rear = nose - outwards * (self.profile.car_length_m + behind_m)
-        return grounds_of(np.stack([nose + across, nose - across, rear - across, rear + across], axis=1))
+        backwards = np.array([stall.backwards for stall in self.stalls]).reshape(-1, 2)
+        tail = np.array([self._tail(stall) for stall in self.stalls]).reshape(-1, 2)
+        across = np.stack([-backwards[:, 1], backwards[:, 0]], axis=1) * (self.profile.car_width_m / 2 + beside_m)
+        nose = tail - backwards * (self.profile.car_length_m + behind_m)
+        return grounds_of(np.stack([tail + across, tail - across, nose - across, nose + across], axis=1))
+
+    def _tail(self, stall: Stall) -> Point:
+        """Return the middle of the car's tail: at the stall's mouth, and in a parallel stall with equal room ahead."""
+        if stall.kind is not StallKind.PARALLEL:
+            return stall.tail
+        (x, z), (back_x, back_z), half_m = stall.centre, stall.backwards, self.profile.car_length_m / 2
+        return x + back_x * half_m, z + back_z * half_m
 
 
 @BOOK.rule(

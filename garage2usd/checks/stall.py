@@ -82,7 +82,7 @@ def _outside(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 
 def _with_lines(stall: Stall) -> shapely.Geometry:
     """Return the ground of a stall, widened by the permitted overhang of a parked car."""
-    x, z = stall.outwards
+    x, z = stall.backwards
     across = np.array([z, -x]) * (_OVER_LINE_M - _TOUCH_M)
     corners = np.array(stall.corners)
     return shapely.MultiPoint(np.concatenate([corners - across, corners + across])).convex_hull.buffer(_TOUCH_M)

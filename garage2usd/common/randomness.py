@@ -27,6 +27,7 @@ class Step(IntEnum):
     PUDDLE_SHAPES = 19
     ARRANGEMENTS = 20
     CLUTTER = 21
+    STALL_KINDS = 22
     LIDAR = 30
     CAMERA_EFFECTS = 31
     GARAGES = 40

@@ -21,6 +21,7 @@ from garage2usd.config.own_cars import VehiclesConfig
 from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import BayConfig, SiteConfig
 from garage2usd.config.stage import StageConfig
+from garage2usd.config.stalls import StallsConfig
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile, read_profile
 
 __all__ = [
@@ -34,6 +35,7 @@ __all__ = [
     "PlanConfig",
     "SiteConfig",
     "StageConfig",
+    "StallsConfig",
     "VehiclesConfig",
     "config_from_mapping",
     "config_schema",
@@ -51,6 +53,8 @@ class GarageConfig(Settings):
     """Contour, portals and obstacles."""
     bay: BayConfig = BayConfig()
     """Sizes of squares and stalls."""
+    stalls: StallsConfig = StallsConfig()
+    """Kinds and sizes of stalls."""
     plan: PlanConfig = PlanConfig()
     """The lane planner."""
     fittings: FittingsConfig = FittingsConfig()
@@ -115,7 +119,9 @@ class GarageConfig(Settings):
         of_look = {"textures": {"folder"}} if self.look.textures else {"textures"}
         # without models it is what it was before there were any
         of_vehicles = {"models": {"folder"}} if self.vehicles.models else True
-        excluded = {"maps": True, "look": of_look, "vehicles": of_vehicles}
+        excluded: dict[str, Any] = {"maps": True, "look": of_look, "vehicles": of_vehicles}
+        if self.stalls == StallsConfig():  # likewise
+            excluded["stalls"] = True
         settings = self.model_dump(mode="json", exclude=excluded)
         canonical = json.dumps(settings, sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(canonical.encode()).hexdigest()

@@ -127,15 +127,34 @@ class Stall:
 
     @property
     def width_m(self) -> float:
-        """Width of the stall between its lines in metres."""
-        left, right, rear_right, rear_left = self.corners
-        return min(math.dist(left, right), math.dist(rear_left, rear_right))
+        """Width in metres of the rectangle for a car between the stall's lines."""
+        return self._rectangle_m[0]
 
     @property
     def length_m(self) -> float:
-        """Length of the stall from mouth to rear in metres."""
+        """Length in metres of the rectangle for a car between the stall's lines."""
+        return self._rectangle_m[1]
+
+    @cached_property
+    def _rectangle_m(self) -> tuple[float, float]:
+        """Width and length of the largest rectangle along the stall's long sides."""
+        mouth_m, side_m = self._sides_m
+        if self.kind is StallKind.PARALLEL:
+            return side_m, mouth_m
+        if self.kind is StallKind.PERPENDICULAR:
+            return mouth_m, side_m
+        angle = math.radians(self.angle_deg)
+        width_m = mouth_m * math.sin(angle)
+        return width_m, side_m - abs(width_m / math.tan(angle))
+
+    @cached_property
+    def _sides_m(self) -> tuple[float, float]:
+        """Length of the mouth and of the sides, the shorter of each pair."""
         left, right, rear_right, rear_left = self.corners
-        return min(math.dist(left, rear_left), math.dist(right, rear_right))
+        return (
+            min(math.dist(left, right), math.dist(rear_left, rear_right)),
+            min(math.dist(left, rear_left), math.dist(right, rear_right)),
+        )
 
     @property
     def angle_deg(self) -> float:
@@ -151,7 +170,8 @@ class Stall:
         """Orientation of the stall relative to its lane."""
         if abs(self.angle_deg - 90) > _SQUARE_DEG:
             return StallKind.ANGLED
-        return StallKind.PARALLEL if self.width_m > self.length_m else StallKind.PERPENDICULAR
+        mouth_m, side_m = self._sides_m
+        return StallKind.PARALLEL if mouth_m > side_m else StallKind.PERPENDICULAR
 
     @cached_property
     def centre(self) -> Point:
@@ -170,10 +190,24 @@ class Stall:
         length = math.dist(rear, mouth) or 1.0
         return (mouth[0] - rear[0]) / length, (mouth[1] - rear[1]) / length
 
+    @cached_property
+    def backwards(self) -> Point:
+        """Unit vector from the nose to the tail of a car parked nose in; in a parallel stall its left is the lane."""
+        x, z = self.outwards
+        return (z, -x) if self.kind is StallKind.PARALLEL else (x, z)
+
+    @cached_property
+    def tail(self) -> Point:
+        """Midpoint of the short side of the rectangle for a car where the tail of a car parked nose in is."""
+        if self.kind is StallKind.PERPENDICULAR:
+            return self.mouth
+        (x, z), (back_x, back_z), half_m = self.centre, self.backwards, self.length_m / 2
+        return x + back_x * half_m, z + back_z * half_m
+
     @property
     def yaw_rad(self) -> float:
         """Yaw about +Y of a car parked nose in, 0 where its nose points to -Z; quarter turns are exact."""
-        x, z = self.outwards
+        x, z = self.backwards
         if abs(x * z) > _LEAST_SKEW:
             return round(math.atan2(x, z), _YAW_DIGITS)
         return math.atan2(round(x) + 0.0, round(z) + 0.0)

@@ -338,7 +338,7 @@ def _used_stalls(
     """All stalls, each with its use."""
     stalls = tuple(
         replace(stall, use=StallUse.UNREACHABLE) if stall.name in unreachable else stall
-        for stall in stalls_of(grid, graph, config.bay)
+        for stall in stalls_of(grid, graph)
     )
     if config.plan.dead_ends is DeadEnds.STANDARD:
         clause = config.standard.dead_end_length

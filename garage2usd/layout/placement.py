@@ -5,10 +5,11 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TypeVar
 
-from garage2usd.garage import StallUse
+from garage2usd.garage import StallKind, StallUse
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Box, Point, Polygon
 from garage2usd.structure.lane_graph import Square, StallType
+from garage2usd.structure.stall_shapes import PERPENDICULAR_DEG, kind_of_angle, slope_of_angle
 from garage2usd.structure.stalls import Edge
 
 __all__ = [
@@ -19,10 +20,12 @@ __all__ = [
     "cos_sin",
     "edge_yaw_rad",
     "of_spec",
+    "outline_of",
     "placed",
     "rounded",
     "stall_name",
     "to_world",
+    "turned_yaw_rad",
 ]
 
 _S = TypeVar("_S", bound=Spec)
@@ -93,11 +96,16 @@ class PlacedStall:
     centre_m
         (x, z) of its middle.
     width_m, length_m
-        Its size between the lines' middles.
+        Sides of its rectangle for a car, between the lines' middles.
     yaw_rad
-        Turn about +Y; at 0 the mouth looks to +Z and a car parked nose-in looks to -Z.
+        Turn about +Y; at 0 a car parked nose-in looks to -Z, and the mouth of all but parallel stalls to +Z.
     use
         What it is for.
+    angle_deg
+        Angle of its long sides to the lane.
+    turn
+        1 for a stall that is entered by a turn to the right off the lane, -1 by one to the left; for parallel stalls
+        the side of the lane that they lie on.
     number
         As people read it, ``B2-07``: zone, and what is painted at its mouth; empty where nobody parks.
     """
@@ -112,6 +120,8 @@ class PlacedStall:
     yaw_rad: float = field(repr=False)
     use: StallUse = StallUse.STANDARD
     number: str = ""
+    angle_deg: float = PERPENDICULAR_DEG
+    turn: int = 1
 
     @property
     def name(self) -> str:
@@ -152,8 +162,32 @@ class PlacedStall:
 
     def corners_m(self) -> Polygon:
         """(x, z) of the four corners: mouth left, mouth right, rear right, rear left as a driver sees them."""
-        x, z = self.width_m / 2, self.length_m / 2
-        return tuple(map(self.to_world, ((-x, z), (x, z), (x, -z), (-x, -z))))
+        return tuple(map(self.to_world, self.outline()))
+
+    @property
+    def kind(self) -> StallKind:
+        """Its orientation to the lane."""
+        return kind_of_angle(self.angle_deg)
+
+    @property
+    def slope(self) -> float:
+        """How far its mouth and rear rise towards the mouth with each metre to the right, in its coordinates."""
+        return self.turn * slope_of_angle(self.angle_deg)
+
+    def outline(self) -> Polygon:
+        """The same corners from its middle: the mouth is at +Z, and beside a car in a parallel stall."""
+        return outline_of((self.width_m, self.length_m), self.angle_deg, self.turn)
+
+
+def outline_of(size_m: Point, angle_deg: float, turn: int) -> Polygon:
+    """Corners of a stall from its middle, by its width and length; see `PlacedStall`."""
+    x, z = size_m[0] / 2, size_m[1] / 2
+    if kind_of_angle(angle_deg) is StallKind.PARALLEL:
+        x, z = -x * turn, -z * turn
+        return (x, z), (x, -z), (-x, -z), (-x, z)
+    rise = turn * slope_of_angle(angle_deg) * x
+    z += abs(rise)
+    return (-x, z - rise), (x, z + rise), (x, rise - z), (-x, -rise - z)
 
 
 def stall_name(square: Square, ordinal: int) -> str:
@@ -218,6 +252,16 @@ def edge_yaw_rad(edge: Edge) -> float:
     return _EDGE_YAWS_RAD[edge]
 
 
+def turned_yaw_rad(edge: Edge, turn: int, angle_deg: float) -> float:
+    """Yaw of a car in a stall whose long sides have an angle to an edge of a square; exact for quarter turns."""
+    if angle_deg == PERPENDICULAR_DEG:
+        return _EDGE_YAWS_RAD[edge]
+    turned = math.remainder(_EDGE_YAWS_RAD[edge] + turn * math.radians(PERPENDICULAR_DEG - angle_deg), math.tau)
+    quarter = next((yaw for yaw in _EXACT_QUARTER if abs(math.remainder(turned - yaw, math.tau)) < _QUARTER_RAD), None)
+    return round(turned, 9) if quarter is None else quarter
+
+
+_QUARTER_RAD = 1e-9
 _EDGE_YAWS_RAD = {Edge.UP: math.pi, Edge.DOWN: 0.0, Edge.LEFT: -math.pi / 2, Edge.RIGHT: math.pi / 2}
 _EXACT_QUARTER = {math.pi: (-1.0, 0.0), 0.0: (1.0, 0.0), -math.pi / 2: (0.0, -1.0), math.pi / 2: (0.0, 1.0)}
 

@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+import shapely
 
 from garage2usd.config import BayConfig, FittingsConfig
+from garage2usd.garage import StallKind
 from garage2usd.layout.placement import Placement, box_inside, stall_name
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.outline import Point, Polygon, rectangle
@@ -22,12 +24,14 @@ __all__ = [
     "TileGrid",
     "ceiling_panel",
     "lane_edges",
+    "row_point",
     "row_rectangle",
-    "row_start_m",
-    "stall_rectangle",
+    "row_strip",
+    "stall_outline",
 ]
 
 CEILING_THICKNESS_M = 0.25
+_LEAST_OPENING_M2 = 1e-6
 
 
 @dataclass(frozen=True)
@@ -149,6 +153,34 @@ class TileGrid:
             square = edge.beyond(square)
         return self.tiles.get(square)
 
+    def has_upright_stalls(self, square: Square) -> bool:
+        """Whether a square has stalls, all of them perpendicular."""
+        places = self.stall_places.get(square, ())
+        return bool(places) and all(place.row.shape.kind is StallKind.PERPENDICULAR for place in places)
+
+    def openings(self, tile: Tile) -> tuple[Polygon, ...]:
+        """Outlines of the stalls on a tile, in its coordinates, with the parts of angled stalls of the tiles beside."""
+        own = [stall_outline(tile, place.row, place.slot) for place in self.stall_places.get(tile.square, [])]
+        beside = [
+            (self.tiles[other], place)
+            for edge in Edge
+            for other in [edge.beyond(tile.square)]
+            for place in self.stall_places.get(other, [])
+            if place.row.shape.slope and edge in place.row.edge.ends
+        ]
+        if not beside and not any(place.row.shape.slope for place in self.stall_places.get(tile.square, [])):
+            return tuple(own)
+        ground = shapely.box(-tile.half_x_m, -tile.half_z_m, tile.half_x_m, tile.half_z_m)
+        for other, place in beside:
+            x, z = other.x_m - tile.x_m, other.z_m - tile.z_m
+            own.append(tuple((px + x, pz + z) for px, pz in stall_outline(other, place.row, place.slot)))
+        parts = (ground.intersection(shapely.Polygon(outline)) for outline in own)
+        return tuple(
+            tuple((round(px, 6), round(pz, 6)) for px, pz in part.exterior.coords[:-1])
+            for part in parts
+            if part.area > _LEAST_OPENING_M2
+        )
+
     def clear_width_m(self, tile: Tile) -> float:
         """Width of a straight lane's carriageway across its axis."""
         across = (Edge.UP, Edge.DOWN) if tile.axis_is_x else (Edge.LEFT, Edge.RIGHT)
@@ -188,21 +220,32 @@ def ceiling_panel(tile: Tile, fittings: FittingsConfig) -> Placement:
     return Placement("Ceiling", spec, position, square=tile.square)
 
 
-def stall_rectangle(tile: Tile, row: StallRow, slot: int, bay: BayConfig) -> Polygon:
-    """The rectangle of one stall of a row in the tile's coordinates."""
-    start = row_start_m(row, bay) + slot * bay.stall_width_m
-    return row_rectangle(tile, row.edge, start, start + bay.stall_width_m, (0.0, bay.stall_length_m))
+def stall_outline(tile: Tile, row: StallRow, slot: int) -> Polygon:
+    """The rectangle or parallelogram of one stall of a row in the tile's coordinates."""
+    start, shape = row.starts_m[slot], row.shape
+    return row_strip(tile, row, start, start + shape.pitch_m, (0.0, shape.depth_m))
+
+
+def row_strip(tile: Tile, row: StallRow, start: float, end: float, depth: tuple[float, float]) -> Polygon:
+    """A strip of a row on a tile, as far inside the mouths as given, which leans as its stalls do."""
+    lean = row.lean * row.shape.slope
+    if not lean:
+        return row_rectangle(tile, row.edge, start, end, depth)
+    near, far = depth
+    corners = (start, near), (end, near), (end, far), (start, far)
+    return tuple(row_point(tile, row.edge, along + lean * inside, inside) for along, inside in corners)
+
+
+def row_point(tile: Tile, edge: Edge, along_m: float, inside_m: float) -> Point:
+    """A point on a tile by how far it lies along an edge, from the edge's middle, and inside it."""
+    x, z, *_ = box_inside(edge, (tile.half_x_m, tile.half_z_m), (along_m, along_m), (inside_m, inside_m))
+    return round(x, 6), round(z, 6)
 
 
 def row_rectangle(tile: Tile, edge: Edge, start: float, end: float, depth: tuple[float, float]) -> Polygon:
     """A rectangle on a tile by how far it lies inside one edge, from `start` to `end` along that."""
     box = box_inside(edge, (tile.half_x_m, tile.half_z_m), (start, end), depth)
     return rectangle(*(round(side, 6) for side in box))
-
-
-def row_start_m(row: StallRow, bay: BayConfig) -> float:
-    """Where a row begins along its edge, from the edge's middle."""
-    return -row.count * bay.stall_width_m / 2
 
 
 def _by_edge(row: int, col: int, test: Callable[[Square, Edge], bool]) -> tuple[bool, bool, bool, bool]:

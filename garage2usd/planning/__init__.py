@@ -7,6 +7,7 @@ from garage2usd.planning.plan import ArchivedPlan, Plan, given_plan
 from garage2usd.planning.planner import plan_lanes
 from garage2usd.planning.principles import Principles, principles
 from garage2usd.planning.score import Score, evaluate, is_feasible
+from garage2usd.planning.stall_kinds import runs_of_settings, settings_of_runs, with_stall_kinds
 from garage2usd.planning.tape import play, rank_of, tape_at, tape_of
 
 __all__ = [
@@ -30,6 +31,9 @@ __all__ = [
     "play",
     "principles",
     "rank_of",
+    "runs_of_settings",
+    "settings_of_runs",
     "tape_at",
     "tape_of",
+    "with_stall_kinds",
 ]

@@ -27,6 +27,8 @@ __all__ = [
     "dimension",
     "dimensioned",
     "free_sides_mm",
+    "lines_with_aisles",
+    "lines_with_doors",
     "sizes_of",
 ]
 
@@ -71,8 +73,8 @@ def dimension(structure: Structure, *, bay: BayConfig, rows: bool = True, column
     """
     aisle, free_sizes = aisle_side_mm(bay), free_sides_mm(bay)
     door = round(bay.portal_side_m * _MM_PER_M)
-    is_aisle = [driven.any(axis=axis) for driven, axis in zip(_driven(structure.cells), (1, 0), strict=True)]
-    has_door = _crossed_by_doors(structure.cells)
+    is_aisle = lines_with_aisles(structure)
+    has_door = lines_with_doors(structure)
 
     def allowed(axis: int, line: int) -> list[int]:
         least = door if has_door[axis][line] else 0
@@ -104,6 +106,12 @@ def dimensioned(structure: Structure, bay: BayConfig) -> Structure:
     """Choose R and C where the settings give none; S stays."""
     rows, columns = bay.chosen_sides
     return dimension(structure, bay=bay, rows=rows, columns=columns) if rows or columns else structure
+
+
+def lines_with_aisles(structure: Structure) -> tuple[Mask, Mask]:
+    """Mark the rows, and the columns, along which cars drive on some square."""
+    along_x, along_z = _driven(structure.cells)
+    return along_x.any(axis=1), along_z.any(axis=0)
 
 
 def aisle_side_mm(bay: BayConfig) -> int:
@@ -195,10 +203,10 @@ def _stalls_held(sizes_mm: tuple[int, ...], bay: BayConfig) -> tuple[dict[int, d
     )
 
 
-def _crossed_by_doors(cells: CellArray) -> tuple[Mask, Mask]:
+def lines_with_doors(structure: Structure) -> tuple[Mask, Mask]:
     """Mark the rows and the columns with a vehicle door across their end."""
-    rows, columns = (np.zeros(count, dtype=np.bool_) for count in cells.shape)
-    for (row, col), edge in door_edges(cells).items():
+    rows, columns = (np.zeros(count, dtype=np.bool_) for count in structure.shape)
+    for (row, col), edge in door_edges(structure.cells).items():
         if edge in {Edge.UP, Edge.DOWN}:
             columns[col] = True
         else:

@@ -11,6 +11,7 @@ from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning.dimensions import dimensioned
 from garage2usd.planning.score import Score, evaluate
 from garage2usd.structure.grid import Structure
+from garage2usd.structure.stall_runs import StallRun
 
 __all__ = ["ArchivedPlan", "Plan", "given_plan"]
 
@@ -52,6 +53,8 @@ class Plan:
         Actions taken while learning.
     gave_way
         Broken rules of circulation by name, each with place and amount.
+    runs
+        Kinds and sizes of the stalls, run by run; empty if all are perpendicular and of the standard size.
     """
 
     structure: Structure
@@ -61,6 +64,7 @@ class Plan:
     learnt: ArchivedPlan | None = None
     steps: int = 0
     gave_way: Mapping[str, str] = field(default_factory=dict)
+    runs: tuple[StallRun, ...] = ()
 
     def __post_init__(self) -> None:
         """Keep read-only copies of the curve and of the rules that gave way."""
@@ -72,7 +76,7 @@ class Plan:
     def __reduce__(self) -> tuple[object, ...]:
         """Pickle the fields: read-only mappings cannot be pickled, and arrays forget that they are read-only."""
         fields = self.structure, self.score, self.archive, self.learning_curve, self.learnt, self.steps
-        return type(self), (*fields, dict(self.gave_way))
+        return type(self), (*fields, dict(self.gave_way), self.runs)
 
 
 def given_plan(structure: Structure, *, bay: BayConfig, plan: PlanConfig | None = None) -> Plan:

@@ -1,12 +1,14 @@
 """The score of a structure: y' = N_S - 5 T_S - U_S."""
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.structure.stall_runs import StallRun, capacity_of_runs
 from garage2usd.structure.stalls import square_capacity
 
 __all__ = ["Score", "evaluate", "is_feasible"]
@@ -40,7 +42,9 @@ class Score:
         return self.parking_time_squares * square_side_m / speed_m_s
 
 
-def evaluate(structure: Structure, *, bay: BayConfig, plan: PlanConfig | None = None) -> Score:
+def evaluate(
+    structure: Structure, *, bay: BayConfig, plan: PlanConfig | None = None, runs: Sequence[StallRun] = ()
+) -> Score:
     """Score a complete structure, independently of the compiled planner.
 
     Parameters
@@ -51,6 +55,8 @@ def evaluate(structure: Structure, *, bay: BayConfig, plan: PlanConfig | None = 
         Size of the stalls.
     plan
         Its three weights; the paper's if left out.
+    runs
+        Kinds of the stalls; without any, all are perpendicular.
 
     Notes
     -----
@@ -62,7 +68,7 @@ def evaluate(structure: Structure, *, bay: BayConfig, plan: PlanConfig | None = 
     are counted instead.
     """
     plan = plan or PlanConfig()
-    capacity = square_capacity(structure, bay)
+    capacity = capacity_of_runs(structure, bay, runs) if runs else square_capacity(structure, bay)
     hops = _lane_hops(structure)
     farthest = max(hops.values(), default=0)
     total = 0

@@ -9,6 +9,7 @@ from garage2usd.common.documents import MAX_REPORT_BYTES, read_text
 from garage2usd.common.errors import ConfigError, ReportError
 from garage2usd.common.settings import Record, first_fault
 from garage2usd.config import GarageConfig, LookConfig, config_from_mapping
+from garage2usd.config.stalls import GivenRun
 from garage2usd.layout.ceiling.lighting import LightLevels
 from garage2usd.planning import Principles, Score
 
@@ -134,6 +135,7 @@ class Report(Record):
     S: tuple[str, ...]
     R: tuple[float, ...]
     C: tuple[float, ...]
+    stall_runs: tuple[GivenRun, ...] = ()
     score: Score | None = None
     learning: LearningFigures | None = None
     principles: Principles | None = None
@@ -164,7 +166,9 @@ class Report(Record):
         settings = self.config.model_dump(mode="json")
         sizes = {"column_widths_m": self.R, "row_depths_m": self.C, "dimensioned": False}
         site = {"structure": "\n".join(self.S)}
-        return config_from_mapping({**settings, "seed": self.seed, "bay": {**settings["bay"], **sizes}, "site": site})
+        stalls = {**settings["stalls"], "runs": self.stall_runs, "only_runs": bool(self.stall_runs)}
+        bay = {**settings["bay"], **sizes}
+        return config_from_mapping({**settings, "seed": self.seed, "bay": bay, "stalls": stalls, "site": site})
 
 
 def read_report(path: Path) -> Report:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from pxr import Kind, Sdf, UsdGeom, Vt
 
 from garage2usd.garage import LaneGraph
-from garage2usd.layout import Layout, StallTable
+from garage2usd.layout import Layout
 from garage2usd.layout.parking.stall_table import EDGES, STALL_TYPES, STALL_USES
 from garage2usd.reading.lanes import GUIDE_LIFT_M
 from garage2usd.stage.authoring import attribute, define, new_layer, numbers, words
@@ -77,7 +77,7 @@ def _author_edges(layer: Sdf.Layer, path: Sdf.Path, lanes: LaneGraph) -> None:
 
 def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneSquares) -> None:
     stalls = layout.stalls
-    prim = _author_curves(layer, path, _outlines_m(stalls), closed=True)
+    prim = _author_curves(layer, path, stalls.outlines_m(), closed=True)
     words(prim, "garage:stall:id", stalls.names())
     words(prim, "garage:stall:number", stalls.number.astype(np.str_).tolist())
     for name, choices, column in (
@@ -92,16 +92,6 @@ def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: Lane
     numbers(prim, OCCUPIED, layout.are_occupied().astype(np.int32))
     if layout.blocked:
         words(prim, BLOCKED_BY, (layout.blocked.get(name, "") for name in stalls.names()))
-
-
-def _outlines_m(stalls: StallTable) -> NDArray[np.float64]:
-    """Corners (x, z) of stalls as `Stall.corners_m` has them; float64, shape (stalls, 4, 2)."""
-    x, z = stalls.centre_m.T[:, :, None]
-    half_width, half_length = stalls.size_m.T[:, :, None] / 2
-    yaw = stalls.yaw_rad[:, None]
-    across, along = np.array([-1, 1, 1, -1]) * half_width, np.array([1, 1, -1, -1]) * half_length
-    cos, sin = np.cos(yaw), np.sin(yaw)
-    return np.stack([x + across * cos + along * sin, z - across * sin + along * cos], axis=2)
 
 
 def _author_squares(prim: Sdf.PrimSpec, namespace: str, squares: NDArray[np.int32]) -> None:

@@ -14,6 +14,7 @@ from garage2usd.config import BayConfig
 from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, LaneNode
 from garage2usd.structure.border import bordered
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.structure.stall_runs import StallRun, rows_of_runs
 from garage2usd.structure.stalls import StallRow, stall_rows
 
 __all__ = ["LaneSquares", "Square", "StallType", "build_lane_graph", "unproven_lane_graph"]
@@ -111,20 +112,27 @@ class LaneSquares:
         return {str(kind): counts[str(kind)] for kind in (*LaneKind, *StallType)}
 
 
-def build_lane_graph(structure: Structure, bay: BayConfig) -> LaneSquares:
+def build_lane_graph(structure: Structure, bay: BayConfig, runs: Sequence[StallRun] = ()) -> LaneSquares:
     """Build the lane graph of a complete structure and prove that every stall is reached.
+
+    Parameters
+    ----------
+    structure, bay
+        The structure, and the size of its stalls.
+    runs
+        Kinds of the stalls; without any, all are perpendicular.
 
     Raises
     ------
     UnreachableStallError
         If a stall's lane has no route over lanes from an entrance and to an exit.
     """
-    lanes = unproven_lane_graph(structure, bay)
+    lanes = unproven_lane_graph(structure, bay, runs)
     _check_reachability(structure, lanes.graph, lanes.stall_rows)
     return lanes
 
 
-def unproven_lane_graph(structure: Structure, bay: BayConfig) -> LaneSquares:
+def unproven_lane_graph(structure: Structure, bay: BayConfig, runs: Sequence[StallRun] = ()) -> LaneSquares:
     """Build the lane graph of any structure with lanes, without a proof that stalls are reached.
 
     Notes
@@ -134,9 +142,8 @@ def unproven_lane_graph(structure: Structure, bay: BayConfig) -> LaneSquares:
     entrance as two lanes, so lane and portal neighbours are counted instead.
     """
     graph = _typed_graph(structure)
-    return LaneSquares(
-        structure, bay.carriageway_setback_m, nx.freeze(graph), _stall_types(structure), stall_rows(structure, bay)
-    )
+    rows = rows_of_runs(structure, bay, runs) if runs else stall_rows(structure, bay)
+    return LaneSquares(structure, bay.carriageway_setback_m, nx.freeze(graph), _stall_types(structure), rows)
 
 
 def _typed_graph(structure: Structure) -> "nx.Graph[Square]":

@@ -1,11 +1,13 @@
 """Stall capacity of squares, shared by the score of a structure and its layout.
 
 A free square is served through an edge that it shares with a lane. Stalls are side by side along that edge, between
-the columns on its two ends, with their length across the square.
+the columns on its two ends, with their length across the square. `garage2usd.structure.stall_runs` has the stalls of
+other shapes, which are laid out along several squares.
 """
 
 from dataclasses import dataclass
 from enum import IntEnum
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +15,7 @@ from numpy.typing import NDArray
 from garage2usd.config.site import BayConfig
 from garage2usd.structure.border import bordered
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, CellArray, Mask, Structure
+from garage2usd.structure.stall_shapes import StallShape
 
 __all__ = ["CapacityTable", "Edge", "StallRow", "capacity_table", "served_capacity", "square_capacity", "stall_rows"]
 
@@ -68,12 +71,33 @@ class CapacityTable:
 
 @dataclass(frozen=True, slots=True)
 class StallRow:
-    """Stalls side by side on one square, all with their mouth on one edge."""
+    """Stalls side by side on one square, all of one shape and with their mouth on one edge.
+
+    Attributes
+    ----------
+    row, col
+        The square.
+    edge
+        The edge of the square with the mouths.
+    shape
+        Shape of the stalls.
+    starts_m
+        Where the mouth of each stall begins along the edge, from the edge's middle and towards +X or +Z.
+    lean
+        Direction along the edge in which angled stalls lean from mouth to rear: 1 towards +X or +Z, else -1.
+    """
 
     row: int
     col: int
     edge: Edge
-    count: int
+    shape: StallShape
+    starts_m: tuple[float, ...]
+    lean: int = 1
+
+    @property
+    def count(self) -> int:
+        """Number of stalls."""
+        return len(self.starts_m)
 
     @property
     def square(self) -> tuple[int, int]:
@@ -115,8 +139,8 @@ def served_capacity(cells: CellArray, table: CapacityTable) -> NDArray[np.int64]
 
 
 def stall_rows(structure: Structure, bay: BayConfig) -> tuple[StallRow, ...]:
-    """Return the stall rows of a structure, in reading order; up and down win a tie over left and right."""
-    table = capacity_table(structure, bay)
+    """Return the perpendicular rows of a structure in reading order; up and down win a tie over left and right."""
+    table, shape = capacity_table(structure, bay), StallShape(bay.stall_width_m, bay.stall_length_m)
     along_x, along_z = _served(structure.cells, table)
     lane = _open_edges(structure.cells == Cell.LANE)
     rows: list[StallRow] = []
@@ -126,8 +150,16 @@ def stall_rows(structure: Structure, bay: BayConfig) -> tuple[StallRow, ...]:
         single = int((table.along_x if upright else table.along_z)[row, col])
         total = int((along_x if upright else along_z)[row, col])
         opened = [edge for edge in edges if lane[edge][row, col]]
-        rows.extend(StallRow(row, col, edge, single) for edge in opened[: total // single])
+        starts_m = _centred(single, shape.pitch_m)
+        rows.extend(StallRow(row, col, edge, shape, starts_m) for edge in opened[: total // single])
     return tuple(rows)
+
+
+@lru_cache(maxsize=256)
+def _centred(count: int, pitch_m: float) -> tuple[float, ...]:
+    """Return where the stalls of a row begin from its middle."""
+    first_m = -count * pitch_m / 2
+    return tuple(first_m + slot * pitch_m for slot in range(count))
 
 
 def _open_edges(mask: Mask) -> tuple[Mask, Mask, Mask, Mask]:

@@ -1,12 +1,15 @@
 """Stair cores: where people leave on foot, and which stalls give way to them."""
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
 from garage2usd.config import GarageConfig
 from garage2usd.config.look import NATURAL, WallsLook
+from garage2usd.garage import StallKind
 from garage2usd.layout.placement import Placement, box_inside, edge_yaw_rad, placed, rounded, stall_name, to_world
 from garage2usd.layout.tiles import Tile
 from garage2usd.objects.obstacle import ObstacleSpec
@@ -14,6 +17,7 @@ from garage2usd.objects.outline import Box, Point
 from garage2usd.profiles import Profile
 from garage2usd.structure.grid import Cell, Structure, outside_squares
 from garage2usd.structure.lane_graph import LaneSquares, Square
+from garage2usd.structure.stall_shapes import StallShape
 from garage2usd.structure.stalls import Edge, StallRow
 
 __all__ = ["Core", "core_candidates", "core_placements", "obstacle_cores"]
@@ -85,6 +89,13 @@ class Core:
         return round(left, 6), round(top, 6), round(right, 6), round(bottom, 6)
 
     @property
+    def ground(self) -> shapely.Polygon:
+        """Its outline (x, z) with the floor between its door and the lane."""
+        x, near, far = self.width_m / 2, self.depth_m / 2 + self.recess_m, -self.depth_m / 2
+        corners = ((-x, near), (x, near), (x, far), (-x, far))
+        return shapely.Polygon([to_world(corner, self.centre_m, edge_yaw_rad(self.edge)) for corner in corners])
+
+    @property
     def door_m(self) -> Point:
         """(x, z) of the middle of its door."""
         return to_world((0.0, self.depth_m / 2), self.centre_m, edge_yaw_rad(self.edge))
@@ -134,40 +145,78 @@ def core_candidates(structure: Structure, graph: LaneSquares, config: GarageConf
 
     One takes the place of as many stalls as it needs; the car in the next one keeps its distance from the wall.
     """
-    ordinals: dict[Square, int] = {}
+    named = _named_rows(graph)
+    leaning = _leaning_grounds(structure, named)
+    for core in _candidates(structure, graph, named, config):
+        ground = core.ground
+        if not any(shapely.intersects(ground, stall) for name, stall in leaning.items() if name not in core.stalls):
+            yield core
+
+
+_NamedRows = Mapping[tuple[Square, Edge], tuple[StallRow, tuple[str, ...]]]
+
+
+def _named_rows(graph: LaneSquares) -> _NamedRows:
+    """Each row by its square and edge, with the names of its stalls."""
+    ordinals: Counter[Square] = Counter()
+    named = {}
     for row in graph.stall_rows:
-        square = row.square
-        first = ordinals.get(square, 1)
-        ordinals[square] = first + row.count
-        names = tuple(stall_name(square, first + index) for index in range(row.count))
-        yield from _in_row(structure, row, names, config)
+        first = ordinals[row.square] + 1
+        ordinals[row.square] += row.count
+        names = tuple(stall_name(row.square, first + index) for index in range(row.count))
+        named[row.square, row.edge] = row, names
+    return named
+
+
+def _candidates(structure: Structure, graph: LaneSquares, named: _NamedRows, config: GarageConfig) -> Iterator[Core]:
+    """All candidates, also those that an angled stall of a square beside leans into."""
+    for row, names in named.values():
+        if row.shape.kind is StallKind.PERPENDICULAR:
+            yield from _in_row(structure, row, names, config)
+        else:
+            yield from _across_rows(structure, row, named, config)
+    shape = StallShape(config.bay.stall_width_m, config.bay.stall_length_m)
+    with_stalls = {square for square, _ in named}
     for square in structure.where(Cell.FREE):
-        if square not in ordinals:
-            for edge in Edge:
-                if edge.beyond(square) in graph.graph and structure.cells[edge.beyond(square)] == Cell.LANE:
-                    yield from _in_row(structure, StallRow(*square, edge, 0), (), config)
+        for edge in Edge if square not in with_stalls else ():
+            if edge.beyond(square) in graph.graph and structure.cells[edge.beyond(square)] == Cell.LANE:
+                yield from _in_row(structure, StallRow(*square, edge, shape, ()), (), config)
+
+
+def _leaning_grounds(structure: Structure, named: _NamedRows) -> dict[str, shapely.Polygon]:
+    """Ground (x, z) of each angled stall by its name."""
+    x, z = structure.column_edges_m, structure.row_edges_m
+    grounds = {}
+    for row, names in named.values():
+        if not row.shape.slope:
+            continue
+        left, top, right, bottom = (float(at) for at in (x[row.col], z[row.row], x[row.col + 1], z[row.row + 1]))
+        half, depth = ((right - left) / 2, (bottom - top) / 2), row.shape.depth_m
+        lean = row.lean * row.shape.slope * depth
+        for name, start in zip(names, row.starts_m, strict=True):
+            end = start + row.shape.pitch_m
+            corners = ((start, 0.0), (end, 0.0), (end + lean, depth), (start + lean, depth))
+            boxes = (box_inside(row.edge, half, (along, along), (inside, inside)) for along, inside in corners)
+            grounds[name] = shapely.Polygon(
+                [((left + right) / 2 + box[0], (top + bottom) / 2 + box[1]) for box in boxes]
+            )
+    return grounds
 
 
 def _in_row(structure: Structure, row: StallRow, names: tuple[str, ...], config: GarageConfig) -> Iterator[Core]:
     """The cores that fit the two ends of a row of stalls."""
-    bay = config.bay
-    sides_m = structure.column_widths_mm[row.col] / 1000, structure.row_depths_mm[row.row] / 1000
-    side_m, across_m = (float(side) for side in (sides_m if row.edge.along_x else sides_m[::-1]))
-    depth_m = min(bay.stall_length_m, across_m) - RECESS_M - _FROM_REAR_M
-    if depth_m < _LEAST_DEPTH_M:
+    room = _room_m(structure, row, config)
+    if room is None:
         return
-    low, high = (
-        sign * (side_m / 2 - (bay.column_size_m / 2 + _FROM_COLUMN_M) * _is_inside(structure, edge.beyond(row.square)))
-        for sign, edge in zip((-1, 1), row.edge.ends, strict=True)
-    )
-    taken = min(_MOST_STALLS, row.count)
-    start = -row.count * bay.stall_width_m / 2
-    gap = _gap_to_stalls_m(bay.stall_width_m, config.standard)
+    low, high, depth_m = room
+    taken, width_m = min(_MOST_STALLS, row.count), row.shape.width_m
+    start = -row.count * width_m / 2
+    gap = _gap_to_stalls_m(width_m, config.standard)
     spans: tuple[tuple[float, float, tuple[str, ...]], ...] = ((low, high, names),)
     if taken < row.count:
         spans = (
-            (low, start + taken * bay.stall_width_m - gap, names[:taken]),
-            (-start - taken * bay.stall_width_m + gap, high, names[-taken:]),
+            (low, start + taken * width_m - gap, names[:taken]),
+            (-start - taken * width_m + gap, high, names[-taken:]),
         )
     for left, right, stalls in spans:
         width = min(right - left, _MOST_WIDTH_M)
@@ -176,6 +225,62 @@ def _in_row(structure: Structure, row: StallRow, names: tuple[str, ...], config:
         # against the column or the wall, or in the middle where no stall is left
         middle = (left + right) / 2 if taken == row.count else left + width / 2 if left == low else right - width / 2
         yield _core(structure, row, (middle, width, depth_m), stalls)
+
+
+def _across_rows(
+    structure: Structure,
+    row: StallRow,
+    named: _NamedRows,
+    config: GarageConfig,
+) -> Iterator[Core]:
+    """The cores at the two ends of a square with angled or parallel stalls, in place of all that they would touch."""
+    room = _room_m(structure, row, config)
+    if room is None:
+        return
+    low, high, depth_m = room
+    width = min(high - low, _MOST_WIDTH_M)
+    if width < _LEAST_WIDTH_M:
+        return
+    gap = _gap_to_stalls_m(row.shape.width_m, config.standard)
+    spans = list(_spans_m(structure, row, named, RECESS_M + depth_m))
+    for left in dict.fromkeys((low, high - width)):
+        touched = tuple(name for name, start, end in spans if start < left + width + gap and end > left - gap)
+        yield _core(structure, row, (left + width / 2, width, depth_m), touched)
+
+
+def _spans_m(
+    structure: Structure,
+    row: StallRow,
+    named: _NamedRows,
+    depth_m: float,
+) -> Iterator[tuple[str, float, float]]:
+    """Name and extent along a row, from its square's middle, of its stalls and of those on the squares beside it."""
+    edges_m = structure.column_edges_m if row.edge.along_x else structure.row_edges_m
+    at = row.col if row.edge.along_x else row.row
+    for step, end in ((0, None), (-1, row.edge.ends[0]), (1, row.edge.ends[1])):
+        square = row.square if end is None else end.beyond(row.square)
+        other, names = named.get((square, row.edge), (None, ()))
+        if other is None:
+            continue
+        off_m = float(edges_m[at + step] + edges_m[at + step + 1] - edges_m[at] - edges_m[at + 1]) / 2
+        lean = other.lean * other.shape.slope * min(depth_m, other.shape.depth_m)
+        for name, start in zip(names, other.starts_m, strict=True):
+            yield name, off_m + start + min(lean, 0.0), off_m + start + other.shape.pitch_m + max(lean, 0.0)
+
+
+def _room_m(structure: Structure, row: StallRow, config: GarageConfig) -> tuple[float, float, float] | None:
+    """From where to where a core may reach along a row's square, from its middle, and its depth; None if too small."""
+    bay = config.bay
+    sides_m = structure.column_widths_mm[row.col] / 1000, structure.row_depths_mm[row.row] / 1000
+    side_m, across_m = (float(side) for side in (sides_m if row.edge.along_x else sides_m[::-1]))
+    depth_m = min(bay.stall_length_m, across_m) - RECESS_M - _FROM_REAR_M
+    if depth_m < _LEAST_DEPTH_M:
+        return None
+    low, high = (
+        sign * (side_m / 2 - (bay.column_size_m / 2 + _FROM_COLUMN_M) * _is_inside(structure, edge.beyond(row.square)))
+        for sign, edge in zip((-1, 1), row.edge.ends, strict=True)
+    )
+    return low, high, depth_m
 
 
 def _core(structure: Structure, row: StallRow, place: tuple[float, float, float], stalls: tuple[str, ...]) -> Core:

@@ -80,7 +80,7 @@ def plan_egress(structure: Structure, graph: LaneSquares, config: GarageConfig, 
         return Egress(compartments, cores)
     exits = profile.personnel_exits.amount if profile.personnel_exits else _EXITS
     reach = profile.way_out(sprinklered=sprinklered)
-    stalls = _stalls_by_compartment(structure, graph, config, compartments)
+    stalls = _stalls_by_compartment(structure, graph, compartments)
     places = _places_by_compartment(structure, graph, config, compartments)
     budget = sum(len(points) for points in stalls.values()) // _STALLS_FOR_ONE
     for number, points in sorted(stalls.items()):
@@ -148,22 +148,22 @@ def _reach_m(clause: Length | None) -> float:
 
 
 def _stalls_by_compartment(
-    structure: Structure, graph: LaneSquares, config: GarageConfig, compartments: NDArray[np.int32]
+    structure: Structure, graph: LaneSquares, compartments: NDArray[np.int32]
 ) -> dict[int, Points]:
     """Middles of the stalls in each compartment."""
     points: dict[int, list[tuple[float, float]]] = defaultdict(list)
     for row in graph.stall_rows:
-        points[int(compartments[row.square])] += _middles(structure, row, config)
+        points[int(compartments[row.square])] += _middles(structure, row)
     return {number: np.array(middles) for number, middles in points.items()}
 
 
-def _middles(structure: Structure, row: StallRow, config: GarageConfig) -> list[tuple[float, float]]:
+def _middles(structure: Structure, row: StallRow) -> list[tuple[float, float]]:
     x, z = structure.column_edges_m, structure.row_edges_m
     left, top, right, bottom = (float(v) for v in (x[row.col], z[row.row], x[row.col + 1], z[row.row + 1]))
-    half, deep = ((right - left) / 2, (bottom - top) / 2), config.bay.stall_length_m / 2
+    half, deep = ((right - left) / 2, (bottom - top) / 2), row.shape.depth_m / 2
     middles = []
-    for slot in range(row.count):
-        along = (slot - (row.count - 1) / 2) * config.bay.stall_width_m
+    for start in row.starts_m:
+        along = start + row.shape.pitch_m / 2
         off_x, off_z, *_ = box_inside(row.edge, half, (along, along), (deep, deep))
         middles.append(((left + right) / 2 + off_x, (top + bottom) / 2 + off_z))
     return middles

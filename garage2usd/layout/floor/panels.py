@@ -31,9 +31,7 @@ from garage2usd.layout.tiles import (
     Tile,
     TileGrid,
     lane_edges,
-    row_rectangle,
-    row_start_m,
-    stall_rectangle,
+    row_strip,
 )
 from garage2usd.objects.floor import FloorSpec
 from garage2usd.objects.outline import Polygon
@@ -73,7 +71,7 @@ def drawn_markings_of(grid: TileGrid, look: MarkingsLook, draws: SquareDraws) ->
     ghosts, zebras = {}, []
     for tile in grid:
         shows, row, crosses = numbers[tile.square].tolist()
-        if tile.square in grid.stall_places and shows < look.ghosts:
+        if grid.has_upright_stalls(tile.square) and shows < look.ghosts:
             ghosts[tile.square] = int(row * GHOST_ROWS)
         elif tile.cell is Cell.LANE and tile.axis_is_x is not None and crosses < look.zebra:
             zebras.append(tile.square)
@@ -102,22 +100,22 @@ class _Panels:
             return (*self._row_ends(tile, places), *stripes(*core.landing(tile)))
         if not places:
             return hatching(tile.half_x_m, tile.half_z_m)
-        hatched = row_end_hatching(tile, places, self.bay, self.look) if self.look.hatching else ()
+        hatched = row_end_hatching(tile, places, self.look) if self.look.hatching else ()
         return (*self._row_ends(tile, places), *hatched)
 
     def openings(self, tile: Tile) -> tuple[Polygon, ...]:
         """Where stalls lie on a square."""
-        places = self.grid.stall_places.get(tile.square, []) if tile.cell is Cell.FREE else []
-        return tuple(stall_rectangle(tile, place.row, place.slot, self.bay) for place in places)
+        return self.grid.openings(tile) if tile.cell is Cell.FREE else ()
 
     def _row_ends(self, tile: Tile, places: list[StallPlace]) -> Iterator[Marking]:
         """The outer half of the lines beside stalls that have no other one there."""
-        half_line, spans = self.look.line_width_m / 2, outer_spans(self.bay.stall_length_m, self.look)
+        half_line = self.look.line_width_m / 2
         for place in places:
-            start = row_start_m(place.row, self.bay) + place.slot * self.bay.stall_width_m
-            ends = [start - half_line] * place.is_first + [start + self.bay.stall_width_m] * place.is_last
+            row, start = place.row, place.row.starts_m[place.slot]
+            spans = outer_spans(row.shape.depth_m, self.look)
+            ends = [start - half_line] * place.is_first + [start + row.shape.pitch_m] * place.is_last
             for end, span in itertools.product(ends, spans):
-                shape = row_rectangle(tile, place.row.edge, end, end + half_line, span)
+                shape = row_strip(tile, row, end, end + half_line, span)
                 yield Marking(shape, Surface.PAINT_STALL, Paint.STALL_LINE)
 
     def _lane(self, tile: Tile, *, has_bump: bool, crossing_m: float | None) -> Iterator[Marking]:
@@ -180,9 +178,9 @@ class _Panels:
             if not tile.stall_mouths[edge] or beyond not in self.drawn.ghosts:
                 continue
             count = max(place.row.count for place in self.grid.stall_places[beyond])
-            bay, half = self.bay, (tile.half_x_m, tile.half_z_m)
-            stall = bay.stall_width_m, bay.stall_length_m
-            row_half = count * bay.stall_width_m / 2
+            shape, half = self.grid.stall_places[beyond][0].row.shape, (tile.half_x_m, tile.half_z_m)
+            stall = shape.width_m, shape.length_m
+            row_half = count * shape.width_m / 2
             yield from ghosts_on_lane(self.drawn.ghosts[beyond], edge, half, row_half, stall, self.look.line_width_m)
 
 

@@ -2,9 +2,9 @@
 
 import shapely
 
-from garage2usd.config import BayConfig
 from garage2usd.config.look import MarkingsLook
-from garage2usd.layout.tiles import StallPlace, Tile, row_rectangle, row_start_m
+from garage2usd.garage import StallKind
+from garage2usd.layout.tiles import StallPlace, Tile, row_rectangle
 from garage2usd.objects.outline import rectangle
 from garage2usd.objects.panel import Marking, Paint, Surface
 
@@ -16,15 +16,16 @@ _STRIPE_M, _PERIOD_M = 0.14, 0.62
 _LEAST_M2 = 1e-4
 
 
-def row_end_hatching(tile: Tile, places: list[StallPlace], bay: BayConfig, look: MarkingsLook) -> tuple[Marking, ...]:
+def row_end_hatching(tile: Tile, places: list[StallPlace], look: MarkingsLook) -> tuple[Marking, ...]:
     """The hatching between the outermost stalls of a square and its sides; that of two squares meets in angles."""
     markings: list[Marking] = []
-    line, length = look.line_width_m, bay.stall_length_m
+    line = look.line_width_m
     for place in places:
-        edge, count = place.row.edge, place.row.count
-        half = tile.half_x_m if edge.along_x else tile.half_z_m
-        start = row_start_m(place.row, bay)
-        inner = -start + line / 2
+        row, edge, count = place.row, place.row.edge, place.row.count
+        if row.shape.kind is StallKind.ANGLED:
+            continue
+        half, length = tile.half_x_m if edge.along_x else tile.half_z_m, row.shape.depth_m
+        inner = -row.starts_m[0] + line / 2
         if half - inner < _LEAST_M:
             continue
         ends = [-1] * (place.is_first and place.slot == 0) + [1] * (place.is_last and place.slot == count - 1)

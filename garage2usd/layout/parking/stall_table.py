@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.layout.placement import PlacedStall, StallUse, stall_name
+from garage2usd.layout.placement import PlacedStall, StallUse, outline_of, stall_name
 from garage2usd.layout.table import Table
 from garage2usd.structure.grid import NEIGHBOUR_STEPS
 from garage2usd.structure.lane_graph import StallType
@@ -34,6 +34,10 @@ class StallTable(Table[PlacedStall]):
         (x, z) of the middle, and width and length; float64, shape (n, 2).
     yaw_rad
         Turn of each about +Y; float64, shape (n,).
+    angle_deg
+        Angle of the long sides of each to its lane; float64, shape (n,).
+    turn
+        1 for each that is entered by a turn to the right, else -1; int8, shape (n,).
     number
         What people read, as ASCII; shape (n,).
     """
@@ -48,6 +52,8 @@ class StallTable(Table[PlacedStall]):
         self.centre_m = np.array([stall.centre_m for stall in stalls], dtype=np.float64).reshape(-1, 2)
         self.size_m = np.array([(stall.width_m, stall.length_m) for stall in stalls]).reshape(-1, 2)
         self.yaw_rad = np.array([stall.yaw_rad for stall in stalls], dtype=np.float64)
+        self.angle_deg = np.array([stall.angle_deg for stall in stalls], dtype=np.float64)
+        self.turn = np.array([stall.turn for stall in stalls], dtype=np.int8)
         self.number = np.array([stall.number for stall in stalls], dtype=np.bytes_)
 
     def __len__(self) -> int:
@@ -64,6 +70,17 @@ class StallTable(Table[PlacedStall]):
         """(row, col) of the lane square beyond each one's mouth; int32, shape (n, 2)."""
         beyond: NDArray[np.int32] = self.square + np.array(NEIGHBOUR_STEPS, dtype=np.int32)[self.edge]
         return beyond
+
+    def outlines_m(self) -> NDArray[np.float64]:
+        """Corners (x, z) of each, as `PlacedStall.corners_m` has them; float64, shape (n, 4, 2)."""
+        half = self.size_m / 2
+        shapes = np.column_stack([half, self.angle_deg, self.turn])
+        distinct, number_of = np.unique(shapes, axis=0, return_inverse=True)
+        outlines = [outline_of((2 * x, 2 * z), angle_deg, int(turn)) for x, z, angle_deg, turn in distinct.tolist()]
+        across, along = np.array(outlines).reshape(-1, 4, 2)[number_of.ravel()].transpose(2, 0, 1)
+        x, z = self.centre_m.T[:, :, None]
+        cos, sin = np.cos(self.yaw_rad)[:, None], np.sin(self.yaw_rad)[:, None]
+        return np.stack([x + across * cos + along * sin, z - across * sin + along * cos], axis=2)
 
     def names(self) -> list[str]:
         """Ids of all stalls."""
@@ -82,6 +99,8 @@ class StallTable(Table[PlacedStall]):
             self.yaw_rad,
             self.use,
             self.number,
+            self.angle_deg,
+            self.turn,
         )
         return [
             PlacedStall(
@@ -95,8 +114,11 @@ class StallTable(Table[PlacedStall]):
                 yaw_rad=yaw,
                 use=STALL_USES[use],
                 number=number.decode("ascii"),
+                angle_deg=angle_deg,
+                turn=turn,
             )
-            for (row, col), ordinal, edge, stall_type, (x, z), (width, length), yaw, use, number in zip(
-                *(column[rows].tolist() for column in columns), strict=True
-            )
+            for (row, col), ordinal, edge, stall_type, (x, z), (
+                width,
+                length,
+            ), yaw, use, number, angle_deg, turn in zip(*(column[rows].tolist() for column in columns), strict=True)
         ]

@@ -1,26 +1,30 @@
 """Stalls on the squares that lanes serve and their wheel stops."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
-from garage2usd.config import BayConfig, FittingsConfig
+from garage2usd.config import FittingsConfig
 from garage2usd.config.look import MarkingsLook
+from garage2usd.garage import StallKind
 from garage2usd.layout.floor.ghost_lines import ghosts_on_stall
 from garage2usd.layout.floor.markings import hatching
 from garage2usd.layout.floor.stall_lines import stall_lines
 from garage2usd.layout.parking.designation import use_symbol
-from garage2usd.layout.placement import PlacedStall, Placement, StallUse, edge_yaw_rad
-from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
-from garage2usd.objects.panel import Surface
+from garage2usd.layout.placement import PlacedStall, Placement, StallUse, turned_yaw_rad
+from garage2usd.layout.tiles import Tile, TileGrid, stall_outline
+from garage2usd.objects.outline import Point
+from garage2usd.objects.panel import Marking, Surface
 from garage2usd.objects.stall import StallSpec
 from garage2usd.objects.wheel_stop import WHEEL_STOP_HEIGHT_M, WheelStopSpec
 from garage2usd.profiles import Profile
 from garage2usd.structure.dead_ends import DeadEnd
 from garage2usd.structure.lane_graph import LaneSquares, Square
+from garage2usd.structure.stall_runs import turn_of
+from garage2usd.structure.stall_shapes import kind_of_angle, slope_of_angle
 
 __all__ = ["WHEEL_STOP_FROM_REAR_M", "stall_panels", "stalls_of", "wheel_stops", "with_turning_stalls"]
 
@@ -43,7 +47,7 @@ _HATCHES = {
 }
 
 
-def stalls_of(grid: TileGrid, graph: LaneSquares, bay: BayConfig) -> tuple[PlacedStall, ...]:
+def stalls_of(grid: TileGrid, graph: LaneSquares) -> tuple[PlacedStall, ...]:
     """All stalls in reading order, numbered from 1 on each square."""
     return tuple(
         PlacedStall(
@@ -51,10 +55,12 @@ def stalls_of(grid: TileGrid, graph: LaneSquares, bay: BayConfig) -> tuple[Place
             ordinal=place.ordinal,
             edge=place.row.edge,
             stall_type=graph.stall_types[tile.square],
-            centre_m=_middle(tile, stall_rectangle(tile, place.row, place.slot, bay)),
-            width_m=bay.stall_width_m,
-            length_m=bay.stall_length_m,
-            yaw_rad=edge_yaw_rad(place.row.edge),
+            centre_m=_middle(tile, stall_outline(tile, place.row, place.slot)),
+            width_m=place.row.shape.width_m,
+            length_m=place.row.shape.length_m,
+            yaw_rad=turned_yaw_rad(place.row.edge, turn_of(place.row), place.row.shape.angle_deg),
+            angle_deg=place.row.shape.angle_deg,
+            turn=turn_of(place.row),
         )
         for tile in grid
         for place in grid.stall_places.get(tile.square, [])
@@ -110,7 +116,7 @@ def stall_panels(
 
 
 def _with_ghosts(stall: PlacedStall, look: MarkingsLook, grid: TileGrid, ghosts: Mapping[Square, int]) -> StallSpec:
-    panel = _stall_panel(stall.width_m, stall.length_m, stall.use, look)
+    panel = _stall_panel(stall.width_m, stall.length_m, stall.angle_deg, stall.turn, stall.use, look)
     number = ghosts.get(stall.square)
     if number is None or stall.use in _COATINGS:
         return panel
@@ -121,11 +127,31 @@ def _with_ghosts(stall: PlacedStall, look: MarkingsLook, grid: TileGrid, ghosts:
 
 
 @lru_cache
-def _stall_panel(width_m: float, length_m: float, use: StallUse, look: MarkingsLook) -> StallSpec:
-    lines = stall_lines(width_m, length_m, look)
+def _stall_panel(
+    width_m: float, length_m: float, angle_deg: float, turn: int, use: StallUse, look: MarkingsLook
+) -> StallSpec:
+    slope, depth_m = turn * slope_of_angle(angle_deg), length_m
+    if kind_of_angle(angle_deg) is StallKind.PARALLEL:
+        # the mouth is a long side
+        lines = _moved(stall_lines(length_m, width_m, look), lambda x, z: (-turn * z, turn * x))
+    else:
+        depth_m = round(length_m + width_m * abs(slope), 6)
+        lines = stall_lines(width_m, depth_m, look)
+        if slope:
+            lines = _moved(lines, lambda x, z: (x, z + slope * x))
     if not use.takes_cars:
         lines += hatching(width_m / 2, length_m / 2, margin_m=_HATCH_MARGIN_M, surface=_HATCHES[use])
-    return StallSpec(width_m, length_m, _COATINGS.get(use, Surface.STALL), (*lines, *use_symbol(use)))
+    return StallSpec(width_m, depth_m, _COATINGS.get(use, Surface.STALL), (*lines, *use_symbol(use)), slope=slope)
+
+
+def _moved(markings: Iterable[Marking], place: Callable[[float, float], Point]) -> tuple[Marking, ...]:
+    """Markings with each corner at another place."""
+
+    def corner(x: float, z: float) -> Point:
+        new_x, new_z = place(x, z)
+        return round(new_x, 6), round(new_z, 6)
+
+    return tuple(replace(marking, polygon=tuple(corner(x, z) for x, z in marking.polygon)) for marking in markings)
 
 
 def wheel_stops(stalls: tuple[PlacedStall, ...], fittings: FittingsConfig, profile: Profile) -> list[Placement]:
@@ -142,7 +168,7 @@ def wheel_stops(stalls: tuple[PlacedStall, ...], fittings: FittingsConfig, profi
             (0.0, -stall.length_m / 2 + WHEEL_STOP_FROM_REAR_M),
         )
         for stall in stalls
-        if stall.use.takes_cars
+        if stall.use.takes_cars and stall.kind is not StallKind.PARALLEL
     ]
 
 

@@ -1,0 +1,112 @@
+"""Settings of the kinds of stall: perpendicular, angled and parallel ones, and classes of size."""
+
+from enum import StrEnum
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from garage2usd.common.settings import Settings
+from garage2usd.config.site import SquareIndex
+from garage2usd.garage import StallKind
+
+__all__ = ["GivenRun", "SizeClass", "StallsConfig"]
+
+Share = Annotated[float, Field(ge=0, le=1)]
+WidthM = Annotated[float, Field(ge=1.8, le=6)]
+LengthM = Annotated[float, Field(ge=3.5, le=12)]
+AngleDeg = Annotated[float, Field(ge=30, le=85)]
+
+
+class SizeClass(StrEnum):
+    """Size classes of stalls."""
+
+    STANDARD = "standard"
+    """`bay.stall_width_m` by `bay.stall_length_m`."""
+    COMPACT = "compact"
+    LARGE = "large"
+    VAN = "van"
+
+
+_SIZES_M = {SizeClass.COMPACT: (2.3, 4.6), SizeClass.LARGE: (2.6, 5.5), SizeClass.VAN: (3.0, 6.0)}
+"""Usual widths and lengths; assumptions, except that of compact stalls, which is near 8 by 15 ft of US towns."""
+
+
+class GivenRun(Settings):
+    """The stalls of consecutive squares along a lane, instead of drawn ones."""
+
+    first: SquareIndex
+    """(row, col) of the square at one end, the one nearer to [0, 0]."""
+    last: SquareIndex
+    """(row, col) of the square at the other end, on the same line."""
+    edge: Literal["up", "down", "left", "right"]
+    """The side of the squares that the stalls open to, where the lane is."""
+    kind: StallKind = StallKind.PERPENDICULAR
+    """'perpendicular', 'angled' or 'parallel'."""
+    angle_deg: AngleDeg | None = None
+    """Angle of angled stalls to the lane."""
+    size: SizeClass = SizeClass.STANDARD
+    """Size class of the stalls."""
+    leans: Literal["with traffic", "against traffic"] = "with traffic"
+    """Direction in which angled stalls are entered."""
+
+    @model_validator(mode="after")
+    def _in_a_line(self) -> Self:
+        axis = int(self.edge in {"up", "down"})
+        if self.first[1 - axis] != self.last[1 - axis] or self.first[axis] > self.last[axis]:
+            raise ValueError(f"squares from first to last along one {'row' if axis else 'column'}")
+        if (self.kind is StallKind.ANGLED) != (self.angle_deg is not None):
+            raise ValueError("angle_deg for angled stalls, and for these only")
+        return self
+
+
+class StallsConfig(Settings):
+    """Shares of the kinds and sizes of stalls. By default all stalls are perpendicular and of one size."""
+
+    kinds: dict[StallKind, Share] = Field({StallKind.PERPENDICULAR: 1.0})
+    """Share of the stalls of each kind, 'perpendicular', 'angled' and 'parallel'; in proportion to their sum. A kind
+    that does not fit a place takes no part there."""
+    angles_deg: tuple[AngleDeg, ...] = Field((60.0, 45.0, 75.0), min_length=1)
+    """Angles of angled stalls to the lane, from which each run of stalls draws one."""
+    sizes: dict[SizeClass, Share] = Field({SizeClass.STANDARD: 1.0})
+    """Share of the stalls of each size class, 'standard', 'compact', 'large' and 'van', likewise."""
+    sizes_m: dict[SizeClass, tuple[WidthM, LengthM]] = Field({})
+    """Width and length of a class, instead of the usual ones; those of the standard class are in `bay`."""
+    parallel_length_m: float | None = Field(None, ge=4.5, le=10)
+    """Length of parallel stalls of the standard class; left out, that of the profile, or 6 m. Those of another class
+    are longer or shorter by as much as its perpendicular stalls."""
+    runs: tuple[GivenRun, ...] = ()
+    """Stalls that are given instead of drawn."""
+    only_runs: bool = False
+    """Whether all stalls are given, so that squares outside `runs` have none."""
+
+    @model_validator(mode="after")
+    def _some_of_each(self) -> Self:
+        for name, shares in (("kinds", self.kinds), ("sizes", self.sizes)):
+            if not sum(shares.values()) > 0:
+                raise ValueError(f"{name} with a share above 0")
+        if SizeClass.STANDARD in self.sizes_m:
+            raise ValueError("bay.stall_width_m and bay.stall_length_m for the size of standard stalls")
+        if self.only_runs and not self.runs:
+            raise ValueError("some runs where only_runs is true")
+        return self
+
+    @property
+    def is_uniform(self) -> bool:
+        """True if all stalls are perpendicular and of the standard class."""
+        drawn = tuple({key for key, share in shares.items() if share} for shares in (self.kinds, self.sizes))
+        return drawn == ({StallKind.PERPENDICULAR}, {SizeClass.STANDARD}) and not self.runs
+
+    def size_m(self, size: SizeClass, standard_m: tuple[float, float]) -> tuple[float, float]:
+        """Return the width and length of a size class, given those of the standard one."""
+        return {**_SIZES_M, **self.sizes_m, SizeClass.STANDARD: standard_m}[size]
+
+    @property
+    def shares(self) -> dict[tuple[StallKind, SizeClass], float]:
+        """Share of the stalls of each kind and size; their sum is 1."""
+        total = sum(self.kinds.values()) * sum(self.sizes.values())
+        return {
+            (kind, size): of_kind * of_size / total
+            for kind, of_kind in self.kinds.items()
+            for size, of_size in self.sizes.items()
+            if of_kind and of_size
+        }

@@ -1,0 +1,268 @@
+"""Kinds and sizes of stalls for finished lanes: drawn run by run, and the sides of squares that they need."""
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.randomness import Step, generator
+from garage2usd.config import BayConfig, GarageConfig, StallsConfig
+from garage2usd.config.stalls import GivenRun, SizeClass
+from garage2usd.garage import StallKind
+from garage2usd.planning.dimensions import lines_with_aisles, lines_with_doors
+from garage2usd.planning.plan import Plan
+from garage2usd.planning.score import evaluate
+from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.stall_runs import StallRun, depth_needed_m, leaning_with_traffic, rows_of_runs, runs_of_rows
+from garage2usd.structure.stall_shapes import PARALLEL_DEG, PERPENDICULAR_DEG, StallShape
+from garage2usd.structure.stalls import Edge, stall_rows
+
+__all__ = ["runs_of_settings", "settings_of_runs", "with_stall_kinds"]
+
+_MM_PER_M = 1000
+_STEP_MM = 10
+_STALLS_BETWEEN_COLUMNS, _PARALLEL_BETWEEN_COLUMNS = (2, 3), (1, 2)
+_PASSES = 4
+
+
+def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
+    """Draw the kind and size of the stalls of each run, and fit the sides of squares to them.
+
+    Parameters
+    ----------
+    plan
+        Lanes, with R and C for perpendicular stalls of the standard size.
+    config
+        Shares of the kinds and sizes, given runs, and the seed.
+
+    Returns
+    -------
+    Plan
+        The same S with the runs of its stalls and its score; R and C fit them where they are chosen. The given plan if
+        all stalls are perpendicular and of the standard size.
+
+    Raises
+    ------
+    ConfigError
+        If a given run has a square that is not free beside a lane.
+
+    Notes
+    -----
+    Runs are visited in random order. Each takes the option furthest below its share of the stalls so far, among those
+    that fit: squares whose sides are not chosen must be deep enough. Lines of squares without traffic along them then
+    get the sides with the least floor per stall.
+    """
+    if config.stalls.is_uniform:
+        return plan
+    bay = config.bay
+    runs = _Draw(plan.structure, bay, config.stalls, config.seed).runs()
+    structure = _Fitting(plan.structure, bay, runs).fitted()
+    runs = sorted(runs, key=lambda run: (run.first, run.edge))
+    return replace(
+        plan,
+        structure=structure,
+        score=evaluate(structure, bay=bay, plan=config.plan, runs=runs),
+        runs=tuple(runs),
+    )
+
+
+def runs_of_settings(runs: Iterable[GivenRun], bay: BayConfig, stalls: StallsConfig) -> list[StallRun]:
+    """Convert the runs of settings or of a report to runs of a structure."""
+    found = []
+    for run in runs:
+        edge = Edge[run.edge.upper()]
+        shape = _shape(bay, stalls, run.kind, run.size, run.angle_deg or PERPENDICULAR_DEG)
+        sign = -1 if run.leans == "against traffic" else 1
+        found.append(StallRun(run.first, run.last, edge, shape, sign * leaning_with_traffic(edge)))
+    return found
+
+
+def settings_of_runs(runs: Iterable[StallRun]) -> tuple[GivenRun, ...]:
+    """Convert runs of a structure to settings; the inverse of `runs_of_settings`."""
+    return tuple(
+        GivenRun(
+            first=run.first,
+            last=run.last,
+            edge=run.edge.name.lower(),
+            kind=run.shape.kind,
+            angle_deg=run.shape.angle_deg if run.shape.kind is StallKind.ANGLED else None,
+            size=SizeClass(run.shape.size),
+            leans="with traffic" if run.lean == leaning_with_traffic(run.edge) else "against traffic",
+        )
+        for run in runs
+    )
+
+
+class _Draw:
+    """The draw of one garage."""
+
+    def __init__(self, structure: Structure, bay: BayConfig, stalls: StallsConfig, seed: int) -> None:
+        self._structure, self._bay, self._stalls = structure, bay, stalls
+        self._rng = generator(seed, Step.STALL_KINDS)
+        self._given = runs_of_settings(stalls.runs, bay, stalls)
+        self._shares = stalls.shares
+        self._counts = dict.fromkeys(self._shares, 0)
+
+    def runs(self) -> list[StallRun]:
+        """Draw the runs of the garage."""
+        cells = self._structure.cells
+        for number, run in enumerate(self._given):
+            for square in run.squares:
+                beyond = run.edge.beyond(square)
+                is_inside = all(0 <= at < side for at, side in zip((*square, *beyond), cells.shape * 2, strict=True))
+                if not is_inside or (cells[square], cells[beyond]) != (Cell.FREE, Cell.LANE):
+                    where = f"{list(square)}, {run.edge.name.lower()}"
+                    raise ConfigError(f"stalls.runs[{number}]", where, "free squares with a lane beyond that edge")
+        if self._stalls.only_runs:
+            return self._given
+        taken = {square for run in self._given for square in run.squares}
+        rows = stall_rows(self._structure, self._bay)
+        bare = runs_of_rows(row for row in rows if row.square not in taken)
+        drawn = [self._drawn(bare[index]) for index in self._rng.permutation(len(bare)).tolist()]
+        return [*self._given, *drawn]
+
+    def _drawn(self, run: StallRun) -> StallRun:
+        """Give a run the option furthest below its share that fits."""
+        angle_deg = float(self._stalls.angles_deg[int(self._rng.integers(len(self._stalls.angles_deg)))])
+        best, best_deficit, best_count = run, -np.inf, 0
+        total = sum(self._counts.values())
+        for kind, size in self._shares:
+            shaped = replace(
+                run,
+                shape=_shape(self._bay, self._stalls, kind, size, angle_deg),
+                lean=leaning_with_traffic(run.edge),
+            )
+            count = self._count(shaped)
+            deficit = self._shares[kind, size] * (total + count) - self._counts[kind, size]
+            if count and deficit > best_deficit:
+                best, best_deficit, best_count, chosen = shaped, deficit, count, (kind, size)
+        if best_count:
+            self._counts[chosen] += best_count
+        return best
+
+    def _count(self, run: StallRun) -> int:
+        """Count the stalls of a run, on squares as deep as it needs where their sides are chosen."""
+        rows_chosen, columns_chosen = self._bay.chosen_sides
+        structure = self._structure
+        if rows_chosen if run.edge.along_x else columns_chosen:
+            structure = _deepened(structure, self._bay, run)
+        return sum(row.count for row in rows_of_runs(structure, self._bay, [run]))
+
+
+def _shape(bay: BayConfig, stalls: StallsConfig, kind: StallKind, size: SizeClass, angle_deg: float) -> StallShape:
+    standard_m = bay.stall_width_m, bay.stall_length_m
+    width_m, length_m = stalls.size_m(size, standard_m)
+    if kind is StallKind.PARALLEL:
+        length_m = round((stalls.parallel_length_m or _PARALLEL_LENGTH_M) + length_m - bay.stall_length_m, 3)
+    of_kind = {StallKind.PERPENDICULAR: PERPENDICULAR_DEG, StallKind.PARALLEL: PARALLEL_DEG}
+    return StallShape(width_m, length_m, of_kind.get(kind, angle_deg), size.value)
+
+
+_PARALLEL_LENGTH_M = 6.0
+
+
+def _deepened(structure: Structure, bay: BayConfig, run: StallRun) -> Structure:
+    """Return a structure whose line of a run is as deep as its stalls need."""
+    sides = [structure.column_widths_mm.copy(), structure.row_depths_mm.copy()]
+    axis = int(run.edge.along_x)
+    line = run.first[0] if run.edge.along_x else run.first[1]
+    sides[axis][line] = max(sides[axis][line], _rounded_mm(depth_needed_m(run.shape, bay)))
+    return Structure(structure.cells, *sides)
+
+
+class _Fitting:
+    """Sides of lines without traffic along them, each chosen by the least floor per stall."""
+
+    def __init__(self, structure: Structure, bay: BayConfig, runs: Sequence[StallRun]) -> None:
+        self._cells, self._bay, self._runs = structure.cells, bay, runs
+        self._sides_mm = [structure.row_depths_mm.copy(), structure.column_widths_mm.copy()]
+        self._least_mm = [
+            np.where(has_door, round(bay.portal_side_m * _MM_PER_M), 0) for has_door in lines_with_doors(structure)
+        ]
+        self._backs = Counter((square, run.edge.along_x) for run in runs for square in run.squares)
+        with_aisles = lines_with_aisles(structure)
+        self._lines = [
+            (axis, line)
+            for axis, is_chosen in enumerate(bay.chosen_sides)
+            if is_chosen
+            for line in range(structure.shape[axis])
+            if not with_aisles[axis][line] and (structure.cells.take(line, axis=axis) == Cell.FREE).any()
+        ]
+        self._of_line = {line: self._runs_on(*line) for line in self._lines}
+        for axis, line in self._lines:
+            self._sides_mm[axis][line] = max(self._sides_mm[axis][line], self._needed_mm(axis, line))
+        self._counts = [self._count(run) for run in runs]
+
+    def fitted(self) -> Structure:
+        """Improve one line after the other until none gains."""
+        for _ in range(_PASSES):
+            if not sum(self._improve(*line) for line in self._lines):
+                break
+        return self._structure()
+
+    def _structure(self) -> Structure:
+        return Structure(self._cells, self._sides_mm[1], self._sides_mm[0])
+
+    def _runs_on(self, axis: int, line: int) -> list[int]:
+        """Numbers of the runs with a square on a line."""
+        return [number for number, run in enumerate(self._runs) if any(square[axis] == line for square in run.squares)]
+
+    def _count(self, run: StallRun) -> int:
+        backs = [replace(run, edge=run.edge.opposite)] if self._backs[run.first, run.edge.along_x] > 1 else []
+        rows = rows_of_runs(self._structure(), self._bay, [run, *backs])
+        return sum(row.count for row in rows if row.edge is run.edge)
+
+    def _needed_mm(self, axis: int, line: int) -> int:
+        """Depth that the runs along a line need."""
+        across = (self._runs[number] for number in self._of_line[axis, line])
+        return max(
+            (
+                _rounded_mm(depth_needed_m(run.shape, self._bay)) * self._backs[square, run.edge.along_x]
+                for run in across
+                if run.edge.along_x == (axis == 0)
+                for square in run.squares
+            ),
+            default=0,
+        )
+
+    def _choices_mm(self, axis: int, line: int) -> list[int]:
+        """Sides to try: as deep as the runs along the line need, and as wide as some stalls of the runs across it."""
+        deep = max(self._needed_mm(axis, line), int(self._least_mm[axis][line]))
+        half_column_m = self._bay.column_size_m / 2
+        found = {deep, deep + _rounded_mm(half_column_m)} if deep else set()
+        shapes = {
+            run.shape
+            for run in (self._runs[number] for number in self._of_line[axis, line])
+            if run.edge.along_x != (axis == 0)
+        }
+        # parallel stalls alone would ask for spans that no other row needs
+        spanned = {shape for shape in shapes if shape.kind is not StallKind.PARALLEL} or shapes
+        for shape in spanned:
+            lost_m = self._bay.row_ends_m + shape.slope * half_column_m
+            counts = _PARALLEL_BETWEEN_COLUMNS if shape.kind is StallKind.PARALLEL else _STALLS_BETWEEN_COLUMNS
+            found |= {_rounded_mm(count * shape.pitch_m + lost_m) for count in counts}
+        return sorted({max(side, deep) for side in found})
+
+    def _improve(self, axis: int, line: int) -> bool:
+        """Give a line the side with the least floor per stall, if that is less than now."""
+        affected, before_mm = self._of_line[axis, line], int(self._sides_mm[axis][line])
+        best = self._floor_per_stall(self._counts), before_mm, self._counts
+        for side in self._choices_mm(axis, line):
+            self._sides_mm[axis][line] = side
+            counts = list(self._counts)
+            for number in affected:
+                counts[number] = self._count(self._runs[number])
+            best = min(best, (self._floor_per_stall(counts), side, counts), key=lambda found: found[0])
+        _, self._sides_mm[axis][line], self._counts = best
+        return best[1] != before_mm
+
+    def _floor_per_stall(self, counts: Sequence[int]) -> float:
+        stalls = sum(counts)
+        return round(self._structure().floor_m2 / stalls, 9) if stalls else np.inf
+
+
+def _rounded_mm(length_m: float) -> int:
+    """Round up to the centimetre, in millimetres."""
+    return -(-round(length_m * _MM_PER_M) // _STEP_MM) * _STEP_MM
