@@ -10,7 +10,7 @@ import shapely
 from garage2usd.assets.flat import GRID_M, flat_part
 from garage2usd.assets.mesh import Asset, pascal_case
 from garage2usd.objects.kind import Spec
-from garage2usd.objects.outline import Polygon, rectangle
+from garage2usd.objects.outline import Polygon
 
 __all__ = ["Marking", "Paint", "PanelSpec", "Surface"]
 
@@ -108,16 +108,17 @@ class PanelSpec(Spec):
     def _hash(self) -> int:
         return hash((self.width_m, self.depth_m, self.surface, self.markings, self.openings))
 
-    def corners(self) -> Polygon:
-        """Return the corners of the panel."""
-        return rectangle(-self.width_m / 2, -self.depth_m / 2, self.width_m / 2, self.depth_m / 2)
+    @property
+    def ground(self) -> shapely.Polygon:
+        """The whole panel, openings too."""
+        return shapely.box(-self.width_m / 2, -self.depth_m / 2, self.width_m / 2, self.depth_m / 2)
 
     def asset(self) -> Asset:
         """Make the meshes of a floor panel: coating and paints, each a level sheet."""
         groups: dict[tuple[Paint | None, Surface], list[shapely.Polygon]] = defaultdict(list)
         for marking in self.markings:
             groups[marking.paint, marking.surface].append(shapely.Polygon(marking.polygon))
-        base = shapely.Polygon(self.corners())
+        base = self.ground
         openings = shapely.union_all([shapely.Polygon(shape) for shape in self.openings])
         base = _level(shapely.difference(base, openings, grid_size=GRID_M))
         painted = []

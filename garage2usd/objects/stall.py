@@ -2,8 +2,10 @@
 
 from dataclasses import dataclass
 
+import shapely
+import shapely.affinity
+
 from garage2usd.objects.kind import Kind, TilePart
-from garage2usd.objects.outline import Polygon
 from garage2usd.objects.panel import PanelSpec
 
 __all__ = ["KIND", "StallSpec"]
@@ -25,7 +27,8 @@ class StallSpec(PanelSpec, kind=KIND):
 
     __hash__ = PanelSpec.__hash__
 
-    def corners(self) -> Polygon:
-        """Return the corners of the panel, a parallelogram for an angled stall."""
-        rise = self.slope * self.width_m / 2
-        return tuple((x, z + (rise if x > 0 else -rise)) for x, z in super().corners())
+    @property
+    def ground(self) -> shapely.Polygon:
+        """The whole panel, a parallelogram for an angled stall."""
+        ground = super().ground
+        return shapely.affinity.affine_transform(ground, [1, 0, self.slope, 1, 0, 0]) if self.slope else ground
