@@ -103,7 +103,7 @@ def _of_report(document: Mapping[str, Any], path: Path) -> tuple[BuiltGarage, Ga
         raise ConfigError(_FIELD, str(path), f"a report with config, S, R and C ({error.reason})") from None
     structure = Structure.from_arrays(cells_from_text("\n".join(report.S), field="S"), report.R, report.C)
     told, unreachable = report.stalls, report.unreachable_stalls
-    runs = runs_of_settings(report.stall_runs, report.config.bay, report.config.stalls)
+    runs = runs_of_settings(report.stall_runs, report.config)
     garage = _read(structure, report.config, path, kind="report", runs=runs, listed=told, unreachable=unreachable)
     return garage, report.config
 

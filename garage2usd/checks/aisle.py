@@ -1,15 +1,16 @@
 """Rules of aisles: clear width, obstacles on lanes, and long dead ends."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.solids import Solid
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
-from garage2usd.garage import LaneEdge, Point, StallUse
+from garage2usd.garage import LaneEdge, Point, Stall, StallKind, StallUse
 from garage2usd.objects import CAR_LABELS
 from garage2usd.profiles import Profile
 
@@ -52,10 +53,42 @@ class _Way:
     "aisle-width", "aisle_width", asks="an aisle with stalls at right angles to it is wide enough between what stands"
 )
 def _width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    if profile.aisle_width is None:
-        return
-    required = profile.aisle_width.amount
-    for edge in _serving_edges(garage):
+    clause = profile.aisle_width
+    return _narrow(garage, {} if clause is None else {StallKind.PERPENDICULAR: lambda _: clause.amount})
+
+
+@BOOK.rule(
+    "angled-aisle-width",
+    "angled_aisle_widths",
+    asks="an aisle with angled stalls is wide enough for their angle between what stands",
+)
+def _angled_width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    clause = profile.angled_aisle_widths
+    return _narrow(
+        garage, {} if clause is None else {StallKind.ANGLED: lambda stall: clause.amount_at(_acute_deg(stall))}
+    )
+
+
+@BOOK.rule(
+    "parallel-aisle-width",
+    "parallel_aisle_width",
+    asks="an aisle with parallel stalls is wide enough between what stands",
+)
+def _parallel_width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    clause = profile.parallel_aisle_width
+    return _narrow(garage, {} if clause is None else {StallKind.PARALLEL: lambda _: clause.amount})
+
+
+def _acute_deg(stall: Stall) -> float:
+    """Return the angle of an angled stall to its aisle, at most 90 degrees."""
+    return min(stall.angle_deg, 180 - stall.angle_deg)
+
+
+def _narrow(garage: BuiltGarage, required_by: Mapping[StallKind, Callable[[Stall], float]]) -> Iterator[Miss]:
+    """Yield the aisles narrower than some of their stalls of certain kinds require."""
+    stalls = [stall for stall in garage.parking_stalls if stall.kind in required_by]
+    for edge, served in _serving_edges(garage, stalls):
+        required = max(required_by[stall.kind](stall) for stall in served)
         way = _Way(garage, edge)
         measured, narrowed_by = _clear_width(garage, way, edge.width_m)
         if measured < required - ROUNDING_M:
@@ -82,20 +115,26 @@ def _is_parked(solid: Solid, garage: BuiltGarage) -> bool:
     return solid.label in CAR_LABELS and garage.stall_grounds.home_of(solid.footprint) is not None
 
 
-def _serving_edges(garage: BuiltGarage) -> list[LaneEdge]:
-    """Return the lane edges from which cars turn into an adjacent stall."""
-    outwards: dict[int, list[Point]] = {}
-    for stall in garage.parking_stalls:
-        outwards.setdefault(stall.access, []).append(stall.outwards)
-    serving = []
+def _serving_edges(garage: BuiltGarage, stalls: Iterable[Stall]) -> Iterator[tuple[LaneEdge, list[Stall]]]:
+    """Yield the lane edges from which cars turn into adjacent stalls, with these."""
+    opening_on: dict[int, list[Stall]] = {}
+    for stall in stalls:
+        opening_on.setdefault(stall.access, []).append(stall)
     for edge in garage.lanes.edges:
         if any(garage.lanes.nodes[node].is_portal for node in (edge.start, edge.end)):
             continue
         along = _Way(garage, edge).along
-        turns = (turn for node in (edge.start, edge.end) for turn in outwards.get(node, ()))
-        if any(abs(float(along @ np.array(turn))) < _RIGHT_ANGLE_COS for turn in turns):
-            serving.append(edge)
-    return serving
+        beside = (stall for node in (edge.start, edge.end) for stall in opening_on.get(node, ()))
+        served = [stall for stall in beside if abs(float(along @ _across_mouth(stall))) < _RIGHT_ANGLE_COS]
+        if served:
+            yield edge, served
+
+
+def _across_mouth(stall: Stall) -> NDArray[np.float64]:
+    """Return a unit vector at right angles to a stall's mouth."""
+    (left_x, left_z), (right_x, right_z), *_ = stall.corners
+    across = np.array([left_z - right_z, right_x - left_x])
+    return across / (np.linalg.norm(across) or 1.0)
 
 
 def _clear_width(garage: BuiltGarage, way: _Way, carriageway_m: float) -> tuple[float, str]:

@@ -1,6 +1,6 @@
 """Rules of single stalls: their size, and no objects in them but one car."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -8,7 +8,7 @@ import shapely
 
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
-from garage2usd.garage import Stall
+from garage2usd.garage import Stall, StallKind
 from garage2usd.objects import CAR_LABELS
 from garage2usd.profiles import Length, Profile
 
@@ -21,24 +21,68 @@ BOOK = RuleBook()
 _TOUCH_M = 0.02
 _OVER_LINE_M = 0.1
 """Distance in metres that a parked car may overhang its line; swept-path proofs usually leave so much clearance."""
+_SIDES = {"width_m": "stall_width", "length_m": "stall_length"}
 _BELONGS = {*CAR_LABELS, "traffic_cone", "wheel_stop", "charger", "speed_bump", "column"}
 """Semantic classes allowed in a stall, or covered by another rule."""
 
 
 @BOOK.rule("stall-width", "stall_width", asks="a stall that cars park in is wide enough")
 def _width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(garage, profile.stall_width, "width_m", "narrow")
+    return _short(garage.parking_stalls, profile, "stall_width", "width_m", "narrow")
 
 
 @BOOK.rule("stall-length", "stall_length", asks="a stall that cars park in is long enough")
 def _length(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(garage, profile.stall_length, "length_m", "short")
+    return _short(garage.parking_stalls, profile, "stall_length", "length_m", "short")
 
 
-def _short(garage: BuiltGarage, clause: Length | None, side: str, word: str) -> Iterator[Miss]:
+@BOOK.rule("parallel-stall-width", "parallel_stall_width", asks="a parallel stall is wide enough")
+def _parallel_width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    return _short(garage.parking_stalls, profile, "parallel_stall_width", "width_m", "narrow")
+
+
+@BOOK.rule("parallel-stall-length", "parallel_stall_length", asks="a parallel stall is long enough")
+def _parallel_length(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    return _short(garage.parking_stalls, profile, "parallel_stall_length", "length_m", "short")
+
+
+@BOOK.rule("compact-stall-width", "compact_stall_width", asks="a stall for compact cars is wide enough")
+def _compact_width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    return _short(garage.parking_stalls, profile, "compact_stall_width", "width_m", "narrow")
+
+
+@BOOK.rule("compact-stall-length", "compact_stall_length", asks="a stall for compact cars is long enough")
+def _compact_length(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    return _short(garage.parking_stalls, profile, "compact_stall_length", "length_m", "short")
+
+
+@BOOK.rule("compact-share", "compact_share", asks="no more stalls than a share are for compact cars")
+def _compact_share(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    clause, stalls = profile.compact_share, garage.parking_stalls
+    compact = [stall for stall in stalls if _is_compact(stall)]
+    if clause and compact and (share := 100 * len(compact) / len(stalls)) > clause.amount + ROUNDING_M:
+        message = "too many of the stalls are for compact cars"
+        yield Miss(compact[0].name, compact[0].centre, message, share, clause.amount)
+
+
+def _is_compact(stall: Stall) -> bool:
+    return dict(stall.facts).get("size") == "compact"
+
+
+def _clause_prefix(stall: Stall) -> str:
+    """Return the beginning of the names of the clauses for the size of a stall."""
+    if stall.kind is StallKind.PARALLEL:
+        return "parallel_"
+    return "compact_" if _is_compact(stall) else ""
+
+
+def _short(stalls: Iterable[Stall], profile: Profile, clause_name: str, side: str, word: str) -> Iterator[Miss]:
+    clause: Length | None = getattr(profile, clause_name)
     if clause is None:
         return
-    for stall in garage.parking_stalls:
+    for stall in stalls:
+        if _clause_prefix(stall) + _SIDES[side] != clause_name:
+            continue
         measured = getattr(stall, side)
         if measured < clause.amount - ROUNDING_M:
             yield Miss(stall.name, stall.centre, f"the stall is too {word}", measured, clause.amount)

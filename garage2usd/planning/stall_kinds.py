@@ -1,5 +1,6 @@
 """Kinds and sizes of stalls for finished lanes: drawn run by run, and the sides of squares that they need."""
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -8,12 +9,13 @@ import numpy as np
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.randomness import Step, generator
-from garage2usd.config import BayConfig, GarageConfig, StallsConfig
+from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.config.stalls import GivenRun, SizeClass
 from garage2usd.garage import StallKind
 from garage2usd.planning.dimensions import lines_with_aisles, lines_with_doors
 from garage2usd.planning.plan import Plan
 from garage2usd.planning.score import evaluate
+from garage2usd.profiles import Length
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.stall_runs import StallRun, depth_needed_m, leaning_with_traffic, rows_of_runs, runs_of_rows
 from garage2usd.structure.stall_shapes import PARALLEL_DEG, PERPENDICULAR_DEG, StallShape
@@ -25,6 +27,8 @@ _MM_PER_M = 1000
 _STEP_MM = 10
 _STALLS_BETWEEN_COLUMNS, _PARALLEL_BETWEEN_COLUMNS = (2, 3), (1, 2)
 _PASSES = 4
+_PARALLEL_LENGTH_M = 6.0
+"""Length of parallel stalls where the profile has none."""
 
 
 def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
@@ -57,7 +61,7 @@ def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
     if config.stalls.is_uniform:
         return plan
     bay = config.bay
-    runs = _Draw(plan.structure, bay, config.stalls, config.seed).runs()
+    runs = _Draw(plan.structure, config).runs()
     structure = _Fitting(plan.structure, bay, runs).fitted()
     runs = sorted(runs, key=lambda run: (run.first, run.edge))
     return replace(
@@ -68,12 +72,12 @@ def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
     )
 
 
-def runs_of_settings(runs: Iterable[GivenRun], bay: BayConfig, stalls: StallsConfig) -> list[StallRun]:
+def runs_of_settings(runs: Iterable[GivenRun], config: GarageConfig) -> list[StallRun]:
     """Convert the runs of settings or of a report to runs of a structure."""
     found = []
     for run in runs:
         edge = Edge[run.edge.upper()]
-        shape = _shape(bay, stalls, run.kind, run.size, run.angle_deg or PERPENDICULAR_DEG)
+        shape = _shape(config, run.kind, run.size, run.angle_deg or PERPENDICULAR_DEG)
         sign = -1 if run.leans == "against traffic" else 1
         found.append(StallRun(run.first, run.last, edge, shape, sign * leaning_with_traffic(edge)))
     return found
@@ -98,11 +102,11 @@ def settings_of_runs(runs: Iterable[StallRun]) -> tuple[GivenRun, ...]:
 class _Draw:
     """The draw of one garage."""
 
-    def __init__(self, structure: Structure, bay: BayConfig, stalls: StallsConfig, seed: int) -> None:
-        self._structure, self._bay, self._stalls = structure, bay, stalls
-        self._rng = generator(seed, Step.STALL_KINDS)
-        self._given = runs_of_settings(stalls.runs, bay, stalls)
-        self._shares = stalls.shares
+    def __init__(self, structure: Structure, config: GarageConfig) -> None:
+        self._structure, self._config, self._bay, self._stalls = structure, config, config.bay, config.stalls
+        self._rng = generator(config.seed, Step.STALL_KINDS)
+        self._given = runs_of_settings(config.stalls.runs, config)
+        self._shares = config.stalls.shares
         self._counts = dict.fromkeys(self._shares, 0)
 
     def runs(self) -> list[StallRun]:
@@ -131,7 +135,7 @@ class _Draw:
         for kind, size in self._shares:
             shaped = replace(
                 run,
-                shape=_shape(self._bay, self._stalls, kind, size, angle_deg),
+                shape=_shape(self._config, kind, size, angle_deg),
                 lean=leaning_with_traffic(run.edge),
             )
             count = self._count(shaped)
@@ -151,16 +155,25 @@ class _Draw:
         return sum(row.count for row in rows_of_runs(structure, self._bay, [run]))
 
 
-def _shape(bay: BayConfig, stalls: StallsConfig, kind: StallKind, size: SizeClass, angle_deg: float) -> StallShape:
-    standard_m = bay.stall_width_m, bay.stall_length_m
-    width_m, length_m = stalls.size_m(size, standard_m)
+def _shape(config: GarageConfig, kind: StallKind, size: SizeClass, angle_deg: float) -> StallShape:
+    """Return the shape of stalls of a kind and size class, with the sizes of the profile where none are given."""
+    bay, stalls, profile = config.bay, config.stalls, config.standard
+    width_m, length_m = stalls.size_m(size, (bay.stall_width_m, bay.stall_length_m))
+    if size is SizeClass.COMPACT and size not in stalls.sizes_m:
+        width_m = max(width_m, _rounded_up_m(profile.compact_stall_width))
+        length_m = max(length_m, _rounded_up_m(profile.compact_stall_length))
     if kind is StallKind.PARALLEL:
-        length_m = round((stalls.parallel_length_m or _PARALLEL_LENGTH_M) + length_m - bay.stall_length_m, 3)
+        longer_m = length_m - bay.stall_length_m
+        standard_m = stalls.parallel_length_m or _rounded_up_m(profile.parallel_stall_length) or _PARALLEL_LENGTH_M
+        length_m = round(standard_m + longer_m, 3)
+        width_m = max(width_m, _rounded_up_m(profile.parallel_stall_width))
     of_kind = {StallKind.PERPENDICULAR: PERPENDICULAR_DEG, StallKind.PARALLEL: PARALLEL_DEG}
     return StallShape(width_m, length_m, of_kind.get(kind, angle_deg), size.value)
 
 
-_PARALLEL_LENGTH_M = 6.0
+def _rounded_up_m(clause: Length | None) -> float:
+    """Round the length of a clause up to the centimetre; 0 without one."""
+    return 0.0 if clause is None else _rounded_mm(clause.amount) / _MM_PER_M
 
 
 def _deepened(structure: Structure, bay: BayConfig, run: StallRun) -> Structure:
@@ -265,4 +278,4 @@ class _Fitting:
 
 def _rounded_mm(length_m: float) -> int:
     """Round up to the centimetre, in millimetres."""
-    return -(-round(length_m * _MM_PER_M) // _STEP_MM) * _STEP_MM
+    return math.ceil(round(length_m * _MM_PER_M, 3) / _STEP_MM) * _STEP_MM

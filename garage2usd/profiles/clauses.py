@@ -4,6 +4,7 @@ import math
 from enum import StrEnum
 from typing import Annotated, Literal, Self
 
+import numpy as np
 from pydantic import Field, model_validator
 
 from garage2usd.common.settings import Settings
@@ -17,6 +18,7 @@ __all__ = [
     "Illuminance",
     "Length",
     "LengthRange",
+    "LengthsByAngle",
     "Ratio",
     "Severity",
     "Steps",
@@ -146,6 +148,35 @@ class LengthRange(Clause):
         """Least and most in metres."""
         factor = _METRES[self.unit]
         return round(self.least * factor, 9), round(self.most * factor, 9)
+
+
+class LengthsByAngle(Clause):
+    """A least length for stalls at several angles to their aisle, interpolated between these."""
+
+    angles_deg: tuple[Annotated[float, Field(gt=0, lt=90)], ...] = Field(min_length=1)
+    """Angles of stalls to their aisle, ascending."""
+    values: tuple[Annotated[float, Field(gt=0, le=1e6)], ...] = Field(min_length=1)
+    """The least length for each angle, in `unit`."""
+    unit: LengthUnit
+    """'m', 'mm', 'cm', 'ft' or 'in'."""
+
+    @model_validator(mode="after")
+    def _a_value_each(self) -> Self:
+        if list(self.angles_deg) != sorted(set(self.angles_deg)):
+            raise ValueError("angles in ascending order, each once")
+        if len(self.values) != len(self.angles_deg):
+            raise ValueError("as many values as angles")
+        return self
+
+    @property
+    def reported_in(self) -> str:
+        """Metres."""
+        return "m"
+
+    def amount_at(self, angle_deg: float) -> float:
+        """The least length in metres for an angle; that of the nearest angle outside their range."""
+        values_m = [value * _METRES[self.unit] for value in self.values]
+        return round(float(np.interp(angle_deg, self.angles_deg, values_m)), 9)
 
 
 class Steps(Clause):

@@ -5,7 +5,17 @@ from collections.abc import Iterator
 from pydantic import Field
 
 from garage2usd.common.settings import Settings
-from garage2usd.profiles.clauses import Area, Clause, Count, Illuminance, Length, LengthRange, Ratio, Steps
+from garage2usd.profiles.clauses import (
+    Area,
+    Clause,
+    Count,
+    Illuminance,
+    Length,
+    LengthRange,
+    LengthsByAngle,
+    Ratio,
+    Steps,
+)
 
 __all__ = ["USUAL_CAR_LENGTH_M", "USUAL_CAR_WIDTH_M", "Profile"]
 
@@ -42,6 +52,16 @@ class Profile(Settings):
     """Least width of a stall at right angles to its aisle."""
     stall_length: Length | None = None
     """Least length of it."""
+    parallel_stall_width: Length | None = None
+    """Least width of a stall parallel to its aisle."""
+    parallel_stall_length: Length | None = None
+    """Least length of it."""
+    compact_stall_width: Length | None = None
+    """Least width of a stall for compact cars at right angles to its aisle."""
+    compact_stall_length: Length | None = None
+    """Least length of it."""
+    compact_share: Ratio | None = None
+    """Greatest share of stalls for compact cars."""
     wall_clearance: Length | None = None
     """Least distance of the design car's sides from walls."""
     end_clearance: Length | None = None
@@ -53,6 +73,10 @@ class Profile(Settings):
 
     aisle_width: Length | None = None
     """Least clear width of an aisle that serves stalls at right angles to it."""
+    angled_aisle_widths: LengthsByAngle | None = None
+    """Least clear width of an aisle that serves angled stalls, by their angle to it."""
+    parallel_aisle_width: Length | None = None
+    """Least clear width of an aisle that serves parallel stalls."""
     dead_end_length: Length | None = None
     """Length over which a dead-end aisle keeps a turning stall free."""
 
