@@ -64,9 +64,9 @@ def _width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
 )
 def _angled_width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     clause = profile.angled_aisle_widths
-    return _narrow(
-        garage, {} if clause is None else {StallKind.ANGLED: lambda stall: clause.amount_at(_acute_deg(stall))}
-    )
+    if clause is None:
+        return iter(())
+    return _narrow(garage, {StallKind.ANGLED: lambda stall: clause.amount_at(_acute_deg(stall))})
 
 
 @BOOK.rule(

@@ -62,7 +62,9 @@ def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
         return plan
     bay = config.bay
     runs = _Draw(plan.structure, config).runs()
-    structure = _Fitting(plan.structure, bay, runs).fitted()
+    spacing = config.standard.column_spacing
+    longest_span_m = spacing.bounds[1] if spacing else math.inf
+    structure = _Fitting(plan.structure, bay, runs, longest_span_m).fitted()
     runs = sorted(runs, key=lambda run: (run.first, run.edge))
     return replace(
         plan,
@@ -188,7 +190,8 @@ def _deepened(structure: Structure, bay: BayConfig, run: StallRun) -> Structure:
 class _Fitting:
     """Sides of lines without traffic along them, each chosen by the least floor per stall."""
 
-    def __init__(self, structure: Structure, bay: BayConfig, runs: Sequence[StallRun]) -> None:
+    def __init__(self, structure: Structure, bay: BayConfig, runs: Sequence[StallRun], longest_span_m: float) -> None:
+        self._longest_span_mm = longest_span_m * _MM_PER_M
         self._cells, self._bay, self._runs = structure.cells, bay, runs
         self._sides_mm = [structure.row_depths_mm.copy(), structure.column_widths_mm.copy()]
         self._least_mm = [
@@ -256,7 +259,8 @@ class _Fitting:
             lost_m = self._bay.row_ends_m + shape.slope * half_column_m
             counts = _PARALLEL_BETWEEN_COLUMNS if shape.kind is StallKind.PARALLEL else _STALLS_BETWEEN_COLUMNS
             found |= {_rounded_mm(count * shape.pitch_m + lost_m) for count in counts}
-        return sorted({max(side, deep) for side in found})
+        kept = {side for side in found if side <= self._longest_span_mm} or {min(found, default=deep)}
+        return sorted({max(side, deep) for side in (*kept, deep)})
 
     def _improve(self, axis: int, line: int) -> bool:
         """Give a line the side with the least floor per stall, if that is less than now."""
