@@ -259,8 +259,9 @@ class _Fitting:
             lost_m = self._bay.row_ends_m + shape.slope * half_column_m
             counts = _PARALLEL_BETWEEN_COLUMNS if shape.kind is StallKind.PARALLEL else _STALLS_BETWEEN_COLUMNS
             found |= {_rounded_mm(count * shape.pitch_m + lost_m) for count in counts}
-        kept = {side for side in found if side <= self._longest_span_mm} or {min(found, default=deep)}
-        return sorted({max(side, deep) for side in (*kept, deep)})
+        found = {side for side in found if side <= self._longest_span_mm} or {min(found, default=deep)}
+        now = int(self._sides_mm[axis][line])
+        return sorted({max(side, deep) for side in found if side} or {now})
 
     def _improve(self, axis: int, line: int) -> bool:
         """Give a line the side with the least floor per stall, if that is less than now."""
