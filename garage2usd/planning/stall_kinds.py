@@ -2,7 +2,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -27,6 +27,8 @@ _MM_PER_M = 1000
 _STEP_MM = 10
 _STALLS_BETWEEN_COLUMNS, _PARALLEL_BETWEEN_COLUMNS = (2, 3), (1, 2)
 _PASSES = 4
+_ROUNDS = 2
+_LEAST_GAIN = 1e-6
 _PARALLEL_LENGTH_M = 6.0
 """Length of parallel stalls where the profile has none."""
 
@@ -54,18 +56,21 @@ def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
 
     Notes
     -----
-    Runs are visited in random order. Each takes the option furthest below its share of the stalls so far, among those
-    that fit: squares whose sides are not chosen must be deep enough. Lines of squares without traffic along them then
-    get the sides with the least floor per stall.
+    Runs are visited by length, equal ones in random order. Each takes the option furthest below its share of the stalls
+    so far, among those that fit: squares whose sides are not chosen must be deep enough. Lines of squares without
+    traffic along them then get the sides with the least floor per stall, and single runs change their option while the
+    shares on these sides gain by it.
     """
     if config.stalls.is_uniform:
         return plan
-    bay = config.bay
-    runs = _Draw(plan.structure, config).runs()
-    spacing = config.standard.column_spacing
+    bay, spacing = config.bay, config.standard.column_spacing
     longest_span_m = spacing.bounds[1] if spacing else math.inf
-    structure = _Fitting(plan.structure, bay, runs, longest_span_m).fitted()
-    runs = sorted(runs, key=lambda run: (run.first, run.edge))
+    draw, structure = _Draw(plan.structure, config), plan.structure
+    for _ in range(_ROUNDS):
+        structure = _Fitting(plan.structure, bay, draw.runs, longest_span_m).fitted()
+        draw.even_out(structure)
+    structure = _Fitting(plan.structure, bay, draw.runs, longest_span_m).fitted()
+    runs = sorted(draw.runs, key=lambda run: (run.first, run.edge))
     return replace(
         plan,
         structure=structure,
@@ -101,60 +106,103 @@ def settings_of_runs(runs: Iterable[StallRun]) -> tuple[GivenRun, ...]:
     )
 
 
+_Option = tuple[StallKind, SizeClass]
+
+
 class _Draw:
-    """The draw of one garage."""
+    """The kinds of the runs of one garage, by the shares of the stalls that they have so far."""
 
     def __init__(self, structure: Structure, config: GarageConfig) -> None:
-        self._structure, self._config, self._bay, self._stalls = structure, config, config.bay, config.stalls
-        self._rng = generator(config.seed, Step.STALL_KINDS)
-        self._given = runs_of_settings(config.stalls.runs, config)
+        self._config, self._bay = config, config.bay
         self._shares = config.stalls.shares
-        self._counts = dict.fromkeys(self._shares, 0)
+        self._given = _checked_runs(structure, config)
+        rng = generator(config.seed, Step.STALL_KINDS)
+        angles_deg = config.stalls.angles_deg
+        bare = [] if config.stalls.only_runs else _bare_runs(structure, config.bay, self._given)
+        mixed = [bare[index] for index in rng.permutation(len(bare)).tolist()]
+        # the longest first, so that the short ones even out what is left of the shares
+        mixed.sort(key=lambda run: -len(run.squares))
+        self._options = [self._options_of(run, angles_deg[int(rng.integers(len(angles_deg)))]) for run in mixed]
+        self._backed = {squares for squares, count in Counter(run.squares for run in bare).items() if count > 1}
+        self._chosen = self._drawn(structure)
 
+    @property
     def runs(self) -> list[StallRun]:
-        """Draw the runs of the garage."""
-        cells = self._structure.cells
-        for number, run in enumerate(self._given):
-            for square in run.squares:
-                beyond = run.edge.beyond(square)
-                is_inside = all(0 <= at < side for at, side in zip((*square, *beyond), cells.shape * 2, strict=True))
-                if not is_inside or (cells[square], cells[beyond]) != (Cell.FREE, Cell.LANE):
-                    where = f"{list(square)}, {run.edge.name.lower()}"
-                    raise ConfigError(f"stalls.runs[{number}]", where, "free squares with a lane beyond that edge")
-        if self._stalls.only_runs:
-            return self._given
-        taken = {square for run in self._given for square in run.squares}
-        rows = stall_rows(self._structure, self._bay)
-        bare = runs_of_rows(row for row in rows if row.square not in taken)
-        drawn = [self._drawn(bare[index]) for index in self._rng.permutation(len(bare)).tolist()]
+        """The given and the drawn runs."""
+        drawn = (options[option] for options, option in zip(self._options, self._chosen, strict=True))
         return [*self._given, *drawn]
 
-    def _drawn(self, run: StallRun) -> StallRun:
-        """Give a run the option furthest below its share that fits."""
-        angle_deg = float(self._stalls.angles_deg[int(self._rng.integers(len(self._stalls.angles_deg)))])
-        best, best_deficit, best_count = run, -np.inf, 0
-        total = sum(self._counts.values())
-        for kind, size in self._shares:
-            shaped = replace(
-                run,
-                shape=_shape(self._config, kind, size, angle_deg),
-                lean=leaning_with_traffic(run.edge),
-            )
-            count = self._count(shaped)
-            deficit = self._shares[kind, size] * (total + count) - self._counts[kind, size]
-            if count and deficit > best_deficit:
-                best, best_deficit, best_count, chosen = shaped, deficit, count, (kind, size)
-        if best_count:
-            self._counts[chosen] += best_count
-        return best
+    def even_out(self, structure: Structure) -> None:
+        """Change the options of runs, one at a time, while that brings the shares nearer, on squares of final sides."""
+        counts = [{option: self._count(structure, run) for option, run in options.items()} for options in self._options]
+        stalls = Counter[_Option]()
+        for own, option in zip(counts, self._chosen, strict=True):
+            stalls[option] += own[option]
+        for _ in counts:
+            error, found = self._error(stalls), None
+            for number, own in enumerate(counts):
+                now = self._chosen[number]
+                for option in own:
+                    changed = stalls.copy()
+                    changed[now] -= own[now]
+                    changed[option] += own[option]
+                    if own[option] and self._error(changed) < error - _LEAST_GAIN:
+                        error, found = self._error(changed), (number, option, changed)
+            if found is None:
+                break
+            number, option, stalls = found
+            self._chosen[number] = option
 
-    def _count(self, run: StallRun) -> int:
-        """Count the stalls of a run, on squares as deep as it needs where their sides are chosen."""
-        rows_chosen, columns_chosen = self._bay.chosen_sides
-        structure = self._structure
-        if rows_chosen if run.edge.along_x else columns_chosen:
-            structure = _deepened(structure, self._bay, run)
-        return sum(row.count for row in rows_of_runs(structure, self._bay, [run]))
+    def _error(self, stalls: Mapping[_Option, int]) -> float:
+        total = sum(stalls.values()) or 1
+        return sum(abs(stalls[option] / total - share) for option, share in self._shares.items())
+
+    def _options_of(self, run: StallRun, angle_deg: float) -> dict[_Option, StallRun]:
+        lean = leaning_with_traffic(run.edge)
+        return {
+            (kind, size): replace(run, shape=_shape(self._config, kind, size, angle_deg), lean=lean)
+            for kind, size in self._shares
+        }
+
+    def _drawn(self, structure: Structure) -> list[_Option]:
+        """Give each run the option furthest below its share that fits, or the first one if none does."""
+        counts = Counter[_Option]()
+        chosen = []
+        for options in self._options:
+            total, best, best_deficit = sum(counts.values()), next(iter(options)), -np.inf
+            for option, run in options.items():
+                count = self._count(_deepened(structure, self._bay, run), run)
+                deficit = self._shares[option] * (total + count) - counts[option]
+                if count and deficit > best_deficit:
+                    best, best_deficit, best_count = option, deficit, count
+            if best_deficit > -np.inf:
+                counts[best] += best_count
+            chosen.append(best)
+        return chosen
+
+    def _count(self, structure: Structure, run: StallRun) -> int:
+        backs = [replace(run, edge=run.edge.opposite)] if run.squares in self._backed else []
+        rows = rows_of_runs(structure, self._bay, [run, *backs])
+        return sum(row.count for row in rows if row.edge is run.edge)
+
+
+def _checked_runs(structure: Structure, config: GarageConfig) -> list[StallRun]:
+    """Return the given runs of settings, all of whose squares are free with a lane beyond their edge."""
+    cells, runs = structure.cells, runs_of_settings(config.stalls.runs, config)
+    for number, run in enumerate(runs):
+        for square in run.squares:
+            beyond = run.edge.beyond(square)
+            is_inside = all(0 <= at < side for at, side in zip((*square, *beyond), cells.shape * 2, strict=True))
+            if not is_inside or (cells[square], cells[beyond]) != (Cell.FREE, Cell.LANE):
+                where = f"{list(square)}, {run.edge.name.lower()}"
+                raise ConfigError(f"stalls.runs[{number}]", where, "free squares with a lane beyond that edge")
+    return runs
+
+
+def _bare_runs(structure: Structure, bay: BayConfig, given: Iterable[StallRun]) -> list[StallRun]:
+    """Return the runs of perpendicular stalls on all squares that no given run has."""
+    taken = {square for run in given for square in run.squares}
+    return runs_of_rows(row for row in stall_rows(structure, bay) if row.square not in taken)
 
 
 def _shape(config: GarageConfig, kind: StallKind, size: SizeClass, angle_deg: float) -> StallShape:
@@ -179,7 +227,9 @@ def _rounded_up_m(clause: Length | None) -> float:
 
 
 def _deepened(structure: Structure, bay: BayConfig, run: StallRun) -> Structure:
-    """Return a structure whose line of a run is as deep as its stalls need."""
+    """Return a structure whose line of a run is as deep as its stalls need, if the sides of such lines are chosen."""
+    if not bay.chosen_sides[not run.edge.along_x]:
+        return structure
     sides = [structure.column_widths_mm.copy(), structure.row_depths_mm.copy()]
     axis = int(run.edge.along_x)
     line = run.first[0] if run.edge.along_x else run.first[1]

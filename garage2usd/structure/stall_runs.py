@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import groupby
 
 import numpy as np
@@ -155,7 +156,7 @@ class _Packing:
         """Starts of the mouths on one square of the run, from the middle of its edge."""
         left, right = self._borders_mm[number], self._borders_mm[number + 1]
         least, most = self._reach_mm(number)
-        taken = self._taken_by_rear_columns()
+        taken = [(low, high) for low, high in self._taken_by_rear_columns if low < most and high > least]
         starts: list[int] = []
         place = least
         while (place := _beyond(place, taken)) <= most:
@@ -176,6 +177,7 @@ class _Packing:
         least = max(least, self._gap_mm - low)
         return least, min(most, self._borders_mm[-1] - self._gap_mm - self._pitch_mm - high)
 
+    @cached_property
     def _taken_by_rear_columns(self) -> list[tuple[int, int]]:
         """Open intervals of starts at which a stall would touch a column at the rear of the run."""
         taken = []
