@@ -1,7 +1,7 @@
 """Openings of vehicle doors and slopes of ramps, measured on their meshes."""
 
 from collections.abc import Iterable, Iterator
-from itertools import groupby
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ _CUT_M = 1.0
 """Height above the floor at which a door's width is measured; metres."""
 _SHEET_M = 0.1
 """Greatest thickness in metres of a door leaf or a sign, which does not narrow the opening."""
-_LEVEL_SLOPE, _STEEPEST_SLOPE = 0.005, 0.6
+_LEVEL_SLOPE, _STEEPEST_SLOPE, _EQUAL_SLOPES = 0.005, 0.6, 5e-4
 _STEP_M = 0.05
 
 
@@ -197,12 +197,13 @@ def _stretches(faces: _Slopes) -> Iterator[Stretch]:
     order = np.argsort(-faces.width_m, kind="stable")[::-1]
     for face in order[(faces.width_m[order] > 0) & (first[order] < end[order])].tolist():
         slope[first[face] : end[face]] = faces.slope[face]
-    done = 0
-    for percent, samples in groupby(np.round(100 * slope, 1).tolist()):
-        count = len(list(samples))
-        if percent > 100 * _LEVEL_SLOPE:
-            yield Stretch(round(done * _STEP_M, 6), round((done + count) * _STEP_M, 6), percent)
-        done += count
+    # not by rounded values, which differ for equal slopes beside a border of rounding
+    changes = np.flatnonzero(np.abs(np.diff(slope)) > _EQUAL_SLOPES) + 1
+    borders = [0, *changes.tolist(), len(slope)]
+    for first_run, end_run in pairwise(borders):
+        if slope[first_run] > _LEVEL_SLOPE:
+            percent = round(100 * float(slope[first_run]), 2)
+            yield Stretch(round(first_run * _STEP_M, 6), round(end_run * _STEP_M, 6), percent)
 
 
 def _point(middle: NDArray[np.float64]) -> tuple[float, float]:

@@ -53,3 +53,41 @@ CLIENTS = {
     ),
     "other columns": ("column-spacing", {"column_spacing": {"least": 7.5, "most": 8.0}}),
 }
+KINDS = {
+    "wider aisles for angled stalls": (
+        "angled-aisle-width",
+        {"kinds": {"angled": 1}},
+        {"angled_aisle_widths": {"angles_deg": [60], "values": [9], **M}},
+    ),
+    "wider aisles for parallel stalls": (
+        "parallel-aisle-width",
+        {"kinds": {"parallel": 1}},
+        {"parallel_aisle_width": {"value": 9, **M}},
+    ),
+    "longer parallel stalls": (
+        "parallel-stall-length",
+        {"kinds": {"parallel": 1}},
+        {"parallel_stall_length": {"value": 6.5, **M}},
+    ),
+    "wider parallel stalls": (
+        "parallel-stall-width",
+        {"kinds": {"parallel": 1}},
+        {"parallel_stall_width": {"value": 2.6, **M}},
+    ),
+    "wider stalls for compact cars": (
+        "compact-stall-width",
+        {"sizes": {"compact": 1}},
+        {"compact_stall_width": {"value": 2.5, **M}},
+    ),
+    "longer stalls for compact cars": (
+        "compact-stall-length",
+        {"sizes": {"compact": 1}},
+        {"compact_stall_length": {"value": 5.0, **M}},
+    ),
+    "fewer stalls for compact cars": (
+        "compact-share",
+        {"sizes": {"compact": 1}},
+        {"compact_share": {"value": 50, "unit": "%"}},
+    ),
+}
+"""Rule, settings of the stalls, and the client's clauses."""

@@ -3,7 +3,7 @@
 import numpy as np
 
 from garage2usd.profiles import PROFILE_NAMES, LengthRange, Profile, Steps, load_profile, read_profile
-from garage2usd.profiles.clauses import Amount, Count
+from garage2usd.profiles.clauses import Amount, Count, LengthsByAngle
 
 __all__ = ["random_profile"]
 
@@ -37,6 +37,11 @@ def _drawn(known, draw):
     if isinstance(known[0], LengthRange):
         least, most = sorted(draw.uniform(*known[draw.integers(len(known))].bounds, 2).tolist())
         return {"least": least, "most": most, "unit": "m"}
+    if isinstance(known[0], LengthsByAngle):
+        clause = known[draw.integers(len(known))]
+        factor = draw.uniform(1 / (1 + BEYOND), 1 + BEYOND)
+        values = [round(clause.amount_at(angle) * factor, 3) for angle in clause.angles_deg]
+        return {"angles_deg": clause.angles_deg, "values": values, "unit": "m"}
     values = [clause.amount for clause in known if isinstance(clause, Amount)]
     value = draw.uniform(min(values) / (1 + BEYOND), max(values) * (1 + BEYOND))
     is_whole = isinstance(known[0], Count)

@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 
 from garage2usd.config import ParkingConfig
+from garage2usd.garage import StallKind
 from garage2usd.layout.nearness import Points
 from garage2usd.layout.placement import PlacedStall, Placement, StallUse, rounded
 from garage2usd.objects.charger import ChargerSpec
@@ -100,7 +101,9 @@ def _redrawn(row: list[PlacedStall], widths: AccessWidths | None) -> list[Placed
     for stall, width_m in zip(row, (first, widths.aisle_m, *others), strict=True):
         middle_m = done_m + width_m / 2
         centre = rounded((x + step_x * middle_m, z + step_z * middle_m))
-        redrawn.append(replace(stall, width_m=round(width_m, 6), centre_m=centre))
+        # the sides of an angled stall stay as long as they are
+        length_m = stall.length_m - (width_m - stall.width_m) * abs(stall.slope)
+        redrawn.append(replace(stall, width_m=round(width_m, 6), length_m=round(length_m, 6), centre_m=centre))
         done_m += width_m
     return redrawn
 
@@ -127,7 +130,8 @@ def _is_standard_beside(index: int, other: int, stalls: tuple[PlacedStall, ...],
     first, second = stalls[index], stalls[other]
     # of three, the one in the middle may be left out
     is_next = abs(first.ordinal - second.ordinal) == 1
-    return is_next and (first.square, first.edge) == (second.square, second.edge)
+    is_beside = is_next and (first.square, first.edge) == (second.square, second.edge)
+    return is_beside and first.kind is not StallKind.PARALLEL
 
 
 def use_symbol(use: StallUse) -> tuple[Marking, ...]:

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from support.broken_plans import CLIENTS, DRAWN, LONG_AISLE, SETTINGS_BROKEN, M
+from support.broken_plans import CLIENTS, DRAWN, KINDS, LONG_AISLE, SETTINGS_BROKEN, M
 from support.small_garage import PLAN, SETTINGS
 
 from garage2usd import GarageConfig, build
@@ -11,6 +11,7 @@ from garage2usd.as_built.layout_reader import garage_of_layout
 from garage2usd.checks import Severity, check, check_file
 from garage2usd.common.errors import ConfigError, StageError
 from garage2usd.layout import lay_out
+from garage2usd.planning import given_plan, with_stall_kinds
 from garage2usd.profiles import load_profile, read_profile
 from garage2usd.structure.grid import Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph
@@ -34,7 +35,8 @@ def found_in(settings, profile=CN):
     widths = side if config.bay.column_widths_m is None else config.bay.column_widths_m
     depths = side if config.bay.row_depths_m is None else config.bay.row_depths_m
     structure = Structure.from_arrays(cells_from_text(config.site.structure, field="S"), widths, depths)
-    graph = build_lane_graph(structure, config.bay)
+    plan = with_stall_kinds(given_plan(structure, bay=config.bay), config)
+    structure, graph = plan.structure, build_lane_graph(plan.structure, config.bay, plan.runs)
     subject = garage_of_layout(lay_out(structure, graph, config), graph, source="", kind="plan")
     return {finding.rule for finding in check(subject, profile)}
 
@@ -65,6 +67,19 @@ def test_what_the_user_sets_stays_and_is_reported(rule, sections):
 @pytest.mark.parametrize(("rule", "clauses"), CLIENTS.values(), ids=CLIENTS)
 def test_a_profile_of_ones_own_asks_for_more(rule, clauses):
     assert found_in(SETTINGS, profile_with(**clauses)) - FOUND_IN_GOOD_ONE == {rule}
+
+
+@pytest.mark.parametrize(("rule", "stalls", "clauses"), KINDS.values(), ids=KINDS)
+def test_a_profile_of_ones_own_asks_for_more_of_a_kind_of_stall(rule, stalls, clauses):
+    settings = settings_with(stalls=stalls, parking={"occupied_stalls": None})
+    before = found_in(settings)
+    assert found_in(settings, profile_with(**clauses)) - before == {rule}
+
+
+@pytest.mark.parametrize("slope_percent", [10.5, 13.103, 14.885])
+def test_ramps_of_any_slope_have_their_transitions(slope_percent):
+    # half of each lies beside a border of rounding to a tenth of a percent, in the single precision of meshes
+    assert found_in(settings_with(fittings={"ramp_slope_percent": slope_percent})) == FOUND_IN_GOOD_ONE
 
 
 def test_without_sprinklers_less_is_allowed():

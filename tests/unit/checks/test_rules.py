@@ -31,7 +31,7 @@ def broken_by_tables():
         broken_plans.CLIENTS,
         broken_usd.BROKEN,
     )
-    return [rule for table in tables for rule, _ in table.values()]
+    return [rule for table in (*tables, broken_plans.KINDS) for rule, *_ in table.values()]
 
 
 def test_every_rule_has_a_garage_that_breaks_it():

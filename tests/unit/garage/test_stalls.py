@@ -36,9 +36,26 @@ def test_a_stall_with_slanted_sides_is_angled(shear_m, angle_deg):
     assert (slanted.angle_deg, slanted.kind) == (pytest.approx(angle_deg), StallKind.ANGLED)
 
 
+@pytest.mark.parametrize("slope", [0.0, 0.5, -1.0])
+def test_the_rectangle_for_a_car_lies_between_the_lines_of_an_angled_stall(slope):
+    # sides along Z, 2.4 m apart; mouth and rear rise by the slope
+    corners = [(x, z + slope * x) for x, z in ((-1.2, 4.0), (1.2, 4.0), (1.2, -4.0), (-1.2, -4.0))]
+    stall = replace(SQUARE, corners=tuple(corners))
+    assert (stall.width_m, stall.length_m) == (pytest.approx(2.4), pytest.approx(8.0 - 2.4 * abs(slope)))
+    assert stall.yaw_rad == 0.0
+    assert stall.tail == pytest.approx((0.0, stall.length_m / 2))
+
+
+def test_a_car_in_a_parallel_stall_has_the_lane_on_its_left():
+    along = replace(SQUARE, corners=((-3.0, 1.2), (3.0, 1.2), (3.0, -1.2), (-3.0, -1.2)))
+    # seen from above with X to the right and Z down, the lane is below; with it on the left the car drives to the left
+    assert along.backwards == (1.0, 0.0)
+    assert along.yaw_rad == pytest.approx(math.pi / 2)
+
+
 def test_a_stall_along_the_lane_is_parallel():
     along = replace(SQUARE, corners=((-3.0, 1.2), (3.0, 1.2), (3.0, -1.2), (-3.0, -1.2)))
-    assert (along.kind, along.width_m, along.length_m) == (StallKind.PARALLEL, 6.0, 2.4)
+    assert (along.kind, along.width_m, along.length_m) == (StallKind.PARALLEL, 2.4, 6.0)
 
 
 def test_the_stalls_of_a_layout_keep_place_turn_size_and_lane():

@@ -170,7 +170,7 @@ def test_shipped_files_are_plain_toml_with_each_clause_once():
 HOME = {
     "cn-jgj100": r"JGJ|GB 5|Chinese practice",
     "de-garvo": r"GarVO|GaVO|GaStellV|GaStplVO|GarBBAnO|EAR",
-    "uk-istructe": r"IStructE|BS \d",
+    "uk-istructe": r"IStructE|BS \d|Hill",
     "us-ada": r"ADA|US practice|NFPA|\bNC\b",
 }
 NOBODYS = r"^(garage2usd: |practice( of (operators|makers))?[:;]|practice of makers$)"
