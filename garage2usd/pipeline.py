@@ -21,7 +21,7 @@ from garage2usd.driving import DesignCar, with_clutter, with_truth_of_misparked,
 from garage2usd.driving.refusal import refuse_undrivable
 from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.parking.tight import tight_stalls
-from garage2usd.planning import Plan, given_plan, plan_lanes, play, with_stall_kinds
+from garage2usd.planning import Plan, given_plan, plan_lanes, play, with_directions, with_stall_kinds
 from garage2usd.reading.report import UnmetClause
 from garage2usd.report import make_report, write_report
 from garage2usd.site import make_site
@@ -252,7 +252,8 @@ def _generate(
     site = _site(config)
     clock.append(time.perf_counter())
     if plan is None:
-        plan = with_stall_kinds(_plan(site, config, tape=tape, progress=progress), config)
+        plan = _plan(site, config, tape=tape, progress=progress)
+        plan = with_stall_kinds(with_directions(plan, config), config)
     clock.append(time.perf_counter())
     graph = _graph(plan, config)
     layout = lay_out(plan.structure, graph, config)
@@ -271,7 +272,7 @@ def _site(config: GarageConfig) -> Structure:
 
 
 def _graph(plan: Plan, config: GarageConfig) -> LaneSquares:
-    graph = build_lane_graph(plan.structure, config.bay, plan.runs)
+    graph = build_lane_graph(plan.structure, config.bay, plan.runs, plan.directions)
     if not graph.stall_rows:
         raise ConfigError(
             "site.structure", str(plan.structure), "at least one free square beside a lane that takes a stall"

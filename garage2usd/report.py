@@ -16,6 +16,7 @@ from garage2usd.planning import (
     Plan,
     area_per_stall_m2,
     dimensioned,
+    driven_lengths,
     evaluate,
     measured_circulation,
     neither_share,
@@ -27,6 +28,7 @@ from garage2usd.planning import (
 from garage2usd.planning.circulation import rules_of
 from garage2usd.reading.report import (
     CirculationFigures,
+    DirectionFigures,
     FireCompartment,
     LearningFigures,
     PlanFigures,
@@ -35,6 +37,7 @@ from garage2usd.reading.report import (
     StairCore,
     UnmetClause,
 )
+from garage2usd.structure.directions import stretches_of
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneSquares
 
@@ -95,7 +98,9 @@ def make_report(
         S=tuple(str(structure).splitlines()),
         R=tuple(structure.R[0].tolist()),
         C=tuple(structure.C[:, 0].tolist()),
-        stall_runs=settings_of_runs(plan.runs),
+        one_way=tuple((stretch[0], stretch[1]) for stretch in plan.directions.stretches(structure)),
+        directions=_directions(plan, config),
+        stall_runs=settings_of_runs(plan.runs, plan.directions),
         score=plan.score,
         learning=learning or learning_figures(plan, config),
         principles=principles(structure, bay=config.bay),
@@ -174,6 +179,22 @@ def _compartments(layout: Layout) -> tuple[FireCompartment, ...]:
             stair_cores=doors[number],
         )
         for number in range(1, int(numbers.max(initial=0)) + 1)
+    )
+
+
+def _directions(plan: Plan, config: GarageConfig) -> DirectionFigures | None:
+    """Figures of one-way aisles; None without any."""
+    one_way, every = plan.directions.stretches(plan.structure), stretches_of(plan.structure)
+    if not one_way:
+        return None
+    lengths = driven_lengths(plan, config, plan.directions)
+    steps = [sum(len(stretch) - 1 for stretch in stretches) for stretches in (one_way, every)]
+    return DirectionFigures(
+        one_way_stretches=len(one_way),
+        two_way_stretches=len(every) - len(one_way),
+        one_way_share=round(steps[0] / steps[1], 4),
+        mean_drive_m=round(lengths.directed_m, 2),
+        detour=round(lengths.detour, 4),
     )
 
 

@@ -13,14 +13,14 @@ from garage2usd.config.files import is_array_file, matrices_of
 from garage2usd.driving import without_unreachable
 from garage2usd.garage import Fault
 from garage2usd.layout import Layout, PlacedStall, lay_out
-from garage2usd.planning import given_plan, runs_of_settings, with_stall_kinds
+from garage2usd.planning import Plan, evaluate, given_plan, runs_of_settings, with_directions, with_stall_kinds
 from garage2usd.profiles import Profile
 from garage2usd.reading.report import ReportedStall, report_of
 from garage2usd.site import with_sides
 from garage2usd.site.given import check_structure
+from garage2usd.structure.directions import given_directions
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph, unproven_lane_graph
-from garage2usd.structure.stall_runs import StallRun
 
 __all__ = ["garage_of_plan"]
 
@@ -92,8 +92,8 @@ def _of_config(config: GarageConfig, path: Path, *, kind: str) -> BuiltGarage:
     if config.site.structure is None:
         raise ConfigError(_FIELD, str(path), "a plan with lanes; build this configuration first and check what is made")
     structure = with_sides(cells_from_text(config.site.structure, field="site.structure"), config.bay)
-    plan = with_stall_kinds(given_plan(structure, bay=config.bay), config)
-    return _read(plan.structure, config, path, kind=kind, runs=plan.runs)
+    plan = with_directions(given_plan(structure, bay=config.bay), config)
+    return _read(with_stall_kinds(plan, config), config, path, kind=kind)
 
 
 def _of_report(document: Mapping[str, Any], path: Path) -> tuple[BuiltGarage, GarageConfig]:
@@ -103,25 +103,31 @@ def _of_report(document: Mapping[str, Any], path: Path) -> tuple[BuiltGarage, Ga
         raise ConfigError(_FIELD, str(path), f"a report with config, S, R and C ({error.reason})") from None
     structure = Structure.from_arrays(cells_from_text("\n".join(report.S), field="S"), report.R, report.C)
     told, unreachable = report.stalls, report.unreachable_stalls
-    runs = runs_of_settings(report.stall_runs, report.config)
-    garage = _read(structure, report.config, path, kind="report", runs=runs, listed=told, unreachable=unreachable)
+    directions = given_directions(structure, report.one_way, field="one_way")
+    plan = Plan(
+        structure,
+        evaluate(structure, bay=report.config.bay),
+        runs=tuple(runs_of_settings(report.stall_runs, report.config, directions)),
+        directions=directions,
+    )
+    garage = _read(plan, report.config, path, kind="report", listed=told, unreachable=unreachable)
     return garage, report.config
 
 
 def _read(
-    structure: Structure,
+    plan: Plan,
     config: GarageConfig,
     path: Path,
     *,
     kind: str,
-    runs: Sequence[StallRun],
     listed: Sequence[Any] | None = None,
     unreachable: Sequence[str] | None = None,
 ) -> BuiltGarage:
+    structure = plan.structure
     if not (structure.cells == Cell.LANE).any():
         raise ConfigError(_FIELD, str(path), "a plan with lanes; build it first and check what is made")
-    graph = unproven_lane_graph(structure, config.bay, runs)
-    layout, refusal = _laid_out(structure, config, runs, unreachable)
+    graph = unproven_lane_graph(structure, config.bay, plan.runs, plan.directions)
+    layout, refusal = _laid_out(plan, config, unreachable)
     if layout is None:
         faults = () if refusal is None else (Fault("plan-refused", "", None, refusal),)
         return garage_without_layout(structure, graph, config.bay, source=str(path), kind=kind, faults=faults)
@@ -129,22 +135,20 @@ def _read(
     return garage_of_layout(layout, graph, source=str(path), kind=kind, faults=differences)
 
 
-def _laid_out(
-    structure: Structure, config: GarageConfig, runs: Sequence[StallRun], unreachable: Sequence[str] | None
-) -> tuple[Layout | None, str | None]:
+def _laid_out(plan: Plan, config: GarageConfig, unreachable: Sequence[str] | None) -> tuple[Layout | None, str | None]:
     """Lay out a plan; return None and the reason if it is refused, without a reason for faults that rules report.
 
     The unreachable stalls are those in a report, or else those found as in a build.
     """
     try:
-        check_structure(structure.cells)
-        graph = build_lane_graph(structure, config.bay, runs)
+        check_structure(plan.structure.cells)
+        graph = build_lane_graph(plan.structure, config.bay, plan.runs, plan.directions)
     except (ConfigError, UnreachableStallError):
         return None, None
     if not graph.stall_rows:
         return None, "no square beside a lane takes a stall"
     try:
-        layout = lay_out(structure, graph, config, unreachable=unreachable or ())
+        layout = lay_out(plan.structure, graph, config, unreachable=unreachable or ())
         if unreachable is None and config.plan.unreachable_stalls.are_proven:
             layout = without_unreachable(layout, graph, config)
     except ConfigError as error:

@@ -28,6 +28,7 @@ class Step(IntEnum):
     ARRANGEMENTS = 20
     CLUTTER = 21
     STALL_KINDS = 22
+    DIRECTIONS = 23
     LIDAR = 30
     CAMERA_EFFECTS = 31
     GARAGES = 40

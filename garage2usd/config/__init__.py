@@ -44,6 +44,10 @@ __all__ = [
 ]
 
 
+_DIRECTIONS = ("aisles", "one_way_share", "one_way")
+"""Settings of the plan that came after its digest."""
+
+
 class GarageConfig(Settings):
     """Everything that decides a garage. The same configuration and version give the same bytes."""
 
@@ -122,6 +126,8 @@ class GarageConfig(Settings):
         excluded: dict[str, Any] = {"maps": True, "look": of_look, "vehicles": of_vehicles}
         if self.stalls == StallsConfig():  # likewise
             excluded["stalls"] = True
+        if all(getattr(self.plan, name) == PlanConfig.model_fields[name].default for name in _DIRECTIONS):
+            excluded["plan"] = set(_DIRECTIONS)
         settings = self.model_dump(mode="json", exclude=excluded)
         canonical = json.dumps(settings, sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(canonical.encode()).hexdigest()

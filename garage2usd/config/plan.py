@@ -6,8 +6,18 @@ from typing import Literal, NamedTuple
 from pydantic import Field
 
 from garage2usd.common.settings import Settings
+from garage2usd.config.site import SquareIndex
 
-__all__ = ["Agent", "Choice", "CirculationMode", "DeadEnds", "PlanConfig", "SarsaParameters", "UnreachableStalls"]
+__all__ = [
+    "Agent",
+    "Aisles",
+    "Choice",
+    "CirculationMode",
+    "DeadEnds",
+    "PlanConfig",
+    "SarsaParameters",
+    "UnreachableStalls",
+]
 
 
 class DeadEnds(StrEnum):
@@ -30,6 +40,16 @@ class CirculationMode(StrEnum):
     """Nothing: the score alone decides, and it rewards trees."""
     PAPER = "paper"
     """Nothing, and `DeadEnds.STANDARD` costs nothing either: the agent's own."""
+
+
+class Aisles(StrEnum):
+    """In which directions aisles are driven."""
+
+    TWO_WAY = "two-way"
+    ONE_WAY = "one-way"
+    """In one, except where a single aisle leads to a part of the garage."""
+    MIXED = "mixed"
+    """A share of them in one."""
 
 
 class Agent(StrEnum):
@@ -182,6 +202,14 @@ class PlanConfig(Settings):
     without a touch. 'refuse': an error, where aisles under 5.5 m or stalls under 2.3 m leave it in doubt; 'keep':
     nothing; 'mark': they are hatched and kept free; 'drop': they are left out."""
 
+    aisles: Aisles = Aisles.TWO_WAY
+    """'two-way'; 'one-way': aisles are driven in one direction, except where a single aisle leads to a part of the
+    garage; 'mixed': `one_way_share` of them are."""
+    one_way_share: float = Field(0.5, ge=0, le=1)
+    """Share of the length of aisles that are one-way with 'mixed', of those that can be."""
+    one_way: tuple[tuple[SquareIndex, SquareIndex], ...] = ()
+    """[from, to] of steps between adjacent lane squares, each of which makes its aisle from junction to junction
+    one-way, instead of drawing them."""
     choice: Choice = Choice.BEST
     """'best', or 'draw': any plan of the archive above `quality_floor`, by seed."""
     quality_floor: float = Field(0.95, ge=0, le=1)

@@ -52,6 +52,8 @@ class Tile:
         For each `Edge`, whether a car drives across it.
     stall_mouths
         For each `Edge`, whether stalls open across it (lanes only).
+    way
+        On a straight one-way lane the edge that cars leave over, else None.
     """
 
     square: Square
@@ -62,6 +64,7 @@ class Tile:
     depth_m: float
     drivable: tuple[bool, bool, bool, bool]
     stall_mouths: tuple[bool, bool, bool, bool]
+    way: Edge | None = None
 
     @property
     def middle_m(self) -> Point:
@@ -138,6 +141,7 @@ class TileGrid:
                 depth_m=float(structure.row_depths_mm[row]) / 1000,
                 drivable=_by_edge(row, col, lambda square, edge: graph.graph.has_edge(square, edge.beyond(square))),
                 stall_mouths=_by_edge(row, col, lambda square, edge: (*square, edge) in mouths),
+                way=_way((row, col), graph),
             )
             for row, col in np.argwhere(structure.cells != Cell.OBSTACLE).tolist()
         }
@@ -186,6 +190,19 @@ class TileGrid:
         across = (Edge.UP, Edge.DOWN) if tile.axis_is_x else (Edge.LEFT, Edge.RIGHT)
         width = tile.depth_m if tile.axis_is_x else tile.width_m
         return width - self.setback_m * sum(not tile.drivable[edge] for edge in across)
+
+
+def _way(square: Square, graph: LaneSquares) -> Edge | None:
+    """The edge that cars leave a square over, if they enter it over the opposite one only and both are one-way."""
+    one_way = graph.directions.one_way
+    ways = [
+        edge
+        for edge in Edge
+        if {(square, edge.beyond(square)), (edge.opposite.beyond(square), square)} & one_way
+        and graph.directions.allows(edge.opposite.beyond(square), square)
+        and graph.directions.allows(square, edge.beyond(square))
+    ]
+    return ways[0] if len(ways) == 1 else None
 
 
 def _stall_places(rows: Iterable[StallRow], left_out: Collection[str]) -> dict[Square, list[StallPlace]]:

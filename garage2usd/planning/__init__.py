@@ -3,6 +3,7 @@
 from garage2usd.planning.circulation import MeasuredCirculation, measured_circulation, neither_share
 from garage2usd.planning.dimensions import area_per_stall_m2, dimension, dimensioned
 from garage2usd.planning.optimum import Optimum, counting_bound, find_optimum
+from garage2usd.planning.orientation import DrivenLengths, driven_lengths, with_directions
 from garage2usd.planning.plan import ArchivedPlan, Plan, given_plan
 from garage2usd.planning.planner import plan_lanes
 from garage2usd.planning.principles import Principles, principles
@@ -12,6 +13,7 @@ from garage2usd.planning.tape import play, rank_of, tape_at, tape_of
 
 __all__ = [
     "ArchivedPlan",
+    "DrivenLengths",
     "MeasuredCirculation",
     "Optimum",
     "Plan",
@@ -21,6 +23,7 @@ __all__ = [
     "counting_bound",
     "dimension",
     "dimensioned",
+    "driven_lengths",
     "evaluate",
     "find_optimum",
     "given_plan",
@@ -35,5 +38,6 @@ __all__ = [
     "settings_of_runs",
     "tape_at",
     "tape_of",
+    "with_directions",
     "with_stall_kinds",
 ]

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning.dimensions import dimensioned
 from garage2usd.planning.score import Score, evaluate
+from garage2usd.structure.directions import BOTH_WAYS, LaneDirections
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.stall_runs import StallRun
 
@@ -55,6 +56,8 @@ class Plan:
         Broken rules of circulation by name, each with place and amount.
     runs
         Kinds and sizes of the stalls, run by run; empty if all are perpendicular and of the standard size.
+    directions
+        One-way lanes.
     """
 
     structure: Structure
@@ -65,6 +68,7 @@ class Plan:
     steps: int = 0
     gave_way: Mapping[str, str] = field(default_factory=dict)
     runs: tuple[StallRun, ...] = ()
+    directions: LaneDirections = BOTH_WAYS
 
     def __post_init__(self) -> None:
         """Keep read-only copies of the curve and of the rules that gave way."""
@@ -76,7 +80,7 @@ class Plan:
     def __reduce__(self) -> tuple[object, ...]:
         """Pickle the fields: read-only mappings cannot be pickled, and arrays forget that they are read-only."""
         fields = self.structure, self.score, self.archive, self.learning_curve, self.learnt, self.steps
-        return type(self), (*fields, dict(self.gave_way), self.runs)
+        return type(self), (*fields, dict(self.gave_way), self.runs, self.directions)
 
 
 def given_plan(structure: Structure, *, bay: BayConfig, plan: PlanConfig | None = None) -> Plan:

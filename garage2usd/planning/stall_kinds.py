@@ -4,6 +4,7 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 
@@ -16,8 +17,9 @@ from garage2usd.planning.dimensions import lines_with_aisles, lines_with_doors
 from garage2usd.planning.plan import Plan
 from garage2usd.planning.score import evaluate
 from garage2usd.profiles import Length
+from garage2usd.structure.directions import BOTH_WAYS, LaneDirections
 from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.stall_runs import StallRun, depth_needed_m, leaning_with_traffic, rows_of_runs, runs_of_rows
+from garage2usd.structure.stall_runs import StallRun, depth_needed_m, lean_of_traffic, rows_of_runs, runs_of_rows
 from garage2usd.structure.stall_shapes import PARALLEL_DEG, PERPENDICULAR_DEG, StallShape
 from garage2usd.structure.stalls import Edge, stall_rows
 
@@ -28,6 +30,7 @@ _STEP_MM = 10
 _STALLS_BETWEEN_COLUMNS, _PARALLEL_BETWEEN_COLUMNS = (2, 3), (1, 2)
 _PASSES = 4
 _ROUNDS = 2
+_LEANS: tuple[Literal["against traffic", "with traffic"], ...] = ("against traffic", "with traffic")
 _LEAST_GAIN = 1e-6
 _PARALLEL_LENGTH_M = 6.0
 """Length of parallel stalls where the profile has none."""
@@ -65,7 +68,7 @@ def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
         return plan
     bay, spacing = config.bay, config.standard.column_spacing
     longest_span_m = spacing.bounds[1] if spacing else math.inf
-    draw, structure = _Draw(plan.structure, config), plan.structure
+    draw, structure = _Draw(plan, config), plan.structure
     for _ in range(_ROUNDS):
         structure = _Fitting(plan.structure, bay, draw.runs, longest_span_m).fitted()
         draw.even_out(structure)
@@ -79,18 +82,20 @@ def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
     )
 
 
-def runs_of_settings(runs: Iterable[GivenRun], config: GarageConfig) -> list[StallRun]:
-    """Convert the runs of settings or of a report to runs of a structure."""
+def runs_of_settings(
+    runs: Iterable[GivenRun], config: GarageConfig, directions: LaneDirections = BOTH_WAYS
+) -> list[StallRun]:
+    """Convert the runs of settings or of a report to runs of a structure, for traffic in some directions."""
     found = []
     for run in runs:
         edge = Edge[run.edge.upper()]
         shape = _shape(config, run.kind, run.size, run.angle_deg or PERPENDICULAR_DEG)
         sign = -1 if run.leans == "against traffic" else 1
-        found.append(StallRun(run.first, run.last, edge, shape, sign * leaning_with_traffic(edge)))
+        found.append(StallRun(run.first, run.last, edge, shape, sign * lean_of_traffic(run.first, edge, directions)))
     return found
 
 
-def settings_of_runs(runs: Iterable[StallRun]) -> tuple[GivenRun, ...]:
+def settings_of_runs(runs: Iterable[StallRun], directions: LaneDirections = BOTH_WAYS) -> tuple[GivenRun, ...]:
     """Convert runs of a structure to settings; the inverse of `runs_of_settings`."""
     return tuple(
         GivenRun(
@@ -100,7 +105,7 @@ def settings_of_runs(runs: Iterable[StallRun]) -> tuple[GivenRun, ...]:
             kind=run.shape.kind,
             angle_deg=run.shape.angle_deg if run.shape.kind is StallKind.ANGLED else None,
             size=SizeClass(run.shape.size),
-            leans="with traffic" if run.lean == leaning_with_traffic(run.edge) else "against traffic",
+            leans=_LEANS[run.lean == lean_of_traffic(run.first, run.edge, directions)],
         )
         for run in runs
     )
@@ -112,13 +117,14 @@ _Option = tuple[StallKind, SizeClass]
 class _Draw:
     """The kinds of the runs of one garage, by the shares of the stalls that they have so far."""
 
-    def __init__(self, structure: Structure, config: GarageConfig) -> None:
+    def __init__(self, plan: Plan, config: GarageConfig) -> None:
+        structure = plan.structure
         self._config, self._bay = config, config.bay
         self._shares = config.stalls.shares
-        self._given = _checked_runs(structure, config)
+        self._given = _checked_runs(plan, config)
         rng = generator(config.seed, Step.STALL_KINDS)
         angles_deg = config.stalls.angles_deg
-        bare = [] if config.stalls.only_runs else _bare_runs(structure, config.bay, self._given)
+        bare = [] if config.stalls.only_runs else _bare_runs(plan, config.bay, self._given)
         mixed = [bare[index] for index in rng.permutation(len(bare)).tolist()]
         # the longest first, so that the short ones even out what is left of the shares
         mixed.sort(key=lambda run: -len(run.squares))
@@ -158,10 +164,8 @@ class _Draw:
         return sum(abs(stalls[option] / total - share) for option, share in self._shares.items())
 
     def _options_of(self, run: StallRun, angle_deg: float) -> dict[_Option, StallRun]:
-        lean = leaning_with_traffic(run.edge)
         return {
-            (kind, size): replace(run, shape=_shape(self._config, kind, size, angle_deg), lean=lean)
-            for kind, size in self._shares
+            (kind, size): replace(run, shape=_shape(self._config, kind, size, angle_deg)) for kind, size in self._shares
         }
 
     def _drawn(self, structure: Structure) -> list[_Option]:
@@ -186,9 +190,9 @@ class _Draw:
         return sum(row.count for row in rows if row.edge is run.edge)
 
 
-def _checked_runs(structure: Structure, config: GarageConfig) -> list[StallRun]:
+def _checked_runs(plan: Plan, config: GarageConfig) -> list[StallRun]:
     """Return the given runs of settings, all of whose squares are free with a lane beyond their edge."""
-    cells, runs = structure.cells, runs_of_settings(config.stalls.runs, config)
+    cells, runs = plan.structure.cells, runs_of_settings(config.stalls.runs, config, plan.directions)
     for number, run in enumerate(runs):
         for square in run.squares:
             beyond = run.edge.beyond(square)
@@ -199,10 +203,14 @@ def _checked_runs(structure: Structure, config: GarageConfig) -> list[StallRun]:
     return runs
 
 
-def _bare_runs(structure: Structure, bay: BayConfig, given: Iterable[StallRun]) -> list[StallRun]:
-    """Return the runs of perpendicular stalls on all squares that no given run has."""
+def _bare_runs(plan: Plan, bay: BayConfig, given: Iterable[StallRun]) -> list[StallRun]:
+    """Return the runs of perpendicular stalls on all squares that no given run has, each with one way of traffic."""
     taken = {square for run in given for square in run.squares}
-    return runs_of_rows(row for row in stall_rows(structure, bay) if row.square not in taken)
+    return runs_of_rows(
+        replace(row, lean=lean_of_traffic(row.square, row.edge, plan.directions))
+        for row in stall_rows(plan.structure, bay)
+        if row.square not in taken
+    )
 
 
 def _shape(config: GarageConfig, kind: StallKind, size: SizeClass, angle_deg: float) -> StallShape:

@@ -21,6 +21,7 @@ __all__ = ["USUAL_CAR_LENGTH_M", "USUAL_CAR_WIDTH_M", "Profile"]
 
 USUAL_CAR_LENGTH_M, USUAL_CAR_WIDTH_M = 4.8, 1.8
 """Of the design car where a profile gives none: JGJ 100's small car."""
+_LEFT_HAND_TRAFFIC = frozenset({"AU", "GB", "HK", "IE", "IN", "JP", "MT", "MY", "NZ", "SG", "TH", "ZA"})
 _TRANSITION_SLOPE_PERCENT, _TRANSITION_LENGTH_M = 10.0, 3.6
 """Where a profile gives only one of the two."""
 
@@ -155,6 +156,11 @@ class Profile(Settings):
             clause = getattr(self, name)
             if isinstance(clause, Clause):
                 yield name, clause
+
+    @property
+    def drives_on_left(self) -> bool:
+        """Whether traffic of its country keeps to the left."""
+        return self.country in _LEFT_HAND_TRAFFIC
 
     @property
     def car_length_m(self) -> float:

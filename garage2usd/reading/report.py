@@ -15,6 +15,7 @@ from garage2usd.planning import Principles, Score
 
 __all__ = [
     "CirculationFigures",
+    "DirectionFigures",
     "FireCompartment",
     "LearningFigures",
     "PlanFigures",
@@ -58,6 +59,16 @@ class CirculationFigures(Record):
     rules_asked: tuple[str, ...]
     rules_broken: dict[str, str]
     neither_share: float
+
+
+class DirectionFigures(Record):
+    """One-way aisles: their number and share of the lanes, and the detour of drives against two-way aisles."""
+
+    one_way_stretches: int
+    two_way_stretches: int
+    one_way_share: float
+    mean_drive_m: float
+    detour: float
 
 
 class StairCore(Record):
@@ -135,6 +146,8 @@ class Report(Record):
     S: tuple[str, ...]
     R: tuple[float, ...]
     C: tuple[float, ...]
+    one_way: tuple[tuple[tuple[int, int], tuple[int, int]], ...] = ()
+    directions: DirectionFigures | None = None
     stall_runs: tuple[GivenRun, ...] = ()
     score: Score | None = None
     learning: LearningFigures | None = None
@@ -168,7 +181,9 @@ class Report(Record):
         site = {"structure": "\n".join(self.S)}
         stalls = {**settings["stalls"], "runs": self.stall_runs, "only_runs": bool(self.stall_runs)}
         bay = {**settings["bay"], **sizes}
-        return config_from_mapping({**settings, "seed": self.seed, "bay": bay, "stalls": stalls, "site": site})
+        plan = {**settings["plan"], "one_way": self.one_way}
+        changed = {"seed": self.seed, "bay": bay, "stalls": stalls, "plan": plan, "site": site}
+        return config_from_mapping({**settings, **changed})
 
 
 def read_report(path: Path) -> Report:

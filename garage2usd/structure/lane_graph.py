@@ -13,6 +13,7 @@ from garage2usd.common.errors import UnreachableStallError
 from garage2usd.config import BayConfig
 from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, LaneNode
 from garage2usd.structure.border import bordered
+from garage2usd.structure.directions import BOTH_WAYS, LaneDirections
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 from garage2usd.structure.stall_runs import StallRun, rows_of_runs
 from garage2usd.structure.stalls import StallRow, stall_rows
@@ -48,6 +49,8 @@ class LaneSquares:
         `StallType` of every free square.
     stall_rows
         Stall rows, each with a lane beyond its edge that is reached from an entrance and leads to an exit.
+    directions
+        One-way steps between lane squares.
     """
 
     structure: Structure
@@ -55,6 +58,7 @@ class LaneSquares:
     graph: "nx.Graph[Square]"
     stall_types: dict[Square, StallType]
     stall_rows: tuple[StallRow, ...]
+    directions: LaneDirections = BOTH_WAYS
 
     @cached_property
     def number_of(self) -> dict[Square, int]:
@@ -81,8 +85,9 @@ class LaneSquares:
         edges = []
         for first, second in sorted((min(pair), max(pair)) for pair in self.graph.edges):
             start, end = self.number_of[first], self.number_of[second]
-            one_way = nodes[start].is_portal or nodes[end].is_portal
-            if kinds[start] is LaneKind.EXIT or kinds[end] is LaneKind.ENTRANCE:
+            one_way = nodes[start].is_portal or nodes[end].is_portal or self.directions.is_one_way(first, second)
+            is_against = not self.directions.allows(first, second)
+            if kinds[start] is LaneKind.EXIT or kinds[end] is LaneKind.ENTRANCE or is_against:
                 start, end = end, start
             # squares that join in a line have the same side across it: R and C are constant along lines
             edges.append(LaneEdge(start, end, nodes[start].widths_m[first[1] != second[1]], one_way))
@@ -112,7 +117,9 @@ class LaneSquares:
         return {str(kind): counts[str(kind)] for kind in (*LaneKind, *StallType)}
 
 
-def build_lane_graph(structure: Structure, bay: BayConfig, runs: Sequence[StallRun] = ()) -> LaneSquares:
+def build_lane_graph(
+    structure: Structure, bay: BayConfig, runs: Sequence[StallRun] = (), directions: LaneDirections = BOTH_WAYS
+) -> LaneSquares:
     """Build the lane graph of a complete structure and prove that every stall is reached.
 
     Parameters
@@ -121,18 +128,22 @@ def build_lane_graph(structure: Structure, bay: BayConfig, runs: Sequence[StallR
         The structure, and the size of its stalls.
     runs
         Kinds of the stalls; without any, all are perpendicular.
+    directions
+        One-way lanes.
 
     Raises
     ------
     UnreachableStallError
         If a stall's lane has no route over lanes from an entrance and to an exit.
     """
-    lanes = unproven_lane_graph(structure, bay, runs)
+    lanes = unproven_lane_graph(structure, bay, runs, directions)
     _check_reachability(structure, lanes.graph, lanes.stall_rows)
     return lanes
 
 
-def unproven_lane_graph(structure: Structure, bay: BayConfig, runs: Sequence[StallRun] = ()) -> LaneSquares:
+def unproven_lane_graph(
+    structure: Structure, bay: BayConfig, runs: Sequence[StallRun] = (), directions: LaneDirections = BOTH_WAYS
+) -> LaneSquares:
     """Build the lane graph of any structure with lanes, without a proof that stalls are reached.
 
     Notes
@@ -143,7 +154,8 @@ def unproven_lane_graph(structure: Structure, bay: BayConfig, runs: Sequence[Sta
     """
     graph = _typed_graph(structure)
     rows = rows_of_runs(structure, bay, runs) if runs else stall_rows(structure, bay)
-    return LaneSquares(structure, bay.carriageway_setback_m, nx.freeze(graph), _stall_types(structure), rows)
+    setback_m = bay.carriageway_setback_m
+    return LaneSquares(structure, setback_m, nx.freeze(graph), _stall_types(structure), rows, directions)
 
 
 def _typed_graph(structure: Structure) -> "nx.Graph[Square]":

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from garage2usd.config.site import BayConfig
 from garage2usd.garage import StallKind
+from garage2usd.structure.directions import BOTH_WAYS, LaneDirections
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.stall_shapes import StallShape
 from garage2usd.structure.stalls import Edge, StallRow
@@ -19,7 +20,7 @@ __all__ = [
     "StallRun",
     "capacity_of_runs",
     "depth_needed_m",
-    "leaning_with_traffic",
+    "lean_of_traffic",
     "rows_of_runs",
     "runs_of_rows",
     "turn_of",
@@ -60,14 +61,32 @@ class StallRun:
         return tuple((at, col) for at in range(row, last_row + 1))
 
 
-def leaning_with_traffic(edge: Edge) -> int:
-    """Return the lean of angled stalls at an edge, for traffic that keeps to the right on two-way lanes."""
-    return 1 if edge in {Edge.UP, Edge.RIGHT} else -1
+def lean_of_traffic(square: Square, edge: Edge, directions: LaneDirections = BOTH_WAYS) -> int:
+    """Return the lean of angled stalls for the traffic before them.
+
+    Parameters
+    ----------
+    square, edge
+        The square of the stalls, and its edge with the mouths.
+    directions
+        One-way lanes; on all others traffic keeps to the right.
+    """
+    lane = edge.beyond(square)
+    low, high = (end.beyond(lane) for end in edge.ends)
+    if {(lane, high), (low, lane)} & directions.one_way:
+        return 1
+    if {(lane, low), (high, lane)} & directions.one_way:
+        return -1
+    return _lean_to_the_right(edge)
 
 
 def turn_of(row: StallRow) -> int:
     """Return 1 if the stalls of a row are entered by a turn to the right off the lane, -1 if to the left."""
-    return row.lean * leaning_with_traffic(row.edge)
+    return row.lean * _lean_to_the_right(row.edge)
+
+
+def _lean_to_the_right(edge: Edge) -> int:
+    return 1 if edge in {Edge.UP, Edge.RIGHT} else -1
 
 
 def depth_needed_m(shape: StallShape, bay: BayConfig) -> float:

@@ -130,8 +130,11 @@ class _Panels:
         if along_x is not None and crossing_m is not None:
             yield from zebra(half_x, half_z, setback, along_x=along_x, offset_m=crossing_m)
         elif along_x is not None and not has_bump:
-            yield from map(self._driven, dashes(half_x, half_z, along_x=along_x))
-            if sum(tile.square) % 2 == 0:
+            if tile.way is None:
+                yield from map(self._driven, dashes(half_x, half_z, along_x=along_x))
+            if sum(tile.square) % 2 == 0 and tile.way is not None:
+                yield self._driven(arrow(0.0, 0.0, tile.way))
+            elif sum(tile.square) % 2 == 0:
                 arrows = two_way_arrows(half_x, half_z, self.grid.setback_m, along_x=along_x)
                 yield from map(self._driven, arrows)
         yield from self._ghosts(tile)
