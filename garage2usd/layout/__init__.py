@@ -20,7 +20,7 @@ from garage2usd.layout.ceiling.beams import beams, ceiling_levels
 from garage2usd.layout.ceiling.lamps import installed_lamps, ramp_lamps
 from garage2usd.layout.ceiling.lighting import LightLevels, light_up
 from garage2usd.layout.ceiling.services import cable_trays, ducts, sprinklers
-from garage2usd.layout.ceiling.signs_and_mirrors import exit_signs, mirrors
+from garage2usd.layout.ceiling.signs_and_mirrors import exit_signs, lane_signs, mirrors
 from garage2usd.layout.clearance import check_carriageways
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress.cores import Core, core_placements
@@ -291,6 +291,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield cable_trays(grid, ceiling, levels)
         yield sprinklers(grid, ceiling, levels)
         yield exit_signs(grid, graph, fittings, levels)
+        yield lane_signs(grid, graph, fittings, levels)
         yield mirrors(grid, pillars, fittings, levels)
 
         yield (walls := with_ramps(shell, ground_inside(structure), fittings, look.walls))

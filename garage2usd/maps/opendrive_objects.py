@@ -31,9 +31,12 @@ _TYPES = {
     "barrier": ("barrier", "gate"),
 }
 """OpenDRIVE type and subtype of solid objects, by semantic class."""
-_SIGNS = {"traffic_sign": ("DE", "286"), "exit_sign": ("OpenDRIVE", "-1")}
-"""Country and number of traffic signs: no stopping for longer than three minutes (Zeichen 286 of the German StVO).
+_OTHER_SIGN = ("OpenDRIVE", "-1")
+_SIGNS = {"traffic_sign": ("DE", "286"), "exit_sign": _OTHER_SIGN, "lane_sign": _OTHER_SIGN}
+"""Country and number of signs: no stopping for longer than three minutes (Zeichen 286 of the German StVO).
 Escape signs of ISO 7010 have no number in a road traffic act."""
+_LANE_SIGNS = {"NoEntrySign": ("DE", "267"), "OneWaySign": ("DE", "220")}
+"""The same of signs of one-way lanes, by the beginning of their names."""
 _APART_M = 0.01
 """Gap up to which walls in line are merged."""
 _DIGITS = 3
@@ -229,13 +232,14 @@ def _signal(thing: Thing, places: RoadPlaces) -> Signal:
     middle = float(low[0] + high[0]) / 2, -float(low[2] + high[2]) / 2
     road, s_m, t_m = places.of_point(middle)
     across = np.array([front[1], -front[0]]) / (np.linalg.norm(front) or 1.0)
-    country, number = _SIGNS[thing.label]
+    name = thing.name.rpartition("/")[2]
+    country, number = _LANE_SIGNS.get(name.partition("_")[0], _SIGNS[thing.label])
     return Signal(
         road,
         s_m,
         t_m,
         heading_rad(math.atan2(-front[0], -front[1])),
-        thing.name.rpartition("/")[2],
+        name,
         country,
         number,
         _over_road(float(low[1]), road, s_m),

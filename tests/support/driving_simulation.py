@@ -29,6 +29,7 @@ _HARMLESS = {
     "cable_tray",
     "sprinkler",
     "exit_sign",
+    "lane_sign",
     "mirror",
     "speed_bump",
     "sky",

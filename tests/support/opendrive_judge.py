@@ -212,7 +212,9 @@ class MapJudge:
 
     def _signs(self):
         signs = {
-            Path(one["path"]).as_posix(): one for one in self.labelled if one["class"] in {"traffic_sign", "exit_sign"}
+            Path(one["path"]).as_posix(): one
+            for one in self.labelled
+            if one["class"] in {"traffic_sign", "exit_sign", "lane_sign"}
         }
         places, fronts = UsdGeom.XformCache(), []
         for path in signs:

@@ -5,24 +5,27 @@ from collections.abc import Iterable, Mapping
 
 import networkx as nx
 
+from garage2usd.assets.mesh import pascal_case
 from garage2usd.config import FittingsConfig
 from garage2usd.garage import LaneKind
 from garage2usd.layout.ceiling.beams import CeilingLevels
 from garage2usd.layout.fittings import TUBE_DEPTH_M
-from garage2usd.layout.placement import Placement, edge_yaw_rad, of_spec, placed
+from garage2usd.layout.placement import Placement, box_inside, edge_yaw_rad, of_spec, placed
 from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
 from garage2usd.objects.column import ColumnSpec
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
+from garage2usd.objects.lane_sign import LaneSignSpec, LaneSignText
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.outline import Point
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
-from garage2usd.structure.lane_graph import LaneSquares
+from garage2usd.structure.lane_graph import LaneSquares, Square
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["exit_signs", "mirrors"]
+__all__ = ["exit_signs", "lane_signs", "mirrors"]
 
 _SIGN_HEIGHT_M = 0.2
 _SIGN_FROM_EDGE_M = 0.45
+_LANE_SIGN_M, _LEAST_LANE_SIGN_M = 0.4, 0.2
 _MIRROR_RADIUS_M = 0.25
 _MIRROR_GAP_M = 0.05
 _MIRROR_FROM_COLUMN_M, _MIRROR_FROM_WALL_M = 0.07, 0.22
@@ -43,17 +46,26 @@ def exit_signs(grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, lev
     if not fittings.exit_signs or foot < fittings.clear_height_m:
         return []
     exits = {square for square, kind in graph.graph.nodes(data="kind") if kind is LaneKind.EXIT}
-    distance = nx.multi_source_dijkstra_path_length(graph.graph, exits, weight="length_m")
+    ways_back = graph.graph.to_directed()
+    ways_back.remove_edges_from(list(graph.directions.one_way))  # from an exit cars are followed against their way
+    distance = nx.multi_source_dijkstra_path_length(ways_back, exits, weight="length_m")
     signs: list[Placement] = []
     for tile in grid:
         if tile.cell is not Cell.LANE or graph.kind(tile.square) not in _JUNCTIONS or tile.square not in distance:
             continue
-        ways = {edge: distance.get(edge.beyond(tile.square), math.inf) for edge in lane_edges(tile)}
+        ways = {
+            edge: distance.get(edge.beyond(tile.square), math.inf)
+            if graph.directions.allows(tile.square, edge.beyond(tile.square))
+            else math.inf
+            for edge in lane_edges(tile)
+        }
         out = min(ways, key=lambda edge: (round(ways[edge], 6), edge))
         signs += [
             _exit_sign(tile, edge, out, fittings.ceiling_height_m, levels.sign_top_m)
             for edge in ways
-            if edge is not out and graph.kind(edge.beyond(tile.square)) is not LaneKind.EXIT
+            if edge is not out
+            and graph.kind(edge.beyond(tile.square)) is not LaneKind.EXIT
+            and graph.directions.allows(edge.beyond(tile.square), tile.square)
         ]
     return signs
 
@@ -68,6 +80,45 @@ def _exit_sign(tile: Tile, edge: Edge, out: Edge, ceiling_m: float, top_m: float
     spec = ExitSignSpec(turn, top_m, _SIGN_HEIGHT_M)
     name = f"ExitSign_{edge.name.capitalize()}"
     return placed(name, spec, (x, z), height_m=ceiling_m, yaw_rad=edge_yaw_rad(edge), square=tile.square)
+
+
+def lane_signs(grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, levels: CeilingLevels) -> list[Placement]:
+    """Signs over both ends of one-way lanes: one way for those who may enter, no entry for those who may not.
+
+    Each hangs over the right side of the first square of the lane, as its reader sees it. A ceiling without room over
+    the clear height has no signs.
+    """
+    room = fittings.ceiling_height_m - levels.sign_top_m - fittings.clear_height_m
+    height_m = round(min(_LANE_SIGN_M, room), 3)
+    if not fittings.exit_signs or height_m < _LEAST_LANE_SIGN_M:
+        return []
+    signs: list[Placement] = []
+    for stretch in graph.directions.stretches(grid.structure):
+        for (junction, first), says in (
+            ((stretch[0], stretch[1]), LaneSignText.ONE_WAY),
+            ((stretch[-1], stretch[-2]), LaneSignText.NO_ENTRY),
+        ):
+            if len(stretch) > 2:  # noqa: PLR2004 - not a step between two junctions
+                spec = LaneSignSpec(says, levels.sign_top_m, height_m)
+                signs.append(_lane_sign(grid.tiles[first], _edge_towards(first, junction), spec, fittings))
+    return signs
+
+
+def _lane_sign(tile: Tile, edge: Edge, spec: LaneSignSpec, fittings: FittingsConfig) -> Placement:
+    """The sign over one edge of a lane square, which faces the drivers who come over that edge."""
+    half = (tile.half_x_m, tile.half_z_m)
+    across = (half[0] if edge.along_x else half[1]) / 2
+    # on the right of who looks at it, which is the sign's own +X
+    to_right = across if edge in {Edge.DOWN, Edge.LEFT} else -across
+    x, z, *_ = box_inside(edge, half, (to_right, to_right), (_SIGN_FROM_EDGE_M, _SIGN_FROM_EDGE_M))
+    name = f"{pascal_case(spec.says)}Sign_{edge.name.capitalize()}"
+    place = tile.x_m + x, tile.z_m + z
+    yaw = edge_yaw_rad(edge)
+    return placed(name, spec, place, height_m=fittings.ceiling_height_m, yaw_rad=yaw, square=tile.square)
+
+
+def _edge_towards(square: Square, other: Square) -> Edge:
+    return next(edge for edge in Edge if edge.beyond(square) == other)
 
 
 def mirrors(

@@ -26,6 +26,7 @@ const COLOURS: Record<string, string> = {
   charger: "#2fbf71",
   sprinkler: "#b3202c",
   exit_sign: "#00c9a7",
+  lane_sign: "#2f6fd6",
   mirror: "#e6e9ee",
   floor_stain: "#4b3f38",
   drain: "#2f6f86",
@@ -78,6 +79,7 @@ export const OVERHEAD = new Set([
   "cable_tray",
   "sprinkler",
   "exit_sign",
+  "lane_sign",
   "light",
 ]);
 
