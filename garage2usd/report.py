@@ -1,5 +1,6 @@
 """The report of a build written: what was made and what reproduces it (see `garage2usd.reading.report`)."""
 
+import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -130,6 +131,9 @@ def make_report(
                 yaw_rad=round(stall.yaw_rad, _YAW_DECIMALS),
                 width_m=stall.width_m,
                 length_m=stall.length_m,
+                kind=stall.kind,
+                angle_rad=round(math.radians(stall.angle_deg), _YAW_DECIMALS),
+                size=stall.size,
                 occupied=is_occupied,
                 blocked_by=layout.blocked.get(stall.name),
             )

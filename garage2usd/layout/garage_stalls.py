@@ -25,7 +25,7 @@ def garage_stalls(
     """
     for stall in stalls:
         left, right, rear_right, rear_left = stall.corners_m()
-        said = {"number": stall.number, "blocked_by": (blocked or {}).get(stall.name, "")}
+        said = {"number": stall.number, "size": stall.size, "blocked_by": (blocked or {}).get(stall.name, "")}
         facts = tuple((fact, value) for fact, value in said.items() if value)
         corners = (left, right, rear_right, rear_left)
         yield Stall(stall.name, corners, stall.use, lanes.number_of[stall.access_square], facts)

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TypeVar
 
+from garage2usd.config.stalls import SizeClass
 from garage2usd.garage import StallKind, StallUse
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Box, Point, Polygon
@@ -106,6 +107,8 @@ class PlacedStall:
     turn
         1 for a stall that is entered by a turn to the right off the lane, -1 by one to the left; for parallel stalls
         the side of the lane that they lie on.
+    size
+        Its size class.
     number
         As people read it, ``B2-07``: zone, and what is painted at its mouth; empty where nobody parks.
     """
@@ -122,6 +125,7 @@ class PlacedStall:
     number: str = ""
     angle_deg: float = PERPENDICULAR_DEG
     turn: int = 1
+    size: str = SizeClass.STANDARD.value
 
     @property
     def name(self) -> str:

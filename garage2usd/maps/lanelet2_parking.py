@@ -8,7 +8,7 @@ import shapely
 from numpy.typing import NDArray
 
 from garage2usd.as_built import BuiltGarage
-from garage2usd.garage import Stall
+from garage2usd.garage import Stall, StallKind
 from garage2usd.layout.grounds import Grounds, grounds_of
 from garage2usd.maps.frame import map_points
 from garage2usd.maps.lane_bounds import Bound, LaneBounds
@@ -23,6 +23,7 @@ _MOST_ASIDE = 2.0
 """Ratio of distance ahead to distance beside a corner above which a lane bends away."""
 _GRID_M = 1e-4
 """Grid in metres to which outlines are rounded before their union."""
+_GAP_M, _WRITTEN_DIGITS = 2e-3, 3
 _BEHIND_M = 1e-3
 """Distance inside the stall from which the lane is searched, for entries that touch the lane."""
 
@@ -136,9 +137,9 @@ def add_stalls(osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds]) -
     """Write all stalls to a Lanelet2 map.
 
     A stall for cars is an area of the subtype `parking` around its corners, and Autoware's parking space: a way from
-    the middle of its entry to the middle of its rear, with its width. The ground between entry and lane is an area of
-    the subtype `parking_access`, whose corners are points of the lane bound and of the stall. Hatched ground is a
-    polygon of Autoware's type for it.
+    the middle of its entry to the middle of its rear, and in a parallel stall from end to end, with its width. The
+    ground between entry and lane is an area of the subtype `parking_access`, whose corners are points of the lane bound
+    and of the stall. Hatched ground is a polygon of Autoware's type for it.
     """
     taken = garage.taken_stalls
     feet = Feet(lanes)
@@ -147,8 +148,12 @@ def add_stalls(osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds]) -
     outwards = map_points([stall.outwards for stall in parking]).reshape(-1, 2)
     before_of = dict(zip(parking, feet.before(mouths, outwards), strict=True))
     corners_of: Floats = map_points([stall.corners for stall in garage.stalls]).reshape(-1, 4, 2)
-    ends_of = corners_of.reshape(-1, 2, 2, 2).mean(axis=2).tolist()
-    widths_m = np.linalg.norm(corners_of[:, 1] - corners_of[:, 0], axis=1).tolist()
+    # along the car: from mouth to rear, and in a parallel stall from one side to the other
+    first = np.array([int(stall.kind is StallKind.PARALLEL) for stall in garage.stalls], dtype=np.intp)
+    order = (first[:, None] + np.arange(4)) % 4
+    along: Floats = np.take_along_axis(corners_of, order[:, :, None], axis=1)
+    ends_of = along.reshape(-1, 2, 2, 2).mean(axis=2).tolist()
+    widths_m = [stall.width_m for stall in garage.stalls]
     grounds = []
     for stall, corners, ends, width_m in zip(garage.stalls, corners_of.tolist(), ends_of, widths_m, strict=True):
         points = [osm.point((x, y, 0.0)) for x, y in corners]
@@ -184,8 +189,17 @@ def add_lots(osm: OsmFile, lanes: Sequence[LaneBounds], feet: Feet) -> None:
     ground = shapely.union(*_valid([shapely.union_all(_valid(level)), stalls]), grid_size=_GRID_M)
     for part in shapely.get_parts(ground):
         if shapely.intersects(part, feet.grounds).any():
-            corners = shapely.get_coordinates(shapely.normalize(part).exterior)[:-1].tolist()
+            corners = shapely.get_coordinates(shapely.normalize(_simple(part)).exterior)[:-1].tolist()
             osm.polygon(osm.points((x, y, 0.0) for x, y in corners), {"type": "parking_lot"})
+
+
+def _simple(ground: shapely.Polygon) -> shapely.Polygon:
+    """Return a polygon whose outline does not cross itself in the digits of a map, closing narrow gaps if needed."""
+    written = shapely.Polygon(shapely.get_coordinates(ground.exterior).round(_WRITTEN_DIGITS))
+    if written.is_valid:
+        return ground
+    closed = ground.buffer(_GAP_M, join_style="mitre").buffer(-_GAP_M, join_style="mitre")
+    return max(shapely.get_parts(shapely.set_precision(closed, _GRID_M)), key=lambda part: part.area)
 
 
 def _valid(grounds: Sequence[shapely.Geometry] | Grounds) -> Grounds:

@@ -22,6 +22,7 @@ _USES = {use.value for use in StallUse}
 _MOVED_M = 0.05
 """Tolerance in metres between a stall's prim and the middle of its outline, for single precision."""
 _NO_WIDTH_M = 0.1
+_FACTS = ("number", "type", "size", "row", "column", "entryEdge")
 _RULE = "lane-graph"
 
 
@@ -186,7 +187,9 @@ def _read_stalls(curves: _Curves, lanes: Lanes) -> None:
     if rows is None:
         _incomplete(curves, lanes, "id, use and accessNode")
         return
-    columns = {name: curves.values(f"garage:stall:{name}") for name in ("number", "type", "row", "column", "entryEdge")}
+    columns = {
+        name: curves.values(f"garage:stall:{name}") for name in ("number", "type", "size", "row", "column", "entryEdge")
+    }
     columns["blocked_by"] = curves.values("garage:stall:blockedBy")
     columns["occupied"] = [value == 1 for value in curves.values("garage:stall:occupied")]
     known = {name: values for name, values in columns.items() if values}

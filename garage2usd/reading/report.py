@@ -1,5 +1,6 @@
 """The report of a build, in JSON: the model shared by its writer and its readers."""
 
+import math
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -9,7 +10,8 @@ from garage2usd.common.documents import MAX_REPORT_BYTES, read_text
 from garage2usd.common.errors import ConfigError, ReportError
 from garage2usd.common.settings import Record, first_fault
 from garage2usd.config import GarageConfig, LookConfig, config_from_mapping
-from garage2usd.config.stalls import GivenRun
+from garage2usd.config.stalls import GivenRun, SizeClass
+from garage2usd.garage import StallKind
 from garage2usd.layout.ceiling.lighting import LightLevels
 from garage2usd.planning import Principles, Score
 
@@ -104,6 +106,9 @@ class ReportedStall(Record):
     yaw_rad: float
     width_m: float
     length_m: float
+    kind: str = StallKind.PERPENDICULAR
+    angle_rad: float = round(math.pi / 2, 6)
+    size: str = SizeClass.STANDARD
     occupied: bool | None = None
     blocked_by: str | None = None
 

@@ -1,5 +1,6 @@
 """The instances of a layout as USDA text, each under its tile or its group."""
 
+import math
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
 
@@ -139,6 +140,9 @@ def _stall_text(stall: PlacedStall, *, is_taken: bool) -> str:
         f"custom int2 garage:stall:square = {_pair(stall.square)}\n"
         f"custom int2 garage:stall:accessSquare = {_pair(stall.access_square)}\n"
         f'custom token garage:stall:entryEdge = "{stall.edge.name.lower()}"\n'
+        f'custom token garage:stall:kind = "{stall.kind.value}"\n'
+        f"custom float garage:stall:angleRad = {round(math.radians(stall.angle_deg), 6)}\n"
+        f'custom token garage:stall:size = "{stall.size}"\n'
         f"custom float2[] garage:stall:corners = [{corners}]\n"
         f"{'' if is_taken else occupied_text(is_occupied=False)}"
     )

@@ -9,7 +9,7 @@ from pxr import Kind, Sdf, UsdGeom, Vt
 
 from garage2usd.garage import LaneGraph
 from garage2usd.layout import Layout
-from garage2usd.layout.parking.stall_table import EDGES, STALL_TYPES, STALL_USES
+from garage2usd.layout.parking.stall_table import EDGES, STALL_SIZES, STALL_TYPES, STALL_USES
 from garage2usd.reading.lanes import GUIDE_LIFT_M
 from garage2usd.stage.authoring import attribute, define, new_layer, numbers, words
 from garage2usd.stage.curves import author_curves
@@ -40,9 +40,11 @@ def write_lane_graph(path: Path, layout: Layout, graph: LaneSquares) -> None:
     ``:widths``. ``Edges`` has a line from middle to middle for each pair that joins, with ``garage:lane:from`` and
     ``:to`` (numbers of nodes), ``:length``, ``:width`` (metres) and ``:direction`` (``both``, or ``forward`` from an
     entrance and into an exit). ``Stalls`` has the outline of each stall, mouth left, mouth right, rear right, rear
-    left, with ``garage:stall:id``, ``:number``, ``:type``, ``:use``, ``:row``, ``:column``, ``:accessNode`` (number of
-    a node), ``:entryEdge`` and ``:occupied`` (1 where a car stands, else 0); where misparked cars block stalls,
-    ``:blockedBy`` is the id of the stall of the car, or empty. No attribute is ``bool[]``, ``int2[]`` or ``string[]``,
+    left, with ``garage:stall:id``, ``:number``, ``:type``, ``:use``, ``:kind`` (``perpendicular``, ``angled`` or
+    ``parallel``), ``:angleRad`` (of the long sides to the lane), ``:size`` (size class), ``:row``, ``:column``,
+    ``:accessNode`` (number of a node), ``:entryEdge`` and ``:occupied`` (1 where a car stands, else 0); where misparked
+    cars block stalls, ``:blockedBy`` is the id of the stall of the car, or empty. No attribute is ``bool[]``,
+    ``int2[]`` or ``string[]``,
     which three.js cannot read from a crate.
     """
     root = Sdf.Path.absoluteRootPath.AppendChild(_ROOT)
@@ -83,9 +85,12 @@ def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: Lane
     for name, choices, column in (
         ("type", STALL_TYPES, stalls.stall_type),
         ("use", STALL_USES, stalls.use),
+        ("size", STALL_SIZES, stalls.size),
         ("entryEdge", [edge.name.lower() for edge in EDGES], stalls.edge),
     ):
         words(prim, f"garage:stall:{name}", map([str(choice) for choice in choices].__getitem__, column.tolist()))
+    words(prim, "garage:stall:kind", stalls.kinds())
+    numbers(prim, "garage:stall:angleRad", np.radians(stalls.angle_deg).astype(np.float32))
     _author_squares(prim, "garage:stall", stalls.square)
     access = [graph.number_of[row, col] for row, col in zip(*stalls.access_square.T.tolist(), strict=True)]
     numbers(prim, "garage:stall:accessNode", np.array(access, dtype=np.int32))

@@ -215,8 +215,12 @@ class Lanelet2Judge:
             yield f"{len(lines)} of {len(parking)} parking spaces"
         for line in lines:
             corners = self.lanes.stalls[line["tags"]["name"]]["corners"] * (1, -1)
+            mouth, side = corners[1] - corners[0], corners[2] - corners[1]
+            if np.linalg.norm(mouth) > np.linalg.norm(side) and abs(mouth @ side) < NEAR_M:
+                corners, mouth, side = np.roll(corners, -1, axis=0), side, mouth  # parallel: along the car
             ends = np.array([corners[:2].mean(axis=0), corners[2:].mean(axis=0)])
-            wide = float(line["tags"]["width"]) - np.linalg.norm(corners[1] - corners[0])
+            between = abs(mouth[0] * side[1] - mouth[1] * side[0]) / np.linalg.norm(side)
+            wide = float(line["tags"]["width"]) - between
             if max(np.abs(np.array(line["places"])[:, :2] - ends).max(), abs(wide)) > NEAR_M:
                 yield f"the parking space {line['tags']['name']} lies elsewhere or is of another width"
 

@@ -123,7 +123,7 @@ class MapJudge:
         if found.keys() != spaces.keys():
             yield f"SUMO has {len(found)} of {len(spaces)} spaces"
         for number, corners in found.items():
-            expected = self.lanes.stalls[spaces[number].get("name")]["corners"]
+            expected = box_around(self.lanes.stalls[spaces[number].get("name")]["corners"])
             apart = np.linalg.norm(corners[:, None] - expected, axis=2)
             if max(apart.min(axis=0).max(), apart.min(axis=1).max()) > NEAR_M:
                 yield f"SUMO has {spaces[number].get('name')} {apart.min(axis=0).max():.4f} m off"
@@ -233,6 +233,15 @@ class MapJudge:
                 ]
                 if not any(near):
                     yield f"sign {sign.get('name')} stands elsewhere or looks elsewhere"
+
+
+def box_around(corners):
+    """The corners of a stall's box along its sides, which is all that SUMO has of a slanted one."""
+    back = corners[2:].mean(axis=0) - corners[:2].mean(axis=0)
+    along = back / np.linalg.norm(back)
+    axes = np.array([along, (-along[1], along[0])])
+    low, high = (corners @ axes.T).min(axis=0), (corners @ axes.T).max(axis=0)
+    return np.array([(low[0], low[1]), (low[0], high[1]), (high[0], high[1]), (high[0], low[1])]) @ axes
 
 
 def astray_on_ramps(lanes, points):

@@ -17,6 +17,8 @@ namespace Garage.Unity
         readonly List<KeyValuePair<GameObject, SceneNode[]>> graphs = new List<KeyValuePair<GameObject, SceneNode[]>>();
 
         /// <summary>A stall with the paths of its prim and of its car's.</summary>
+        const string Perpendicular = "perpendicular", Standard = "standard";
+
         struct Parked
         {
             public readonly Stall Stall;
@@ -60,6 +62,10 @@ namespace Garage.Unity
             stall.Set(prim.Text("garage:stall:id", ""), prim.Text("garage:stall:number", ""),
                 prim.Text("garage:stall:type", ""), prim.Text("garage:stall:use", "standard"),
                 prim.Text("garage:stall:entryEdge", ""), own, prim.Truth("garage:stall:occupied", false));
+            UsdValue angle = prim.Value("garage:stall:angleRad");
+            float[] angles = angle == null ? new float[0] : angle.Floats();
+            stall.SetShape(prim.Text("garage:stall:kind", Perpendicular), prim.Text("garage:stall:size", Standard),
+                angles.Length == 1 ? angles[0] : Mathf.PI / 2);
             IList<string> targets = prim.Targets("garage:stall:car");
             if (stall.IsOccupied && targets.Count > 0) { parked.Add(new Parked(stall, prim.Path, targets[0])); }
             if (stalls.ContainsKey(stall.Id)) { report.Add("stalls have the same id", prim.Path); }
@@ -230,6 +236,8 @@ namespace Garage.Unity
             int[] rows = Ints(curves, "garage:stall:row", count), columns = Ints(curves, "garage:stall:column", count);
             int[] access = Ints(curves, "garage:stall:accessNode", count),
                 occupied = Ints(curves, "garage:stall:occupied", count);
+            string[] kinds = Texts(curves, "garage:stall:kind", count), sizes = Texts(curves, "garage:stall:size", count);
+            float[] angles = Floats(curves, "garage:stall:angleRad", count);
             Vector3[] points = Points(curves.Curves.Points);
             Transform holder = null;
             var found = new List<Stall>(count);
@@ -256,6 +264,8 @@ namespace Garage.Unity
                     stall = Made(ids[i], holder, outline);
                     stall.Set(ids[i], numbers[i], types[i], uses[i], sides[i], new Vector2Int(rows[i], columns[i]),
                         occupied[i] == 1);
+                    stall.SetShape(kinds[i] == "" ? Perpendicular : kinds[i], sizes[i] == "" ? Standard : sizes[i],
+                        kinds[i] == "" ? Mathf.PI / 2 : angles[i]);
                     stalls.Add(ids[i], stall);
                     if (stall.IsOccupied) { ParkOnTile(stall, graph.parent); }
                 }

@@ -13,6 +13,9 @@ namespace Garage.Unity
         [SerializeField] string type = "";
         [SerializeField] string use = "";
         [SerializeField] string entryEdge = "";
+        [SerializeField] string kind = "";
+        [SerializeField] string size = "";
+        [SerializeField] float angleRad;
         [SerializeField] Vector2Int square;
         [SerializeField] bool isOccupied;
         [SerializeField] Transform car;
@@ -41,6 +44,24 @@ namespace Garage.Unity
         public string Use
         {
             get { return use; }
+        }
+
+        /// <summary>"perpendicular", "angled" or "parallel".</summary>
+        public string Kind
+        {
+            get { return kind; }
+        }
+
+        /// <summary>Size class: "standard", "compact", "large" or "van".</summary>
+        public string Size
+        {
+            get { return size; }
+        }
+
+        /// <summary>Angle in radians of its long sides to the lane: pi / 2 where it is perpendicular.</summary>
+        public float AngleRad
+        {
+            get { return angleRad; }
         }
 
         /// <summary>"up", "down", "left" or "right": the edge of its square that its mouth lies on.</summary>
@@ -112,6 +133,13 @@ namespace Garage.Unity
             entryEdge = edge;
             square = ownSquare;
             isOccupied = holdsCar;
+        }
+
+        internal void SetShape(string ownKind, string ownSize, float ownAngleRad)
+        {
+            kind = ownKind;
+            size = ownSize;
+            angleRad = ownAngleRad;
         }
 
         internal void SetCar(Transform parked)

@@ -5,17 +5,22 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.config.stalls import SizeClass
 from garage2usd.layout.placement import PlacedStall, StallUse, outline_of, stall_name
 from garage2usd.layout.table import Table
 from garage2usd.structure.grid import NEIGHBOUR_STEPS
 from garage2usd.structure.lane_graph import StallType
+from garage2usd.structure.stall_shapes import kind_of_angle
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["EDGES", "STALL_TYPES", "STALL_USES", "StallTable"]
+__all__ = ["EDGES", "STALL_SIZES", "STALL_TYPES", "STALL_USES", "StallTable"]
 
 EDGES, STALL_TYPES, STALL_USES = tuple(Edge), tuple(StallType), tuple(StallUse)
 """The edges, types and uses by the number that a table holds for each."""
 _TYPE_NUMBERS = {stall_type: number for number, stall_type in enumerate(STALL_TYPES)}
+STALL_SIZES = tuple(size.value for size in SizeClass)
+"""The size classes likewise."""
+_SIZE_NUMBERS = {size: number for number, size in enumerate(STALL_SIZES)}
 _USE_NUMBERS = {use: number for number, use in enumerate(STALL_USES)}
 
 
@@ -38,6 +43,8 @@ class StallTable(Table[PlacedStall]):
         Angle of the long sides of each to its lane; float64, shape (n,).
     turn
         1 for each that is entered by a turn to the right, else -1; int8, shape (n,).
+    size
+        Number of the size class of each in `STALL_SIZES`; uint8, shape (n,).
     number
         What people read, as ASCII; shape (n,).
     """
@@ -54,6 +61,7 @@ class StallTable(Table[PlacedStall]):
         self.yaw_rad = np.array([stall.yaw_rad for stall in stalls], dtype=np.float64)
         self.angle_deg = np.array([stall.angle_deg for stall in stalls], dtype=np.float64)
         self.turn = np.array([stall.turn for stall in stalls], dtype=np.int8)
+        self.size = np.array([_SIZE_NUMBERS[stall.size] for stall in stalls], dtype=np.uint8)
         self.number = np.array([stall.number for stall in stalls], dtype=np.bytes_)
 
     def __len__(self) -> int:
@@ -82,6 +90,10 @@ class StallTable(Table[PlacedStall]):
         cos, sin = np.cos(self.yaw_rad)[:, None], np.sin(self.yaw_rad)[:, None]
         return np.stack([x + across * cos + along * sin, z - across * sin + along * cos], axis=2)
 
+    def kinds(self) -> list[str]:
+        """Kind of each, one of `garage2usd.garage.StallKind`."""
+        return [kind_of_angle(angle_deg).value for angle_deg in self.angle_deg.tolist()]
+
     def names(self) -> list[str]:
         """Ids of all stalls."""
         rows, cols = self.square.T.tolist()
@@ -101,6 +113,7 @@ class StallTable(Table[PlacedStall]):
             self.number,
             self.angle_deg,
             self.turn,
+            self.size,
         )
         return [
             PlacedStall(
@@ -116,9 +129,20 @@ class StallTable(Table[PlacedStall]):
                 number=number.decode("ascii"),
                 angle_deg=angle_deg,
                 turn=turn,
+                size=STALL_SIZES[size],
             )
-            for (row, col), ordinal, edge, stall_type, (x, z), (
-                width,
-                length,
-            ), yaw, use, number, angle_deg, turn in zip(*(column[rows].tolist() for column in columns), strict=True)
+            for (
+                (row, col),
+                ordinal,
+                edge,
+                stall_type,
+                (x, z),
+                (width, length),
+                yaw,
+                use,
+                number,
+                angle_deg,
+                turn,
+                size,
+            ) in zip(*(column[rows].tolist() for column in columns), strict=True)
         ]

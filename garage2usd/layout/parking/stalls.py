@@ -61,6 +61,7 @@ def stalls_of(grid: TileGrid, graph: LaneSquares) -> tuple[PlacedStall, ...]:
             yaw_rad=turned_yaw_rad(place.row.edge, turn_of(place.row), place.row.shape.angle_deg),
             angle_deg=place.row.shape.angle_deg,
             turn=turn_of(place.row),
+            size=place.row.shape.size,
         )
         for tile in grid
         for place in grid.stall_places.get(tile.square, [])

@@ -21,6 +21,20 @@ function made<K extends keyof HTMLElementTagNameMap>(
   return node;
 }
 
+/** Whether a stall is parallel to its lane, angled or perpendicular, by its corners. */
+function kindOf(stall: Stall): string {
+  const [left, right, rear] = stall.corners;
+  const mouth = [right[0] - left[0], right[1] - left[1]];
+  const side = [rear[0] - right[0], rear[1] - right[1]];
+  const [width, length] = [Math.hypot(mouth[0], mouth[1]), Math.hypot(side[0], side[1])];
+  const cosine = (mouth[0] * side[0] + mouth[1] * side[1]) / (width * length || 1);
+  if (Math.abs(cosine) > 0.02) {
+    const angle = (Math.acos(Math.min(1, Math.abs(cosine))) * 180) / Math.PI;
+    return `angled, ${angle.toFixed(0)}°`;
+  }
+  return width > length ? "parallel" : "perpendicular";
+}
+
 function chip(colour: string): HTMLElement {
   const node = made("i", "chip");
   node.style.backgroundColor = colour;
@@ -138,7 +152,8 @@ export function showObject(scene: SceneFile, boxes: Boxes, object: number, stall
         ["Stall id", stall.id ?? "-"],
         ["Use", use],
         ["Type", spoken(stall.type ?? "-")],
-        ["Stall size", `${width.toFixed(2)} × ${length.toFixed(2)} m`],
+        ["Kind", `${kindOf(stall)}${stall.size && stall.size !== "standard" ? `, ${stall.size}` : ""}`],
+        ["Mouth and side", `${width.toFixed(2)} × ${length.toFixed(2)} m`],
         ["Entry edge", stall.entryEdge ?? "-"],
         ["Lane node", String(stall.accessNode ?? "-")],
         ["Car", parked ? "parked" : "none"],

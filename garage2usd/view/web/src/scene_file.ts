@@ -47,6 +47,7 @@ export interface Stall {
   row?: number;
   column?: number;
   entryEdge?: string;
+  size?: string;
   accessNode?: number;
   /** (x, z) in metres: mouth left, mouth right, rear right, rear left. */
   corners: [number, number][];
