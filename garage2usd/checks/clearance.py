@@ -3,6 +3,7 @@
 import math
 from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -32,10 +33,10 @@ class _ParkedCars:
     garage: BuiltGarage
     profile: Profile
 
-    @property
+    @cached_property
     def stalls(self) -> tuple[Stall, ...]:
-        """The stalls that take cars."""
-        return self.garage.parking_stalls
+        """The stalls that take the design car."""
+        return tuple(stall for stall in self.garage.parking_stalls if not stall.is_compact)
 
     def grounds(self, *, beside_m: float = 0.0, behind_m: float = 0.0) -> Grounds:
         """Return each parked car's footprint, widened on both sides and lengthened behind; shape (stalls,)."""

@@ -59,21 +59,17 @@ def _compact_length(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
 @BOOK.rule("compact-share", "compact_share", asks="no more stalls than a share are for compact cars")
 def _compact_share(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     clause, stalls = profile.compact_share, garage.parking_stalls
-    compact = [stall for stall in stalls if _is_compact(stall)]
+    compact = [stall for stall in stalls if stall.is_compact]
     if clause and compact and (share := 100 * len(compact) / len(stalls)) > clause.amount + ROUNDING_M:
         message = "too many of the stalls are for compact cars"
         yield Miss(compact[0].name, compact[0].centre, message, share, clause.amount)
 
 
-def _is_compact(stall: Stall) -> bool:
-    return dict(stall.facts).get("size") == "compact"
-
-
-def _clause_prefix(stall: Stall) -> str:
-    """Return the beginning of the names of the clauses for the size of a stall."""
+def _clause_prefix(stall: Stall) -> str | None:
+    """Return the beginning of the names of the clauses for the size of a stall; None if there are none for it."""
     if stall.kind is StallKind.PARALLEL:
-        return "parallel_"
-    return "compact_" if _is_compact(stall) else ""
+        return None if stall.is_compact else "parallel_"
+    return "compact_" if stall.is_compact else ""
 
 
 def _short(stalls: Iterable[Stall], profile: Profile, clause_name: str, side: str, word: str) -> Iterator[Miss]:
@@ -81,7 +77,8 @@ def _short(stalls: Iterable[Stall], profile: Profile, clause_name: str, side: st
     if clause is None:
         return
     for stall in stalls:
-        if _clause_prefix(stall) + _SIDES[side] != clause_name:
+        prefix = _clause_prefix(stall)
+        if prefix is None or prefix + _SIDES[side] != clause_name:
             continue
         measured = getattr(stall, side)
         if measured < clause.amount - ROUNDING_M:

@@ -27,8 +27,8 @@ class SizeClass(StrEnum):
     VAN = "van"
 
 
-_SIZES_M = {SizeClass.COMPACT: (2.3, 4.6), SizeClass.LARGE: (2.6, 5.5), SizeClass.VAN: (3.0, 6.0)}
-"""Usual widths and lengths; assumptions, except that of compact stalls, which is near 8 by 15 ft of US towns."""
+_SIZES_M = {SizeClass.COMPACT: (2.3, 4.9), SizeClass.LARGE: (2.6, 5.5), SizeClass.VAN: (3.0, 6.0)}
+"""Usual widths and lengths; assumptions, except that of compact stalls, which is near the 8 by 16 ft of US towns."""
 
 
 class GivenRun(Settings):

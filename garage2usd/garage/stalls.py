@@ -84,8 +84,8 @@ class Stall:
     access
         Number of the lane node in front of the stall's mouth.
     facts
-        Further properties by name, as far as known: number, type, square, the edge of the square at the mouth, whether
-        a car is parked there (`occupied`), and the id of the stall of the misparked car that blocks the stall
+        Further properties by name, as far as known: number, type, size class, square, edge of the square at the mouth,
+        whether a car is parked there (`occupied`), and the id of the stall of the misparked car that blocks the stall
         (`blocked_by`).
     level
         Number of its level, from 0.
@@ -114,6 +114,11 @@ class Stall:
         """True if a car parks in the stall or blocks it; None if unknown."""
         found = dict(self.facts).get("occupied")
         return None if found is None else bool(found)
+
+    @property
+    def is_compact(self) -> bool:
+        """True if the stall is of the size class for compact cars, which the design car is not."""
+        return dict(self.facts).get("size") == "compact"
 
     def vacated(self) -> "Stall":
         """Return the stall without a parked car."""
