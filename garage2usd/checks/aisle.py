@@ -60,13 +60,15 @@ def _width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
 @BOOK.rule(
     "angled-aisle-width",
     "angled_aisle_widths",
+    "aisle_width",
     asks="an aisle with angled stalls is wide enough for their angle between what stands",
 )
 def _angled_width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    clause = profile.angled_aisle_widths
+    clause, upright = profile.angled_aisle_widths, profile.aisle_width
     if clause is None:
         return iter(())
-    return _narrow(garage, {StallKind.ANGLED: lambda stall: clause.amount_at(_acute_deg(stall))})
+    perpendicular_m = upright.amount if upright else None
+    return _narrow(garage, {StallKind.ANGLED: lambda stall: clause.amount_at(_acute_deg(stall), perpendicular_m)})
 
 
 @BOOK.rule(

@@ -173,10 +173,20 @@ class LengthsByAngle(Clause):
         """Metres."""
         return "m"
 
-    def amount_at(self, angle_deg: float) -> float:
-        """The least length in metres for an angle; that of the nearest angle outside their range."""
-        values_m = [value * _METRES[self.unit] for value in self.values]
-        return round(float(np.interp(angle_deg, self.angles_deg, values_m)), 9)
+    def amount_at(self, angle_deg: float, perpendicular_m: float | None = None) -> float:
+        """The least length in metres for an angle; that of the nearest angle outside their range.
+
+        Parameters
+        ----------
+        angle_deg
+            Angle of the stalls.
+        perpendicular_m
+            The length for 90 degrees, if it is known from another clause.
+        """
+        angles_deg, values_m = list(self.angles_deg), [value * _METRES[self.unit] for value in self.values]
+        if perpendicular_m is not None:
+            angles_deg, values_m = [*angles_deg, 90.0], [*values_m, perpendicular_m]
+        return round(float(np.interp(angle_deg, angles_deg, values_m)), 9)
 
 
 class Steps(Clause):
