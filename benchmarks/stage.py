@@ -156,7 +156,7 @@ def _lay_out(rows: int, cols: int, form: str, path: Path) -> dict[str, float]:
     figures = {"seconds": time.perf_counter() - start, "peak_mb": peak_mb(), "objects": len(layout.placements)}
     (path.parent / _LAYOUT_FILE).write_bytes(pickle.dumps((layout, graph, config)))
     arrangement = arrangement_of(layout, config.stage)
-    write_stage(layout, graph, path, arrangement=arrangement, metadata={}, config=config.stage)
+    write_stage(layout, path, arrangement=arrangement, metadata={}, config=config.stage)
     return figures
 
 

@@ -35,7 +35,6 @@ from garage2usd.reading.report import (
     UnmetClause,
 )
 from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = ["learning_figures", "make_report", "write_report"]
 
@@ -54,7 +53,6 @@ def make_report(
     *,
     config: GarageConfig,
     plan: Plan,
-    graph: LaneSquares,
     layout: Layout,
     seconds: Mapping[str, float],
     learning: LearningFigures | None = None,
@@ -64,7 +62,7 @@ def make_report(
 
     Parameters
     ----------
-    config, plan, graph, layout
+    config, plan, layout
         The garage.
     seconds
         What each step took.
@@ -100,10 +98,10 @@ def make_report(
         circulation=_circulation(structure, config),
         area_per_stall_m2=round(layout.area_per_stall_m2, 3) if layout.parking_stalls else None,
         parking_stalls=layout.parking_stalls,
-        stall_uses={str(use): count for use, count in sorted(Counter(s.use for s in layout.stalls).items())},
+        stall_uses={str(use): count for use, count in sorted(Counter(s.use for s in layout.quads).items())},
         illuminance=layout.illuminance,
         not_designed_to=None if unmet is None else tuple(unmet),
-        lane_kinds=graph.kind_counts(),
+        lane_kinds=layout.lane_squares.kind_counts(),
         object_counts=layout.counts(),
         unreachable_stalls=tuple(sorted(layout.unreachable)),
         undecided_stalls=tuple(sorted(layout.undecided)),

@@ -106,8 +106,8 @@ def test_the_check_of_a_build_is_that_of_its_report_without_the_long_rules(tmp_p
     config = GarageConfig(site={"structure": DRAWING}, bay={"square_side_m": 5.4, "dimensioned": False})
     made = build(config, tmp_path / "g.usda")
     garage = made.garage
-    subject = garage_of_layout(garage.layout, garage.graph, source="", kind="report")
-    assert list(made.findings) == check(subject, config.standard) == check_layout(garage.layout, garage.graph, config)
+    subject = garage_of_layout(garage.layout, source="", kind="report")
+    assert list(made.findings) == check(subject, config.standard) == check_layout(garage.layout, config)
     assert (
         {"aisle-width", "portal-width"} <= {finding.rule for finding in made.findings} < {rule.name for rule in RULES}
     )

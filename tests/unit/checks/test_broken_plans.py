@@ -35,7 +35,7 @@ def found_in(settings, profile=CN):
     depths = side if config.bay.row_depths_m is None else config.bay.row_depths_m
     structure = Structure.from_arrays(cells_from_text(config.site.structure, field="S"), widths, depths)
     graph = build_lane_graph(structure, config.bay)
-    subject = garage_of_layout(lay_out(structure, graph, config), graph, source="", kind="plan")
+    subject = garage_of_layout(lay_out(structure, graph, config), source="", kind="plan")
     return {finding.rule for finding in check(subject, profile)}
 
 
