@@ -150,6 +150,14 @@ class Layout:
         """Return the (row, col) by which files name each lane node; int32, shape (nodes, 2)."""
         return np.array([*self.lane_squares.number_of], dtype=np.int32).reshape(-1, 2)
 
+    def kinds_of_squares(self) -> dict[str, int]:
+        """Count the squares of each kind of lane and portal, and of each stall type."""
+        return self.lane_squares.kind_counts()
+
+    def label_of_square(self, row: int, col: int) -> str:
+        """Return the semantic label of a square's tile: the kind of its lane, or the type of its stalls."""
+        return self.lane_squares.label_of((row, col))
+
     def counts(self) -> dict[str, int]:
         """Number of objects of each kind."""
         counts = np.bincount(self.placements.kind, minlength=len(KINDS)).tolist()

@@ -162,7 +162,7 @@ def _pieces(
     """The text of the layer: what stands in the garage within its frame, and the prototypes of tiles."""
     before, physics, after = frame.partition(f'    def {_PHYSICS} "{_PHYSICS}"')
     yield before
-    labels = list(map(layout.lane_squares.label_of, map(tuple, arrangement.squares.tolist())))
+    labels = [layout.label_of_square(row, col) for row, col in arrangement.squares.tolist()]
     tile_classes: Iterable[str] = ()
     if arrangement.nested:
         shared = share_tiles(layout, arrangement, labels, writer, f"/{_TILE_CLASSES}")
