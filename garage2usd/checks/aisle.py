@@ -121,11 +121,11 @@ def _clear_width(garage: BuiltGarage, way: _Way, carriageway_m: float) -> tuple[
 def _dead_ends(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     if profile.dead_end_length is None:
         return
-    for squares, length, _ in garage.lanes.dead_ends:
+    for nodes, length, _ in garage.lanes.dead_ends:
         if length <= profile.dead_end_length.amount + ROUNDING_M:
             continue
-        uses = {stall.use for stall in garage.stalls if stall.access in squares}
+        uses = {stall.use for stall in garage.stalls if stall.access in nodes}
         if uses and StallUse.TURNING not in uses:
-            node = garage.lanes.nodes[squares[0]]
+            node = garage.lanes.nodes[nodes[0]]
             message = "the dead-end aisle is too long without a stall kept free for turning"
             yield Miss(node.name, node.position, message, length, profile.dead_end_length.amount)
