@@ -180,13 +180,12 @@ def _own_layers(path: Path) -> list[Path]:
 
 
 def _author(path: Path) -> dict[str, float]:
-    layout, graph, config = _read(path.parent)
+    layout, _, config = _read(path.parent)
     prototypes = _prototypes(layout, config)
     before_mb = resident_mb()
     start = time.perf_counter()
     write_garage_layer(
         layout,
-        graph,
         arrangement=arrange(layout, nested=config.stage.form is StageForm.NESTED),
         prototypes=prototypes,
         own=f"{ASSETS}/",

@@ -85,7 +85,7 @@ class Layout:
     structure
         The plan that it was laid out from.
     lane_squares
-        The squares of its lanes, for this room and for names of prims; everybody else takes `lanes` and `quads`.
+        The squares of its lanes, for this room only; all others take `Layout.lanes` and `Layout.quads`.
     placements
         All objects: tiles in reading order, then the building's.
     stalls
@@ -138,7 +138,7 @@ class Layout:
 
     @cached_property
     def quads(self) -> tuple[Stall, ...]:
-        """The stalls as those of the neutral garage, in the order of `stalls`, with the facts that a stage tells."""
+        """The stalls as those of the neutral garage, in the order of `Layout.stalls`, with the facts of a stage."""
         return tuple(garage_stalls(tuple(self.stalls), self.lane_squares, self.blocked, self.are_occupied().tolist()))
 
     @property
