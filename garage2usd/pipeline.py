@@ -301,7 +301,7 @@ def _driven(layout: Layout, config: GarageConfig, progress: Progress) -> Layout:
     choice = config.plan.unreachable_stalls
     if choice.are_proven:
         layout = without_unreachable(layout, config, progress=progress)
-    tight = [stall for stall in layout.quads if is_tight(stall, layout.lanes)]
+    tight = [stall for stall in layout.quads if is_tight(stall, layout.lane_graph)]
     if tight and choice is UnreachableStalls.REFUSE:
         refuse_undrivable(layout, config, tight, progress=progress)
     return with_truth_of_misparked(layout, config, progress=progress)

@@ -23,7 +23,7 @@ def garage_of_layout(layout: Layout, *, source: str, kind: str, faults: tuple[Fa
         source=source,
         kind=kind,
         stalls=layout.quads,
-        lanes=layout.lanes,
+        lanes=layout.lane_graph,
         things=_things(layout),
         structure=layout.structure,
         compartments=layout.compartments,

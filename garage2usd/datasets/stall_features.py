@@ -83,7 +83,7 @@ def measured_stalls(garage: Garage, *, proofs: Sequence[StallProof] | None = Non
     return tuple(
         _features(
             proof,
-            aisle_width_m=round(layout.lanes.clear_aisle_m(stall.access, stall.outwards), _DIGITS),
+            aisle_width_m=round(layout.lane_graph.clear_aisle_m(stall.access, stall.outwards), _DIGITS),
             occupied_neighbours=neighbours[row],
             illuminance_lux=round(lux[row], _DIGITS),
         )

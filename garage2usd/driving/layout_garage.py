@@ -188,7 +188,7 @@ def _swept(way: Manoeuvre, car: DesignCar) -> Grounds:
 
 def layout_garage(layout: Layout) -> DrivenGarage:
     """Convert a layout to a garage for driving: stalls that take cars, lanes, and obstacles by `object_name`."""
-    return assembled(layout.quads, layout.lanes, _standing(layout))
+    return assembled(layout.quads, layout.lane_graph, _standing(layout))
 
 
 def object_name(place: Placement) -> str:

@@ -48,7 +48,7 @@ def refuse_undrivable(
     if not without:
         return
     found = [stall for stall in tight if stall.name in without]
-    narrowest_m = min(layout.lanes.clear_aisle_m(stall.access, stall.outwards) for stall in found)
+    narrowest_m = min(layout.lane_graph.clear_aisle_m(stall.access, stall.outwards) for stall in found)
     named = _named([stall.name for stall in found])
     undecided = [proof.stall for proof in proofs if proof.outcome is Outcome.UNDECIDED]
     open_ = f" (undecided, as the search ended at its bound: {_named(undecided)})" if undecided else ""

@@ -85,7 +85,7 @@ class Layout:
     structure
         The plan that it was laid out from.
     lane_squares
-        The squares of its lanes, for this room only; all others take `Layout.lanes` and `Layout.quads`.
+        The squares of its lanes, for this room only; all others take `Layout.lane_graph` and `Layout.quads`.
     placements
         All objects: tiles in reading order, then the building's.
     stalls
@@ -132,7 +132,7 @@ class Layout:
     undecided: frozenset[str] = frozenset()
 
     @property
-    def lanes(self) -> LaneGraph:
+    def lane_graph(self) -> LaneGraph:
         """The lane graph in metres."""
         return self.lane_squares.lanes
 

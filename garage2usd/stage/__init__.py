@@ -181,7 +181,7 @@ def write_stage(
         own=own,
         asset_folder=folder.name if shared is None else config.asset_folder,
         metadata=metadata,
-        last_frame=write_drive(path.parent / f"{own}{DRIVE_NAME}.usdc", layout.lanes),
+        last_frame=write_drive(path.parent / f"{own}{DRIVE_NAME}.usdc", layout.lane_graph),
         path=layer_path,
         is_compact=is_compact,
     )

@@ -74,9 +74,9 @@ def set_frames(layer: Sdf.Layer, last_frame: int) -> None:
 def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, *, own: str) -> None:
     """Author a camera at a driver's eye at the entrance and one over the whole garage; refer to the one that drives."""
     define(layer, path, "Scope")
-    entrance = layout.lanes.portals(LaneKind.ENTRANCE)[0]
-    x, z = layout.lanes.nodes[entrance].position
-    lane_x, lane_z = layout.lanes.nodes[min(layout.lanes.onward[entrance])].position
+    entrance = layout.lane_graph.portals(LaneKind.ENTRANCE)[0]
+    x, z = layout.lane_graph.nodes[entrance].position
+    lane_x, lane_z = layout.lane_graph.nodes[min(layout.lane_graph.onward[entrance])].position
     yaw = math.degrees(math.atan2(x - lane_x, z - lane_z))
     _fixed(_camera(layer, path.AppendChild("Inside")), (x, EYE_M, z), yaw_deg=yaw)
 

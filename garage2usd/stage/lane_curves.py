@@ -48,14 +48,14 @@ def write_lane_graph(path: Path, layout: Layout) -> None:
         group = define(layer, root, "Xform", kind=Kind.Tokens.group)
         attribute(group, "purpose", _TYPES.Token, UsdGeom.Tokens.guide, uniform=True)
         _author_nodes(layer, root.AppendChild("Nodes"), layout)
-        _author_edges(layer, root.AppendChild("Edges"), layout.lanes)
+        _author_edges(layer, root.AppendChild("Edges"), layout.lane_graph)
         _author_stalls(layer, root.AppendChild(STALL_OUTLINES[-1]), layout)
 
 
 def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, layout: Layout) -> None:
     angles = np.arange(_NODE_CORNERS) * math.tau / _NODE_CORNERS
     ring = _NODE_RADIUS_M * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    lanes, squares = layout.lanes, layout.node_squares()
+    lanes, squares = layout.lane_graph, layout.node_squares()
     prim = _author_curves(layer, path, lanes.positions_m[:, None] + ring, closed=True)
     words(prim, "garage:lane:kind", (node.kind for node in lanes.nodes))
     numbers(prim, "garage:lane:row", squares[:, 0])

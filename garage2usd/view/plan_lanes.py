@@ -39,7 +39,7 @@ _CHEVRON_M = 0.7
 def lane_legend(layout: Layout, found: MeasuredCirculation) -> list[tuple[Colour, str]]:
     """Kinds of lane that there are, with their colours."""
     rounds = found.circulation.rounds[layout.structure.cells >= Cell.LANE]
-    kinds = {node.kind for node, pruned in zip(layout.lanes.nodes, rounds.tolist(), strict=True) if not pruned}
+    kinds = {node.kind for node, pruned in zip(layout.lane_graph.nodes, rounds.tolist(), strict=True) if not pruned}
     entries = [(LANE_COLOUR[kind], _LANE_NAME[kind]) for kind in LaneKind if kind in kinds]
     return entries + ([(DEAD_END, "dead end")] if found.dead_ends else [])
 
@@ -48,7 +48,7 @@ def squares(layout: Layout, found: MeasuredCirculation) -> Iterator[Region | Lin
     """Every square by its kind; a lane in a dead end has a tint of its own."""
     structure, rounds = layout.structure, found.circulation.rounds
     x, z = structure.column_edges_m.tolist(), structure.row_edges_m.tolist()
-    nodes = iter(layout.lanes.nodes)  # which are numbered in reading order
+    nodes = iter(layout.lane_graph.nodes)  # which are numbered in reading order
     for row, line in enumerate(structure.cells.tolist()):
         for col, cell in enumerate(line):
             if cell == Cell.OBSTACLE:

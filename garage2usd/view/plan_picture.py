@@ -68,13 +68,13 @@ def draw_plan(layout: Layout, *, stall: Stall | None = None, marks: Sequence[Mar
     def elements() -> Iterator[_Element]:
         yield from squares(layout, found)
         yield from _stalls(layout)
-        yield from arrows(layout.lanes)
+        yield from arrows(layout.lane_graph)
         yield from ramps(layout, sheet)
         yield from _building(layout)
         yield from _clutter(layout)
         yield from portals(layout, sheet)
         if stall is not None:
-            yield from _route(layout.lanes, stall)
+            yield from _route(layout.lane_graph, stall)
         yield sheet.title(_figures(layout, found))
         yield from sheet.dimensions()
         yield from sheet.legend(layout)

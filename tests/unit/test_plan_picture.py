@@ -186,7 +186,7 @@ def test_directions_keep_right_and_portals_are_one_way(garage):
 def test_the_route_is_the_shortest_over_lanes(garage, number):
     stall = find_stall(garage.layout, number)
     assert {find_stall(garage.layout, name).name for name in (number.lower(), stall.name.upper())} == {stall.name}
-    lanes, graph = garage.layout.lanes, garage.graph.graph
+    lanes, graph = garage.layout.lane_graph, garage.graph.graph
     route = route_of(lanes, stall)
     (kind_in, kind_out) = (lanes.nodes[node].kind for node in (route.to_stall[0], route.from_stall[-1]))
     assert (kind_in, kind_out) == (LaneKind.ENTRANCE, LaneKind.EXIT)

@@ -302,7 +302,7 @@ def test_the_drive_goes_from_an_entrance_to_an_exit_over_lanes(stage, made):
 
 
 def test_the_camera_that_drives_is_nowhere_seen_to_turn_otherwise_than_frame_by_frame(made, tmp_path, monkeypatch):
-    lanes = made.garage.layout.lanes
+    lanes = made.garage.layout.lane_graph
     drives = []
     for name, unseen_deg in (("few", cameras._UNSEEN_DEG), ("all", 0.0)):
         monkeypatch.setattr(cameras, "_UNSEEN_DEG", unseen_deg)
