@@ -149,12 +149,6 @@ class TileGrid:
             square = edge.beyond(square)
         return self.tiles.get(square)
 
-    def clear_width_m(self, tile: Tile) -> float:
-        """Width of a straight lane's carriageway across its axis."""
-        across = (Edge.UP, Edge.DOWN) if tile.axis_is_x else (Edge.LEFT, Edge.RIGHT)
-        width = tile.depth_m if tile.axis_is_x else tile.width_m
-        return width - self.setback_m * sum(not tile.drivable[edge] for edge in across)
-
 
 def _stall_places(rows: Iterable[StallRow], left_out: Collection[str]) -> dict[Square, list[StallPlace]]:
     """The stalls of each square that has any, as they are numbered there."""
