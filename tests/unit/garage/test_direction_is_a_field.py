@@ -17,7 +17,7 @@ from garage2usd.pipeline import build
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.structure.lane_graph import LaneSquares
-from garage2usd.view.plan_picture import draw_plan
+from garage2usd.view.plan_lanes import arrows
 from garage2usd.view.route import route_of
 
 PLAN = "......\n.====E\n.=..=.\n.=..=.\n.====X\n......"
@@ -65,7 +65,6 @@ def test_a_direction_is_set_in_one_place(built, tmp_path):
     for stall in layout.quads:
         route = route_of(layout.lane_graph, stall)
         assert {*pairwise((*route.to_stall, *route.from_stall[1:]))} <= {*lanes.arcs}
-    arrows = [item for item in draw_plan(layout).elements if getattr(item, "kind", "") == "direction"]
-    assert len(arrows) == len(lanes.arcs)
+    assert len([*arrows(layout.lane_graph)]) == len(lanes.arcs)
     drive = DrivePlanner(garage_of_stage(open_stage(built.stage), source="")).drive()
     assert drive.route.arrival.length_m > 0
