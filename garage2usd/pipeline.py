@@ -20,7 +20,7 @@ from garage2usd.config.plan import UnreachableStalls
 from garage2usd.driving import DesignCar, with_clutter, with_truth_of_misparked, without_unreachable
 from garage2usd.driving.refusal import refuse_undrivable
 from garage2usd.layout import Layout, lay_out
-from garage2usd.layout.parking.tight import is_tight
+from garage2usd.layout.parking.tight import tight_stalls
 from garage2usd.planning import Plan, given_plan, plan_lanes, play
 from garage2usd.reading.report import UnmetClause
 from garage2usd.report import make_report, write_report
@@ -301,8 +301,8 @@ def _driven(layout: Layout, config: GarageConfig, progress: Progress) -> Layout:
     choice = config.plan.unreachable_stalls
     if choice.are_proven:
         layout = without_unreachable(layout, config, progress=progress)
-    tight = [stall for stall in layout.quads if is_tight(stall, layout.lane_graph)]
-    if tight and choice is UnreachableStalls.REFUSE:
+    tight = tight_stalls(layout.lane_graph, layout.quads) if choice is UnreachableStalls.REFUSE else ()
+    if tight:
         refuse_undrivable(layout, config, tight, progress=progress)
     return with_truth_of_misparked(layout, config, progress=progress)
 

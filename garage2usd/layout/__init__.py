@@ -289,7 +289,9 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     lamps, illuminance = light_up(installed, grid, stalls, fittings)
     country = country_of(look.signs, config.standard)
     parked = with_own_cars(
-        park_cars(stalls, config, draws, tight=tight_stalls(graph, stalls), held_back=held_back),
+        park_cars(
+            stalls, config, draws, tight=tight_stalls(graph.lanes, garage_stalls(stalls, graph)), held_back=held_back
+        ),
         stalls,
         config.vehicles,
         draws,

@@ -5,11 +5,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from garage2usd.config import BayConfig
 from garage2usd.garage import Stall
 from garage2usd.layout.parking.stalls import stalls_of
-from garage2usd.layout.placement import PlacedStall, cos_sin
+from garage2usd.layout.placement import PlacedStall
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.structure.lane_graph import LaneSquares
 
-__all__ = ["clear_aisle_m", "garage_stalls", "planned_stalls"]
+__all__ = ["garage_stalls", "planned_stalls"]
 
 
 def garage_stalls(
@@ -51,9 +51,3 @@ def garage_stalls(
 def planned_stalls(lanes: LaneSquares, bay: BayConfig) -> tuple[Stall, ...]:
     """Return the stalls of a plan that cannot be laid out."""
     return tuple(garage_stalls(stalls_of(TileGrid(lanes.structure, lanes, bay), lanes, bay), lanes))
-
-
-def clear_aisle_m(stall: PlacedStall, lanes: LaneSquares) -> float:
-    """Metres between the columns on both sides of the aisle that a stall opens onto."""
-    cos, sin = cos_sin(stall.yaw_rad)
-    return lanes.lanes.clear_aisle_m(lanes.number_of[stall.access_square], (sin, cos))
