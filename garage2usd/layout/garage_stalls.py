@@ -45,7 +45,8 @@ def garage_stalls(
             *occupancy,
         )
         corners = (left, right, rear_right, rear_left)
-        yield Stall(stall.name, corners, stall.use, lanes.number_of[stall.access_square], facts)
+        access = lanes.number_of[stall.access_square]
+        yield Stall(stall.name, corners, stall.use, access, facts, lanes.lanes.nodes[access].level)
 
 
 def planned_stalls(lanes: LaneSquares, bay: BayConfig) -> tuple[Stall, ...]:

@@ -40,7 +40,8 @@ def write_lane_graph(path: Path, layout: Layout) -> None:
     entrance and into an exit). ``Stalls`` has the outline of each stall, mouth left, mouth right, rear right, rear
     left, with ``garage:stall:id``, ``:number``, ``:type``, ``:use``, ``:row``, ``:column``, ``:accessNode`` (number of
     a node), ``:entryEdge`` and ``:occupied`` (1 where a car stands, else 0); where misparked cars block stalls,
-    ``:blockedBy`` is the id of the stall of the car, or empty. No attribute is ``bool[]``, ``int2[]`` or ``string[]``,
+    ``:blockedBy`` is the id of the stall of the car, or empty. Nodes and stalls of a garage with several levels have
+    ``:level``, from 0; all curves lie above the floor there. No attribute is ``bool[]``, ``int2[]`` or ``string[]``,
     which three.js cannot read from a crate.
     """
     root = Sdf.Path.absoluteRootPath.AppendChild(_ROOT)
@@ -56,18 +57,19 @@ def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, layout: Layout) -> None:
     angles = np.arange(_NODE_CORNERS) * math.tau / _NODE_CORNERS
     ring = _NODE_RADIUS_M * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     lanes, squares = layout.lane_graph, layout.node_squares()
-    prim = _author_curves(layer, path, lanes.positions_m[:, None] + ring, closed=True)
+    prim = _author_curves(layer, path, lanes.positions_m[:, None] + ring, _heights_m(lanes)[:, None], closed=True)
     words(prim, "garage:lane:kind", (node.kind for node in lanes.nodes))
     numbers(prim, "garage:lane:row", squares[:, 0])
     numbers(prim, "garage:lane:column", squares[:, 1])
     widths_m = np.array([node.widths_m for node in lanes.nodes], dtype=np.float32)
     attribute(prim, "garage:lane:widths", _TYPES.Float2Array, Vt.Vec2fArray.FromNumpy(widths_m))
+    _author_levels(prim, "garage:lane:level", [node.level for node in lanes.nodes])
 
 
 def _author_edges(layer: Sdf.Layer, path: Sdf.Path, lanes: LaneGraph) -> None:
     ends = np.array([(edge.start, edge.end) for edge in lanes.edges], dtype=np.int32).reshape(-1, 2)
     lines = lanes.positions_m[ends]
-    prim = _author_curves(layer, path, lines, closed=False)
+    prim = _author_curves(layer, path, lines, _heights_m(lanes)[ends], closed=False)
     numbers(prim, "garage:lane:from", ends[:, 0])
     numbers(prim, "garage:lane:to", ends[:, 1])
     words(prim, "garage:lane:direction", ("forward" if edge.one_way else "both" for edge in lanes.edges))
@@ -78,7 +80,8 @@ def _author_edges(layer: Sdf.Layer, path: Sdf.Path, lanes: LaneGraph) -> None:
 def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Layout) -> None:
     stalls = layout.quads
     corners = np.array([stall.corners for stall in stalls], dtype=np.float64).reshape(-1, 4, 2)
-    prim = _author_curves(layer, path, corners, closed=True)
+    access = np.array([stall.access for stall in stalls], dtype=np.int32)
+    prim = _author_curves(layer, path, corners, _heights_m(layout.lane_graph)[access, None], closed=True)
     words(prim, "garage:stall:id", (stall.name for stall in stalls))
     words(prim, "garage:stall:number", (str(stall.number or "") for stall in stalls))
     facts = [dict(stall.facts) for stall in stalls]
@@ -87,16 +90,29 @@ def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Layout) -> None:
     words(prim, "garage:stall:entryEdge", (str(fact["entryEdge"]) for fact in facts))
     for name in ("row", "column"):
         numbers(prim, f"garage:stall:{name}", np.array([fact[name] for fact in facts], dtype=np.int32))
-    numbers(prim, "garage:stall:accessNode", np.array([stall.access for stall in stalls], dtype=np.int32))
+    numbers(prim, "garage:stall:accessNode", access)
+    _author_levels(prim, "garage:stall:level", [stall.level for stall in stalls])
     numbers(prim, OCCUPIED, np.array([fact["occupied"] for fact in facts], dtype=np.int32))
     if layout.blocked:
         words(prim, BLOCKED_BY, (stall.blocked_by or "" for stall in stalls))
 
 
-def _author_curves(layer: Sdf.Layer, path: Sdf.Path, lines: NDArray[np.float64], *, closed: bool) -> Sdf.PrimSpec:
-    """Curves through (x, z) points, shape (curves, points, 2)."""
+def _heights_m(lanes: LaneGraph) -> NDArray[np.float64]:
+    """Height of the floor at each lane node; float64, shape (nodes,)."""
+    return np.array([node.height_m for node in lanes.nodes], dtype=np.float64)
+
+
+def _author_levels(prim: Sdf.PrimSpec, name: str, levels: list[int]) -> None:
+    """Author the level of each curve, unless the garage has one level only."""
+    if any(levels):
+        numbers(prim, name, np.array(levels, dtype=np.int32))
+
+
+def _author_curves(
+    layer: Sdf.Layer, path: Sdf.Path, lines: NDArray[np.float64], floor_m: NDArray[np.float64], *, closed: bool
+) -> Sdf.PrimSpec:
+    """Curves through (x, z) points, shape (curves, points, 2), over floors of a height for each curve or point."""
     count, corners, _ = lines.shape
     counts = np.full(count, corners, dtype=np.int32)
-    return author_curves(
-        layer, path, lines.reshape(-1, 2), counts, lift_m=GUIDE_LIFT_M, width_m=_LINE_WIDTH_M, closed=closed
-    )
+    lift_m = np.broadcast_to(floor_m + GUIDE_LIFT_M, (count, corners)).ravel()
+    return author_curves(layer, path, lines.reshape(-1, 2), counts, lift_m=lift_m, width_m=_LINE_WIDTH_M, closed=closed)
