@@ -143,7 +143,7 @@ class Layout:
 
     @property
     def again(self) -> "partial[Layout]":
-        """`lay_out` for the same plan; takes the configuration and the options."""
+        """Lay the same plan out again: `lay_out` with its structure and lane squares given."""
         return partial(lay_out, self.structure, self.lane_squares)
 
     def node_squares(self) -> NDArray[np.int32]:
