@@ -95,11 +95,11 @@ def digests_of(settings: Mapping[str, Any]) -> dict[str, str]:
             built = build(config, folder / "garage.usdc")
         except Garage2UsdError as error:
             return {"refused": _digest(str(error))}
-        garage, graph = built.garage, built.garage.graph
+        garage = built.garage
         structure = garage.plan.structure
         found["plan"] = _digest([str(structure), structure.column_widths_mm.tolist(), structure.row_depths_mm.tolist()])
         found["layout"] = layout_digest(garage.layout)
-        found["svg"] = _digest(to_svg(draw_plan(garage.layout, graph)))
+        found["svg"] = _digest(to_svg(draw_plan(garage.layout)))
         report = json.loads(built.report.read_text())
         del report["seconds"]
         found["report"] = _digest(report)
@@ -118,7 +118,7 @@ def digests_of(settings: Mapping[str, Any]) -> dict[str, str]:
             found[name] = _digest(as_json(check_file(path)[0]))
         slots = read_slots(open_stage(built.stage)).slots
         found["slots"] = _digest([_plain(slot.facts | {"at": slot.corners_m}) for slot in slots])
-        proofs = prove_stalls(garage.layout, graph)
+        proofs = prove_stalls(garage.layout)
         found["proofs"] = _digest([repr(proof) for proof in proofs])
         found["difficulty"] = _digest([_plain(asdict(each)) for each in stall_difficulties(garage, proofs=proofs)])
         found["drive"] = _digest(_drive(built.stage))

@@ -46,7 +46,7 @@ def main() -> int:
     planned, left, plan_m2, layout_m2 = 0, 0, 0.0, 0.0
     for seed in range(asked.first, asked.first + asked.seeds):
         garage = generate(GarageConfig(seed=seed, profile=asked.profile, site=site))
-        subject = garage_of_layout(garage.layout, garage.graph, source=f"seed {seed}", kind="report")
+        subject = garage_of_layout(garage.layout, source=f"seed {seed}", kind="report")
         findings = check(subject, garage.config.standard)
         grave = [finding for finding in findings if finding.severity is not Severity.INFO]
         found.update(f"{finding.severity.value} {finding.rule}" for finding in findings)
@@ -56,7 +56,7 @@ def main() -> int:
         layout_m2 += garage.layout.area_per_stall_m2 / asked.seeds
         if seed < asked.first + asked.drive:
             limits = Limits(gear_changes=_GEAR_CHANGES)
-            proofs = prove_stalls(garage.layout, garage.graph, limits=limits)
+            proofs = prove_stalls(garage.layout, limits=limits)
             driven["proven"] += sum(proof.is_proven for proof in proofs)
             driven["stalls"] += len(proofs)
         for rule, reason in garage.plan.gave_way.items():

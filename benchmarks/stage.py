@@ -156,7 +156,7 @@ def _lay_out(rows: int, cols: int, form: str, path: Path) -> dict[str, float]:
     figures = {"seconds": time.perf_counter() - start, "peak_mb": peak_mb(), "objects": len(layout.placements)}
     (path.parent / _LAYOUT_FILE).write_bytes(pickle.dumps((layout, graph, config)))
     arrangement = arrangement_of(layout, config.stage)
-    write_stage(layout, graph, path, arrangement=arrangement, metadata={}, config=config.stage)
+    write_stage(layout, path, arrangement=arrangement, metadata={}, config=config.stage)
     return figures
 
 
@@ -180,13 +180,12 @@ def _own_layers(path: Path) -> list[Path]:
 
 
 def _author(path: Path) -> dict[str, float]:
-    layout, graph, config = _read(path.parent)
+    layout, _, config = _read(path.parent)
     prototypes = _prototypes(layout, config)
     before_mb = resident_mb()
     start = time.perf_counter()
     write_garage_layer(
         layout,
-        graph,
         arrangement=arrange(layout, nested=config.stage.form is StageForm.NESTED),
         prototypes=prototypes,
         own=f"{ASSETS}/",

@@ -198,7 +198,6 @@ def _stage(garage: Garage, folder: Path) -> Path:
     place.mkdir()
     made = write_stage(
         garage.layout,
-        garage.graph,
         place / "garage.usdc",
         arrangement=arrangement_of(garage.layout, config),
         metadata=stage_metadata(garage),

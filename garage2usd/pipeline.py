@@ -194,7 +194,6 @@ def build(
         arrangement = arrangement_of(garage.layout, garage.config.stage)
         made = write_stage(
             garage.layout,
-            garage.graph,
             folder / f"{path.stem}{path.suffix.lower()}",
             arrangement=arrangement,
             metadata=stage_metadata(garage),
@@ -218,7 +217,6 @@ def build(
             make_report(
                 config=garage.config,
                 plan=garage.plan,
-                graph=garage.graph,
                 layout=garage.layout,
                 seconds=seconds,
                 unmet=unmet,
@@ -257,9 +255,9 @@ def _generate(
     clock.append(time.perf_counter())
     graph = _graph(plan, config)
     layout = lay_out(plan.structure, graph, config)
-    layout = _driven(layout, graph, config, progress)
+    layout = _driven(layout, config, progress)
     if config.clutter.is_any:
-        layout = with_clutter(layout, graph, config, cars=(DesignCar(), design_car(config.standard)), progress=progress)
+        layout = with_clutter(layout, config, cars=(DesignCar(), design_car(config.standard)), progress=progress)
     clock.append(time.perf_counter())
     steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
     return Garage(config, site, plan, graph, layout), {step: end - start for step, (start, end) in steps}
@@ -295,19 +293,19 @@ def _judged(garage: Garage) -> tuple[tuple[Finding, ...] | None, tuple[UnmetClau
     """What a garage misses of its profile, and of which clauses, where that is found in a moment."""
     if len(garage.layout.stalls) > _MOST_CHECKED_STALLS:
         return None, None
-    findings, unmet = judged_layout(garage.layout, garage.graph, garage.config)
+    findings, unmet = judged_layout(garage.layout, garage.config)
     return tuple(findings), unmet
 
 
-def _driven(layout: Layout, graph: LaneSquares, config: GarageConfig, progress: Progress) -> Layout:
+def _driven(layout: Layout, config: GarageConfig, progress: Progress) -> Layout:
     """The layout with what is asked of stalls that no car gets into, and the truth beside cars over lines."""
     choice = config.plan.unreachable_stalls
     if choice.are_proven:
-        layout = without_unreachable(layout, graph, config, progress=progress)
-    tight = tight_stalls(graph, layout.stalls) if choice is UnreachableStalls.REFUSE else ()
+        layout = without_unreachable(layout, config, progress=progress)
+    tight = tight_stalls(layout.lane_graph, layout.quads) if choice is UnreachableStalls.REFUSE else ()
     if tight:
-        refuse_undrivable(layout, graph, config, tight, progress=progress)
-    return with_truth_of_misparked(layout, graph, config, progress=progress)
+        refuse_undrivable(layout, config, tight, progress=progress)
+    return with_truth_of_misparked(layout, config, progress=progress)
 
 
 def _check_learnt(plan: Plan, *, learning_curve: bool, best_plans: int) -> None:
@@ -319,7 +317,7 @@ def _check_learnt(plan: Plan, *, learning_curve: bool, best_plans: int) -> None:
 def _pictures(garage: Garage, *, learning_curve: bool, best_plans: int) -> dict[str, Image.Image]:
     """The pictures of a build by their name."""
     plan = garage.plan
-    pictures = {"plan": to_image(draw_plan(garage.layout, garage.graph))}
+    pictures = {"plan": to_image(draw_plan(garage.layout))}
     if learning_curve:
         pictures["learning"] = draw_learning_curve(plan.learning_curve)
     if best_plans:

@@ -11,6 +11,7 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.common.json_text import json_text
 from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
+from garage2usd.garage import Stall
 from garage2usd.layout import Layout
 from garage2usd.layout.egress.compartments import compartment_name
 from garage2usd.planning import (
@@ -38,16 +39,15 @@ from garage2usd.reading.report import (
     StairCore,
     UnmetClause,
 )
-from garage2usd.structure.directions import stretches_of
 from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = ["learning_figures", "make_report", "write_report"]
 
 _CURVE_POINTS, _RETURN_DECIMALS = 500, 1
 """Of the learning curve: of 5000 episodes, which would be half of a report, each point is the mean of ten, and differs
 by about ten from the next one."""
-_YAW_DECIMALS = 6
+_DECIMALS = 6
+"""Decimals of metres and radians of stalls."""
 
 
 def write_report(path: Path, report: Report) -> None:
@@ -59,7 +59,6 @@ def make_report(
     *,
     config: GarageConfig,
     plan: Plan,
-    graph: LaneSquares,
     layout: Layout,
     seconds: Mapping[str, float],
     learning: LearningFigures | None = None,
@@ -69,7 +68,7 @@ def make_report(
 
     Parameters
     ----------
-    config, plan, graph, layout
+    config, plan, layout
         The garage.
     seconds
         What each step took.
@@ -99,7 +98,7 @@ def make_report(
         S=tuple(str(structure).splitlines()),
         R=tuple(structure.R[0].tolist()),
         C=tuple(structure.C[:, 0].tolist()),
-        one_way=tuple((stretch[0], stretch[1]) for stretch in plan.directions.stretches(structure)),
+        one_way=tuple((stretch[0], stretch[1]) for stretch in plan.one_way_stretches),
         directions=_directions(plan, config),
         stall_runs=settings_of_runs(plan.runs, plan.directions),
         score=plan.score,
@@ -108,10 +107,10 @@ def make_report(
         circulation=_circulation(structure, config),
         area_per_stall_m2=round(layout.area_per_stall_m2, 3) if layout.parking_stalls else None,
         parking_stalls=layout.parking_stalls,
-        stall_uses={str(use): count for use, count in sorted(Counter(s.use for s in layout.stalls).items())},
+        stall_uses={str(use): count for use, count in sorted(Counter(s.use for s in layout.quads).items())},
         illuminance=layout.illuminance,
         not_designed_to=None if unmet is None else tuple(unmet),
-        lane_kinds=graph.kind_counts(),
+        lane_kinds=layout.kinds_of_squares(),
         object_counts=layout.counts(),
         unreachable_stalls=tuple(sorted(layout.unreachable)),
         undecided_stalls=tuple(sorted(layout.undecided)),
@@ -120,27 +119,34 @@ def make_report(
         ),
         fire_compartments=_compartments(layout),
         stalls=tuple(
-            ReportedStall(
-                name=stall.name,
-                number=stall.number,
-                type=stall.stall_type,
-                use=stall.use,
-                square=stall.square,
-                access_square=stall.access_square,
-                centre_m=stall.centre_m,
-                yaw_rad=round(stall.yaw_rad, _YAW_DECIMALS),
-                width_m=stall.width_m,
-                length_m=stall.length_m,
-                kind=stall.kind,
-                angle_rad=round(math.radians(stall.angle_deg), _YAW_DECIMALS),
-                size=stall.size,
-                occupied=is_occupied,
-                blocked_by=layout.blocked.get(stall.name),
-            )
-            for stall, is_occupied in zip(layout.stalls, layout.are_occupied().tolist(), strict=True)
+            _reported(stall, squares[stall.access])
+            for squares in [layout.node_squares().tolist()]
+            for stall in layout.quads
         ),
         learning_curve=_mean_returns(plan),
         seconds={step: round(value, 4) for step, value in seconds.items()},
+    )
+
+
+def _reported(stall: Stall, access_square: tuple[int, int]) -> ReportedStall:
+    """The record of a stall, with the squares that name it and its lane in files."""
+    facts, (x, z) = dict(stall.facts), stall.centre
+    return ReportedStall(
+        name=stall.name,
+        number=str(stall.number or ""),
+        type=str(facts["type"]),
+        use=stall.use,
+        square=(int(facts["row"]), int(facts["column"])),
+        access_square=access_square,
+        centre_m=(round(x, _DECIMALS), round(z, _DECIMALS)),
+        yaw_rad=round(stall.yaw_rad, _DECIMALS),
+        width_m=round(stall.width_m, _DECIMALS),
+        length_m=round(stall.length_m, _DECIMALS),
+        kind=stall.kind,
+        angle_rad=round(math.radians(stall.slant_deg), _DECIMALS),
+        size=str(facts["size"]),
+        occupied=stall.is_occupied,
+        blocked_by=stall.blocked_by,
     )
 
 
@@ -173,7 +179,8 @@ def learning_figures(plan: Plan, config: GarageConfig) -> LearningFigures | None
 def _compartments(layout: Layout) -> tuple[FireCompartment, ...]:
     structure, numbers = layout.structure, layout.compartments
     areas = np.outer(structure.row_depths_mm, structure.column_widths_mm) / 1e6
-    on = numbers[tuple(layout.stalls.square[layout.stalls.takes_cars].T)]
+    squares = [(fact["row"], fact["column"]) for fact in (dict(s.facts) for s in layout.quads if s.takes_cars)]
+    on = numbers[tuple(np.array(squares, dtype=np.intp).reshape(-1, 2).T)]
     doors = Counter(int(numbers[core.lane]) for core in layout.cores)
     return tuple(
         FireCompartment(
@@ -188,7 +195,7 @@ def _compartments(layout: Layout) -> tuple[FireCompartment, ...]:
 
 def _directions(plan: Plan, config: GarageConfig) -> DirectionFigures | None:
     """Figures of one-way aisles; None without any."""
-    one_way, every = plan.directions.stretches(plan.structure), stretches_of(plan.structure)
+    one_way, every = plan.one_way_stretches, plan.stretches
     if not one_way:
         return None
     lengths = driven_lengths(plan, config, plan.directions)

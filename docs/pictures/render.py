@@ -13,6 +13,10 @@ from pathlib import Path
 import bpy
 from mathutils import Euler, Matrix
 
+_OVERHEAD = (
+    *("Ceiling", "Beam", "Tube", "Duct", "CableTray", "Sky", "Sprinkler"),
+    *("ExitSign", "NoEntrySign", "OneWaySign"),
+)
 _UP_AXIS_Y_TO_Z = Matrix.Rotation(math.pi / 2, 4, "X")
 
 
@@ -53,7 +57,20 @@ def _move_camera(camera: bpy.types.Object, at: list[float]) -> None:
 def _open_the_roof(scene: bpy.types.Scene) -> None:
     """Hide what hangs overhead and light the garage with a soft sky."""
     for item in scene.objects:
-        if item.name.startswith(("Ceiling", "Beam", "Tube", "Duct", "CableTray", "Sky", "Sprinkler", "ExitSign", "NoEntrySign", "OneWaySign")):
+        if item.name.startswith(
+            (
+                "Ceiling",
+                "Beam",
+                "Tube",
+                "Duct",
+                "CableTray",
+                "Sky",
+                "Sprinkler",
+                "ExitSign",
+                "NoEntrySign",
+                "OneWaySign",
+            )
+        ):
             item.hide_render = True
     world = bpy.data.worlds.new("Sky")
     world.use_nodes = True

@@ -1,5 +1,6 @@
 """A garage as built: lanes, stalls and objects, as far as a stage, a report or a plan describes them; metres, Y up."""
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -8,17 +9,19 @@ import shapely
 from numpy.typing import NDArray
 from pxr import Usd
 
+from garage2usd.as_built.circulation import LaneCirculation, lane_circulation
 from garage2usd.as_built.openings import Door, Ramp, doors_of, ramps_of
 from garage2usd.as_built.shapes import Thing
 from garage2usd.as_built.solids import Solid, Solids
 from garage2usd.as_built.stall_grounds import StallGrounds
 from garage2usd.garage import Fault, LaneGraph, Point, Stall
 from garage2usd.objects import CAR_LABELS
-from garage2usd.planning import MeasuredCirculation, measured_circulation
-from garage2usd.structure.grid import Structure
+from garage2usd.site.portals import outer_squares
+from garage2usd.structure.grid import Cell, Structure
 
 __all__ = ["BuiltGarage"]
 
+_MM2_PER_M2 = 1_000_000
 _LINE_M = 0.06
 """Half the width of a stall's painted line in metres; the line is centred on the stall's border."""
 
@@ -81,9 +84,9 @@ class BuiltGarage:
         return tuple(ramps_of(self.things))
 
     @cached_property
-    def circulation(self) -> MeasuredCirculation | None:
+    def circulation(self) -> LaneCirculation | None:
         """Circulation of traffic on the lanes; None if S, R and C are unknown."""
-        return None if self.structure is None else measured_circulation(self.structure)
+        return None if self.structure is None else lane_circulation(self.structure)
 
     @cached_property
     def parking_stalls(self) -> tuple[Stall, ...]:
@@ -123,15 +126,40 @@ class BuiltGarage:
         names = {stall.name for stall in own}
         return own.union(stall for stall in self.stalls if stall.blocked_by in names)
 
-    def square_at(self, place: Point) -> tuple[int, int] | None:
-        """Return the (row, col) of the square of S at a place, or the nearest one; None if S is unknown."""
+    def compartment_at(self, place: Point) -> int:
+        """Return the number of the fire compartment at a place; 0 where none are declared."""
+        if self.structure is None or self.compartments is None:
+            return 0
+        return int(self.compartments[_square_at(place, self.structure)])
+
+    def compartment_areas_m2(self) -> dict[int, float]:
+        """Return the floor area of each fire compartment by its number; of the floor as 0 where none are declared.
+
+        It is NaN if S, R and C are unknown.
+        """
+        if self.structure is None:
+            return {0: math.nan}
+        areas = np.outer(self.structure.row_depths_mm, self.structure.column_widths_mm) / _MM2_PER_M2
+        inside = self.structure.cells != Cell.OBSTACLE
+        numbers = np.zeros(inside.shape, np.int32) if self.compartments is None else self.compartments
+        return {
+            number: float(areas[inside & (numbers == number)].sum()) for number in np.unique(numbers[inside]).tolist()
+        }
+
+    def is_on_contour(self, place: Point) -> bool | None:
+        """Return True if a place lies beside the edge of the contour; None if S, R and C are unknown."""
         if self.structure is None:
             return None
-        edges = (self.structure.row_edges_m, place[1]), (self.structure.column_edges_m, place[0])
-        row, col = (int(np.clip(np.searchsorted(lines, at) - 1, 0, len(lines) - 2)) for lines, at in edges)
-        return row, col
+        return bool(outer_squares(self.structure.cells)[_square_at(place, self.structure)])
 
     @property
     def has_whole_graph(self) -> bool:
         """True if lane nodes and edges are consistent: a node without a route is then a finding, not a damaged file."""
         return all(fault.rule != "lane-graph" for fault in self.faults)
+
+
+def _square_at(place: Point, structure: Structure) -> tuple[int, int]:
+    """Return the (row, col) of the square at a place, or the nearest one."""
+    edges = (structure.row_edges_m, place[1]), (structure.column_edges_m, place[0])
+    row, col = (int(np.clip(np.searchsorted(lines, at) - 1, 0, len(lines) - 2)) for lines, at in edges)
+    return row, col

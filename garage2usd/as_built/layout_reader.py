@@ -6,31 +6,24 @@ import numpy as np
 
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.shapes import Body, MeshShape, Thing, turned_about_y
-from garage2usd.config import BayConfig
-from garage2usd.garage import Fault
+from garage2usd.garage import Fault, LaneGraph, Stall
 from garage2usd.layout import Layout
-from garage2usd.layout.garage_stalls import garage_stalls
-from garage2usd.layout.parking.stalls import stalls_of
-from garage2usd.layout.tiles import TileGrid
 from garage2usd.objects import KINDS, Spec
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import Structure
-from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = ["garage_of_layout", "garage_without_layout"]
 
 
-def garage_of_layout(
-    layout: Layout, graph: LaneSquares, *, source: str, kind: str, faults: tuple[Fault, ...] = ()
-) -> BuiltGarage:
+def garage_of_layout(layout: Layout, *, source: str, kind: str, faults: tuple[Fault, ...] = ()) -> BuiltGarage:
     """Convert a layout to a garage as built, without the objects that are flat on the floor."""
     lux = layout.illuminance
     return BuiltGarage(
         source=source,
         kind=kind,
-        stalls=tuple(garage_stalls(layout.stalls, graph, layout.blocked)),
-        lanes=graph.lanes,
+        stalls=layout.quads,
+        lanes=layout.lane_graph,
         things=_things(layout),
         structure=layout.structure,
         compartments=layout.compartments,
@@ -43,14 +36,20 @@ def garage_of_layout(
 
 
 def garage_without_layout(
-    structure: Structure, graph: LaneSquares, bay: BayConfig, *, source: str, kind: str, faults: tuple[Fault, ...]
+    structure: Structure,
+    lanes: LaneGraph,
+    stalls: tuple[Stall, ...],
+    *,
+    source: str,
+    kind: str,
+    faults: tuple[Fault, ...],
 ) -> BuiltGarage:
     """Convert a plan that cannot be laid out: stalls and lanes, without objects and lights."""
     return BuiltGarage(
         source=source,
         kind=kind,
-        stalls=tuple(garage_stalls(stalls_of(TileGrid(structure, graph, bay), graph), graph)),
-        lanes=graph.lanes,
+        stalls=stalls,
+        lanes=lanes,
         structure=structure,
         faults=faults,
     )

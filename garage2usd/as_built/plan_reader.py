@@ -11,8 +11,9 @@ from garage2usd.common.errors import ConfigError, ReportError, UnreachableStallE
 from garage2usd.config import GarageConfig, config_from_mapping, load_config
 from garage2usd.config.files import is_array_file, matrices_of
 from garage2usd.driving import without_unreachable
-from garage2usd.garage import Fault
-from garage2usd.layout import Layout, PlacedStall, lay_out
+from garage2usd.garage import Fault, Stall
+from garage2usd.layout import Layout, lay_out
+from garage2usd.layout.garage_stalls import planned_stalls
 from garage2usd.planning import Plan, evaluate, given_plan, runs_of_settings, with_directions, with_stall_kinds
 from garage2usd.profiles import Profile
 from garage2usd.reading.report import ReportedStall, report_of
@@ -130,9 +131,10 @@ def _read(
     layout, refusal = _laid_out(plan, config, unreachable)
     if layout is None:
         faults = () if refusal is None else (Fault("plan-refused", "", None, refusal),)
-        return garage_without_layout(structure, graph, config.bay, source=str(path), kind=kind, faults=faults)
+        stalls = planned_stalls(graph, config.bay)
+        return garage_without_layout(structure, graph.lanes, stalls, source=str(path), kind=kind, faults=faults)
     differences = () if listed is None else tuple(_differences(layout, listed))
-    return garage_of_layout(layout, graph, source=str(path), kind=kind, faults=differences)
+    return garage_of_layout(layout, source=str(path), kind=kind, faults=differences)
 
 
 def _laid_out(plan: Plan, config: GarageConfig, unreachable: Sequence[str] | None) -> tuple[Layout | None, str | None]:
@@ -150,7 +152,7 @@ def _laid_out(plan: Plan, config: GarageConfig, unreachable: Sequence[str] | Non
     try:
         layout = lay_out(plan.structure, graph, config, unreachable=unreachable or ())
         if unreachable is None and config.plan.unreachable_stalls.are_proven:
-            layout = without_unreachable(layout, graph, config)
+            layout = without_unreachable(layout, config)
     except ConfigError as error:
         if error.field.startswith("bay."):
             return None, str(error)
@@ -160,7 +162,7 @@ def _laid_out(plan: Plan, config: GarageConfig, unreachable: Sequence[str] | Non
 
 def _differences(layout: Layout, listed: Sequence[Any]) -> list[Fault]:
     """Compare a report's list of stalls with the layout of its configuration and matrices."""
-    made = {stall.name: stall for stall in layout.stalls}
+    made = {stall.name: stall for stall in layout.quads}
     faults = []
     for entry in listed:
         name = entry.name if isinstance(entry, ReportedStall) else _name_in(entry)
@@ -168,9 +170,9 @@ def _differences(layout: Layout, listed: Sequence[Any]) -> list[Fault]:
         if stall is None:
             faults.append(Fault("report-stalls", name, None, "the report lists a stall that its plan does not have"))
         elif not (isinstance(entry, ReportedStall) and _is_told(stall, entry)):
-            faults.append(Fault("report-stalls", name, stall.centre_m, "the report tells another place, size or use"))
+            faults.append(Fault("report-stalls", name, stall.centre, "the report tells another place, size or use"))
     return faults + [
-        Fault("report-stalls", name, stall.centre_m, "the report does not list it") for name, stall in made.items()
+        Fault("report-stalls", name, stall.centre, "the report does not list it") for name, stall in made.items()
     ]
 
 
@@ -179,7 +181,7 @@ def _name_in(entry: Any) -> str:  # noqa: ANN401
     return str(entry.get("name")) if isinstance(entry, dict) else repr(entry)[:80]
 
 
-def _is_told(stall: PlacedStall, entry: ReportedStall) -> bool:
+def _is_told(stall: Stall, entry: ReportedStall) -> bool:
     told = (*entry.centre_m, entry.width_m, entry.length_m)
-    real = (*stall.centre_m, stall.width_m, stall.length_m)
+    real = (*stall.centre, stall.width_m, stall.length_m)
     return entry.use == stall.use and all(abs(one - other) <= _MOVED_M for one, other in zip(told, real, strict=True))

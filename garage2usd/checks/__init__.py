@@ -33,7 +33,6 @@ from garage2usd.layout import Layout
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
 from garage2usd.reading.files import STAGE_SUFFIXES
 from garage2usd.reading.report import UnmetClause
-from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = [
     "RULES",
@@ -96,21 +95,19 @@ def not_checked(garage: BuiltGarage, profile: Profile) -> dict[str, str]:
     return reasons
 
 
-def check_layout(layout: Layout, graph: LaneSquares, config: GarageConfig) -> list[Finding]:
+def check_layout(layout: Layout, config: GarageConfig) -> list[Finding]:
     """Return the findings of a generated layout under its profile, errors first.
 
     Notes
     -----
     Skips the rules of USD, which need a stage, and the proof that a car drives into each stall, which is slow.
     """
-    return judged_layout(layout, graph, config)[0]
+    return judged_layout(layout, config)[0]
 
 
-def judged_layout(
-    layout: Layout, graph: LaneSquares, config: GarageConfig
-) -> tuple[list[Finding], tuple[UnmetClause, ...]]:
+def judged_layout(layout: Layout, config: GarageConfig) -> tuple[list[Finding], tuple[UnmetClause, ...]]:
     """Check a layout as `check_layout` does, and return also the profile clauses that the garage does not meet."""
-    garage = garage_of_layout(layout, graph, source="", kind="report")
+    garage = garage_of_layout(layout, source="", kind="report")
     found = (finding for rule in RULES if rule not in _LONG for finding in rule.findings(garage, config.standard))
     findings = sorted(found, key=Finding.sort_key)
     return findings, unmet_clauses(findings, not_checked(garage, config.standard))

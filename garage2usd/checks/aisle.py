@@ -68,7 +68,7 @@ def _angled_width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     if clause is None:
         return iter(())
     perpendicular_m = upright.amount if upright else None
-    return _narrow(garage, {StallKind.ANGLED: lambda stall: clause.amount_at(_acute_deg(stall), perpendicular_m)})
+    return _narrow(garage, {StallKind.ANGLED: lambda stall: clause.amount_at(stall.slant_deg, perpendicular_m)})
 
 
 @BOOK.rule(
@@ -79,11 +79,6 @@ def _angled_width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
 def _parallel_width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     clause = profile.parallel_aisle_width
     return _narrow(garage, {} if clause is None else {StallKind.PARALLEL: lambda _: clause.amount})
-
-
-def _acute_deg(stall: Stall) -> float:
-    """Return the angle of an angled stall to its aisle, at most 90 degrees."""
-    return min(stall.angle_deg, 180 - stall.angle_deg)
 
 
 def _narrow(garage: BuiltGarage, required_by: Mapping[StallKind, Callable[[Stall], float]]) -> Iterator[Miss]:
@@ -162,11 +157,11 @@ def _clear_width(garage: BuiltGarage, way: _Way, carriageway_m: float) -> tuple[
 def _dead_ends(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     if profile.dead_end_length is None:
         return
-    for squares, length, _ in garage.lanes.dead_ends:
+    for nodes, length, _ in garage.lanes.dead_ends:
         if length <= profile.dead_end_length.amount + ROUNDING_M:
             continue
-        uses = {stall.use for stall in garage.stalls if stall.access in squares}
+        uses = {stall.use for stall in garage.stalls if stall.access in nodes}
         if uses and StallUse.TURNING not in uses:
-            node = garage.lanes.nodes[squares[0]]
+            node = garage.lanes.nodes[nodes[0]]
             message = "the dead-end aisle is too long without a stall kept free for turning"
             yield Miss(node.name, node.position, message, length, profile.dead_end_length.amount)

@@ -1,17 +1,19 @@
 """Rules of circulation: deep dead ends, loops, stretches without a junction, and lanes side by side."""
 
 from collections.abc import Iterator, Sequence
+from itertools import combinations
+
+import networkx as nx
 
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_structure_is_known
 from garage2usd.garage import LaneNode, Point
 from garage2usd.profiles import Profile
-from garage2usd.structure.lane_graph import Square
 
 __all__ = ["BOOK"]
 
 BOOK = RuleBook()
-_BESIDE = ((0, 0), (0, 1), (1, 0), (1, 1))
+_BLOCK = 4
 
 
 @BOOK.rule(
@@ -26,8 +28,8 @@ def _depth(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     required = profile.dead_end_depth.amount
     for run in garage.circulation.dead_ends:
         if run.length_m > required + ROUNDING_M:
-            message = f"the dead end of {_lanes(len(run.squares))} is too deep"
-            yield Miss(_name(run.squares[0]), _place(garage, run.squares[0]), message, run.length_m, required)
+            message = f"the dead end of {_lanes(len(run.lanes))} is too deep"
+            yield Miss(run.lanes[0], _place(garage, run.lanes[0]), message, run.length_m, required)
 
 
 @BOOK.rule(
@@ -37,7 +39,7 @@ def _loops(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     if profile.loops is None or garage.circulation is None:
         return
     stalls = len(garage.parking_stalls)
-    required, measured = profile.loops.required(stalls), garage.circulation.circulation.loops
+    required, measured = profile.loops.required(stalls), garage.circulation.loops
     if measured < required:
         message = f"who finds none of the {stalls} stalls free cannot drive round again"
         yield Miss("", None, message, measured, required)
@@ -55,8 +57,8 @@ def _stretches(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     required = profile.stretch_length.amount
     for run in garage.circulation.stretches:
         if run.length_m > required + ROUNDING_M:
-            message = f"a stretch of {_lanes(len(run.squares))} has no junction"
-            yield Miss(_name(run.squares[0]), _place(garage, run.squares[0]), message, run.length_m, required)
+            message = f"a stretch of {_lanes(len(run.lanes))} has no junction"
+            yield Miss(run.lanes[0], _place(garage, run.lanes[0]), message, run.length_m, required)
 
 
 @BOOK.rule("lane-field", "lane_field_width", asks="lanes do not lie side by side", hindrance=where_structure_is_known)
@@ -65,19 +67,17 @@ def _fields(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
         return
     required = profile.lane_field_width.amount
     nodes = {node.name: node for node in garage.lanes.nodes}
-    for field in _joined(garage.circulation.circulation.blocks):
+    for field in _joined(garage.circulation.blocks):
         measured = max(_clear_m(block, nodes) for block in field)
         if measured > required + ROUNDING_M:
             message = f"lanes lie side by side, {len(field)} times four of them in a block"
-            yield Miss(_name(field[0]), _place(garage, field[0]), message, measured, required)
+            yield Miss(field[0][0], _place(garage, field[0][0]), message, measured, required)
 
 
-def _clear_m(block: Square, nodes: dict[str, LaneNode]) -> float:
-    """Return the width between columns across the narrower side of 2 x 2 lane squares; 0 where a lane is missing."""
-    row, col = block
-    corners = [nodes.get(_name((row + down, col + right))) for down, right in _BESIDE]
-    known = [node for node in corners if node is not None]
-    if len(known) < len(_BESIDE):
+def _clear_m(block: Sequence[str], nodes: dict[str, LaneNode]) -> float:
+    """Return the width between columns across the narrower side of 2 x 2 lanes; 0 where a lane is missing."""
+    known = [nodes[name] for name in block if name in nodes]
+    if len(known) < _BLOCK:
         return 0.0
     first, last = known[0], known[-1]
     return min(
@@ -86,34 +86,22 @@ def _clear_m(block: Square, nodes: dict[str, LaneNode]) -> float:
     )
 
 
-def _joined(blocks: Sequence[Square]) -> list[list[Square]]:
-    """Group blocks of lanes that touch into fields; blocks and fields are in reading order."""
-    left, fields = set(blocks), []
-    for block in blocks:
-        if block not in left:
-            continue
-        left.remove(block)
-        field, waiting = [block], [block]
-        while waiting:
-            row, col = waiting.pop()
-            around = [(row + down, col + right) for down in (-1, 0, 1) for right in (-1, 0, 1)]
-            near = [other for other in around if other in left]
-            left.difference_update(near)
-            field += near
-            waiting += near
-        fields.append(sorted(field))
-    return fields
+def _joined(blocks: Sequence[tuple[str, ...]]) -> list[list[tuple[str, ...]]]:
+    """Group blocks of lanes that share a lane into fields; blocks and fields keep their order."""
+    blocks_on: dict[str, list[int]] = {}
+    for number, block in enumerate(blocks):
+        for lane in block:
+            blocks_on.setdefault(lane, []).append(number)
+    sharing: nx.Graph[int] = nx.Graph(pair for numbers in blocks_on.values() for pair in combinations(numbers, 2))
+    sharing.add_nodes_from(range(len(blocks)))
+    fields = sorted(map(sorted, nx.connected_components(sharing)))
+    return [[blocks[number] for number in field] for field in fields]
 
 
-def _place(garage: BuiltGarage, square: Square) -> Point | None:
-    """Return the middle of a lane square in the lane graph, to the millimetre."""
-    name = _name(square)
+def _place(garage: BuiltGarage, name: str) -> Point | None:
+    """Return the middle of a lane in the lane graph by its name, to the millimetre."""
     x_z = next((node.position for node in garage.lanes.nodes if node.name == name), None)
     return None if x_z is None else (round(x_z[0], 3), round(x_z[1], 3))
-
-
-def _name(square: Square) -> str:
-    return f"[{square[0]}, {square[1]}]"
 
 
 def _lanes(count: int) -> str:

@@ -1,10 +1,8 @@
 """Rules of fire safety: floor area of fire compartments, doors of stair cores, and distance to exits."""
 
 import math
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator
-
-import numpy as np
 
 from garage2usd.as_built.core_reader import core_doors
 from garage2usd.as_built.garage import BuiltGarage
@@ -12,12 +10,10 @@ from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out, w
 from garage2usd.garage import Point
 from garage2usd.layout.egress.compartments import compartment_name
 from garage2usd.profiles import Area, Length, Profile
-from garage2usd.structure.grid import Cell
 
 __all__ = ["BOOK"]
 
 BOOK = RuleBook()
-_MM2_PER_M2 = 1_000_000
 
 
 def _floor_is_told(garage: BuiltGarage, profile: Profile) -> str:
@@ -71,10 +67,13 @@ def _count(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     if profile.personnel_exits is None or not garage.things:
         return
     doors = core_doors(garage)
-    for number, name in _compartments(garage):
-        count = sum(_compartment_at(garage.lanes.nodes[door.node].position, garage) == number for door in doors)
+    on = Counter(garage.compartment_at(garage.lanes.nodes[door.node].position) for door in doors)
+    for number in garage.compartment_areas_m2():
+        count = on[number]
         if count < profile.personnel_exits.amount:
-            yield Miss(name, None, "too few doors of stair cores onto lanes", count, profile.personnel_exits.amount)
+            yield Miss(
+                _name(number), None, "too few doors of stair cores onto lanes", count, profile.personnel_exits.amount
+            )
 
 
 @BOOK.rule(
@@ -103,13 +102,9 @@ def _sprinklered_distance(garage: BuiltGarage, profile: Profile) -> Iterator[Mis
 def _too_large(garage: BuiltGarage, clause: Area | None) -> Iterator[Miss]:
     if clause is None or garage.structure is None:
         return
-    structure = garage.structure
-    areas = np.outer(structure.row_depths_mm, structure.column_widths_mm) / _MM2_PER_M2
-    inside = structure.cells != Cell.OBSTACLE
-    for number, name in _compartments(garage):
-        own = inside if garage.compartments is None else inside & (garage.compartments == number)
-        measured = float(areas[own].sum())
+    for number, measured in garage.compartment_areas_m2().items():
         if measured > clause.amount:
+            name = _name(number)
             parts = math.ceil(measured / clause.amount)
             what = f"the fire compartment {name}" if name else "the floor"
             yield Miss(name, None, f"{what} needs {parts} fire compartments", measured, clause.amount)
@@ -121,16 +116,15 @@ def _too_far(garage: BuiltGarage, clause: Length | None, profile: Profile) -> It
         return
     exits = defaultdict(list)
     for door in core_doors(garage):
-        exits[_compartment_at(garage.lanes.nodes[door.node].position, garage)].append(door.position)
+        exits[garage.compartment_at(garage.lanes.nodes[door.node].position)].append(door.position)
     stalls = defaultdict(list)
     for stall in garage.stalls:
-        stalls[_compartment_at(stall.centre, garage)].append(stall)
+        stalls[garage.compartment_at(stall.centre)].append(stall)
     for number, own in stalls.items():
         doors = exits[number]
         if not doors:
             if profile.personnel_exits is None:  # else that is found by the rule of their number
-                name = compartment_name(number) if number > 0 else ""
-                yield Miss(name, None, "no door of a stair core is there to be reached")
+                yield Miss(_name(number), None, "no door of a stair core is there to be reached")
             continue
         farthest = max(own, key=lambda stall: _nearest(stall.centre, doors))
         measured = _nearest(farthest.centre, doors)
@@ -143,18 +137,9 @@ def _nearest(place: Point, exits: list[Point]) -> float:
     return min(math.dist(place, door) for door in exits)
 
 
-def _compartments(garage: BuiltGarage) -> list[tuple[int, str]]:
-    """Return number and name of each fire compartment; floor outside all compartments counts as one without a name."""
-    if garage.compartments is None or garage.structure is None:
-        return [(0, "")]
-    numbers = np.unique(garage.compartments[garage.structure.cells != Cell.OBSTACLE]).tolist()
-    return [(number, compartment_name(number) if number > 0 else "") for number in numbers]
-
-
-def _compartment_at(place: Point, garage: BuiltGarage) -> int:
-    """Return the number of the fire compartment at a place; 0 where none are declared."""
-    square = garage.square_at(place)
-    return 0 if garage.compartments is None or square is None else int(garage.compartments[square])
+def _name(number: int) -> str:
+    """Name a fire compartment; floor outside of all compartments has no name."""
+    return compartment_name(number) if number > 0 else ""
 
 
 def _has_sprinklers(garage: BuiltGarage) -> bool:

@@ -8,7 +8,6 @@ from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
 from garage2usd.garage import Point
 from garage2usd.profiles import Profile
-from garage2usd.site.portals import outer_squares
 
 __all__ = ["BOOK"]
 
@@ -63,13 +62,11 @@ def _shut(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 
 @BOOK.rule("portal-inside", asks="every portal lies on the contour's edge, where its door opens")
 def _inside(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    structure = garage.structure
-    if structure is None or garage.kind == "stage":
+    if garage.kind == "stage":
         return
-    on_edge = outer_squares(structure.cells)
     for number in garage.lanes.portals("entrance", "exit"):
         node = garage.lanes.nodes[number]
-        if not on_edge[garage.square_at(node.position)]:
+        if garage.is_on_contour(node.position) is False:
             yield Miss(node.name, node.position, f"the {node.kind} lies inside the garage")
 
 

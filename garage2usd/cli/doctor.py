@@ -105,7 +105,7 @@ def _garage(seed: int) -> tuple[str, list[str]]:
         files = [path for path in folder.rglob("*") if path.is_file() and path != made.report]
         stage = _digest((path.relative_to(folder).as_posix(), path.read_bytes()) for path in files)
         findings, _ = check_file(made.stage)
-        proofs = prove_stalls(made.garage.layout, made.garage.graph)
+        proofs = prove_stalls(made.garage.layout)
         ways = folder / "ways.json"
         write_witness(ways, proofs)
         driven = _digest([(ways.name, ways.read_bytes())])

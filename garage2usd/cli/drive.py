@@ -147,7 +147,7 @@ def _garage_of(path: Path | None, seed: int | None, progress: "Progress") -> "tu
     if path is not None and _is_made(path):
         return _read(path, seed)
     made = _generated(path, seed, progress)
-    garage = garage_of_layout(made.layout, made.graph, source=str(path or ""), kind="plan")
+    garage = garage_of_layout(made.layout, source=str(path or ""), kind="plan")
     return garage, made.config.maps.drive
 
 
@@ -158,7 +158,7 @@ def _proofs_of(path: Path | None, seed: int | None, progress: "Progress") -> "tu
     if path is not None and _is_made(path):
         return prove_garage(driven_garage(_read(path, seed)[0]), progress=progress)
     garage = _generated(path, seed, progress)
-    return prove_stalls(garage.layout, garage.graph, progress=progress)
+    return prove_stalls(garage.layout, progress=progress)
 
 
 def _is_made(path: Path) -> bool:

@@ -80,7 +80,7 @@ def plan(
         told = _beside_optimum(garage, progress) if with_optimum else []
     stall = find_stall(garage.layout, number) if number else None
     marks = _marks(path) if with_findings else []
-    drawing = draw_plan(garage.layout, garage.graph, stall=stall, marks=marks)
+    drawing = draw_plan(garage.layout, stall=stall, marks=marks)
     with staging_folder(outputs[0]) as staging:
         places = {staging / str(number): output for number, output in enumerate(outputs)}
         for file, output in places.items():

@@ -67,11 +67,10 @@ def make_scene(
     config, alternatives = recipe.drawn(drawn.seed)
     garage = generate(config, plan=replanned(drawn, config))
     stem = f"{drawn.number:0{_DIGITS}}"
-    found, unmet = judged_layout(garage.layout, garage.graph, config)
+    found, unmet = judged_layout(garage.layout, config)
     report = make_report(
         config=config,
         plan=garage.plan,
-        graph=garage.graph,
         layout=garage.layout,
         seconds={},
         learning=drawn.learning,
@@ -81,7 +80,7 @@ def make_scene(
     make, difficulty = recipe.make, dict[str, str | int | float]()
     stage = _write_files(garage, folder, stem, make, assets)
     if make.difficulty or make.drives:
-        proofs = prove_stalls(garage.layout, garage.graph, most_explained=0)
+        proofs = prove_stalls(garage.layout, most_explained=0)
         if make.difficulty:
             difficulty = _difficulty(garage, proofs, folder / f"{stem}.difficulty.json")
         if make.drives and stage:
@@ -115,7 +114,6 @@ def _write_files(garage: Garage, folder: Path, stem: str, make: MakeConfig, asse
         stage = folder / f"{stem}{suffix}"
         write_stage(
             garage.layout,
-            garage.graph,
             stage,
             arrangement=arrangement,
             metadata=stage_metadata(garage),
@@ -129,7 +127,7 @@ def _write_files(garage: Garage, folder: Path, stem: str, make: MakeConfig, asse
     if make.labels:
         write_labels(garage.layout, folder / f"{stem}.labels.json", arrangement=arrangement)
     if make.plan:
-        write_png(to_image(draw_plan(garage.layout, garage.graph)), folder / f"{stem}.plan.png")
+        write_png(to_image(draw_plan(garage.layout)), folder / f"{stem}.plan.png")
     return stage
 
 
@@ -150,7 +148,7 @@ def _difficulty(garage: Garage, proofs: Sequence[StallProof], path: Path) -> dic
 
 
 def _figures(garage: Garage, report: Report) -> dict[str, str | int | float]:
-    layout, uses = garage.layout, Counter(stall.use for stall in garage.layout.stalls)
+    layout, uses = garage.layout, Counter(stall.use for stall in garage.layout.quads)
     counts = layout.counts()
     circulation = measured_circulation(layout.structure)
     light = layout.illuminance

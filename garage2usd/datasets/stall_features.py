@@ -10,8 +10,6 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.driving import StallProof, prove_stalls
 from garage2usd.layout import Layout
 from garage2usd.layout.ceiling.lighting import direct_lux
-from garage2usd.layout.garage_stalls import clear_aisle_m
-from garage2usd.layout.placement import cos_sin
 from garage2usd.pipeline import Garage
 
 __all__ = ["StallFeatures", "measured_stalls"]
@@ -74,10 +72,10 @@ def measured_stalls(garage: Garage, *, proofs: Sequence[StallProof] | None = Non
     ConfigError
         If the proofs are not those of the garage's stalls.
     """
-    layout, graph = garage.layout, garage.graph
-    stalls = [(row, stall) for row, stall in enumerate(layout.stalls) if stall.use.takes_cars]
+    layout = garage.layout
+    stalls = [(row, stall) for row, stall in enumerate(layout.quads) if stall.takes_cars]
     if proofs is None:
-        proofs = prove_stalls(layout, graph, most_explained=0)
+        proofs = prove_stalls(layout, most_explained=0)
     names = [stall.name for _, stall in stalls]
     if [proof.stall for proof in proofs] != names:
         raise ConfigError("proofs", f"{len(proofs)} proofs", f"a proof for each of the {len(names)} stalls, in order")
@@ -85,7 +83,7 @@ def measured_stalls(garage: Garage, *, proofs: Sequence[StallProof] | None = Non
     return tuple(
         _features(
             proof,
-            aisle_width_m=round(clear_aisle_m(stall, graph), _DIGITS),
+            aisle_width_m=round(layout.lane_graph.clear_aisle_m(stall.access, stall.outwards), _DIGITS),
             occupied_neighbours=neighbours[row],
             illuminance_lux=round(lux[row], _DIGITS),
         )
@@ -113,25 +111,31 @@ def _features(
 def _stall_lux(layout: Layout) -> NDArray[np.float64]:
     """Compute the illuminance in each stall's middle, without the lamps over ramps; shape (stalls,)."""
     tubes = [place for place in layout.of_kind("light") if place.square is not None]
-    lux: NDArray[np.float64] = layout.illuminance.luminance_nit * direct_lux(layout.stalls.centre_m, tubes)
+    middles = np.array([stall.centre for stall in layout.quads]).reshape(-1, 2)
+    lux: NDArray[np.float64] = layout.illuminance.luminance_nit * direct_lux(middles, tubes)
     return lux
 
 
 def _occupied_neighbours(layout: Layout) -> NDArray[np.int64]:
     """Count the occupied stalls beside each stall; shape (stalls,)."""
-    stalls, is_taken = layout.stalls, layout.cars_in_stalls() >= 0
-    x, z = stalls.centre_m.T
-    cos, sin = np.array([cos_sin(yaw) for yaw in stalls.yaw_rad.tolist()]).reshape(-1, 2).T
-    along, across = x * cos - z * sin, x * sin + z * cos
-    order = np.lexsort((along, np.round(across, 3), stalls.yaw_rad))
+    is_taken = layout.cars_in_stalls() >= 0
+    corners = np.array([stall.corners for stall in layout.quads]).reshape(-1, 4, 2)
+    yaw_rad = np.array([stall.yaw_rad for stall in layout.quads])
+    mouth = corners[:, 1] - corners[:, 0]
+    width_m = np.linalg.norm(mouth, axis=1)
+    x, z = corners.mean(axis=1).T
+    # a row lies along the mouths of its stalls, also where their sides are slanted
+    mouth_x, mouth_z = (mouth / width_m[:, None]).T
+    along, across = x * mouth_x + z * mouth_z, z * mouth_x - x * mouth_z
+    order = np.lexsort((along, np.round(across, 3), yaw_rad))
     one, other = order[:-1], order[1:]
-    widths = (stalls.size_m[one, 0] + stalls.size_m[other, 0]) / 2
+    widths = (width_m[one] + width_m[other]) / 2
     is_beside = (
-        (stalls.yaw_rad[one] == stalls.yaw_rad[other])
+        (yaw_rad[one] == yaw_rad[other])
         & (np.abs(across[other] - across[one]) < _SAME_ROW_M)
         & (along[other] - along[one] < widths + _WIDEST_COLUMN_M + _SAME_ROW_M)
     )
-    count = np.zeros(len(stalls), dtype=np.int64)
+    count = np.zeros(len(layout.quads), dtype=np.int64)
     np.add.at(count, one[is_beside], is_taken[other[is_beside]])
     np.add.at(count, other[is_beside], is_taken[one[is_beside]])
     return count

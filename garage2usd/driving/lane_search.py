@@ -84,8 +84,8 @@ class _Growth:
                 portal = self._portals[target]
                 return Path(portal.pose if self._is_back else self._poses[None], pieces), portal
             if target is not None:
-                if target.square in self._portals:
-                    self._offer(target.square, target, candidate.driven_m)
+                if target.node in self._portals:
+                    self._offer(target.node, target, candidate.driven_m)
                 edges = self._roadmap.edges_from(target, is_back=self._is_back)
                 self._grow_from(target, edges, candidate.driven_m)
         return None

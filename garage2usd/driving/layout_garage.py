@@ -13,11 +13,9 @@ from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.garage import DrivenGarage, StallProof, prove_garage
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.proof import Limits, Outcome
-from garage2usd.layout import Layout, Placement, lay_out
-from garage2usd.layout.garage_stalls import garage_stalls
+from garage2usd.layout import Layout, Placement
 from garage2usd.layout.grounds import Grounds
 from garage2usd.layout.parking.open_boots import stalls_of_open_boots
-from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = [
     "layout_garage",
@@ -35,7 +33,6 @@ _STEP_M = 0.25
 
 def prove_stalls(
     layout: Layout,
-    graph: LaneSquares,
     *,
     car: DesignCar | None = None,
     limits: Limits | None = None,
@@ -46,7 +43,7 @@ def prove_stalls(
 
     Parameters
     ----------
-    layout, graph
+    layout
         The garage.
     car, limits, most_explained, progress
         As for `garage2usd.driving.prove_garage`.
@@ -56,18 +53,16 @@ def prove_stalls(
     tuple of StallProof
         One for each stall that takes cars, in the order of the stalls.
     """
-    garage = layout_garage(layout, graph)
+    garage = layout_garage(layout)
     return prove_garage(garage, car=car, limits=limits, most_explained=most_explained, progress=progress)
 
 
-def without_unreachable(
-    layout: Layout, graph: LaneSquares, config: GarageConfig, *, progress: Progress = silent
-) -> Layout:
+def without_unreachable(layout: Layout, config: GarageConfig, *, progress: Progress = silent) -> Layout:
     """Repeat the layout with unreachable stalls marked or removed.
 
     Parameters
     ----------
-    layout, graph, config
+    layout, config
         The garage; ``plan.unreachable_stalls`` selects marking or removal.
     progress
         As for `garage2usd.driving.prove_garage`.
@@ -80,30 +75,28 @@ def without_unreachable(
     unreachable: set[str] = set()
     undecided: set[str] = set()
     given, asked, config = layout, config, _with_cars_between_lines(config)
-    layout = layout if config is asked else lay_out(layout.structure, graph, config)
+    layout = layout if config is asked else layout.again(config)
     while True:
-        proofs = prove_stalls(layout, graph, progress=progress)
+        proofs = prove_stalls(layout, progress=progress)
         found = {proof.stall for proof in proofs if not proof.is_proven}
         if not found and not unreachable:
             return given
         if not found:
             if config is not asked:
-                layout = lay_out(layout.structure, graph, asked, unreachable=unreachable)
+                layout = layout.again(asked, unreachable=unreachable)
             return replace(layout, undecided=frozenset(undecided))
         undecided.update(proof.stall for proof in proofs if proof.outcome is Outcome.UNDECIDED)
         # a charger, an access aisle or a car that went elsewhere may stand in another's way
         unreachable |= found
-        layout = lay_out(layout.structure, graph, config, unreachable=unreachable)
+        layout = layout.again(config, unreachable=unreachable)
 
 
-def with_truth_of_misparked(
-    layout: Layout, graph: LaneSquares, config: GarageConfig, *, progress: Progress = silent
-) -> Layout:
+def with_truth_of_misparked(layout: Layout, config: GarageConfig, *, progress: Progress = silent) -> Layout:
     """Return the layout with proven reachability of the stalls next to misparked cars.
 
     Parameters
     ----------
-    layout, graph, config
+    layout, config
         The garage.
     progress
         As for `garage2usd.driving.prove_garage`.
@@ -116,7 +109,7 @@ def with_truth_of_misparked(
     """
     held_back: set[str] = set()
     while layout.reaching:
-        garage, reached = layout_garage(layout, graph), set(layout.reaching.values())
+        garage, reached = layout_garage(layout), set(layout.reaching.values())
         proofs = prove_garage(
             garage, [at for at in garage.stalls if at.name in reached], most_explained=0, progress=progress
         )
@@ -127,7 +120,7 @@ def with_truth_of_misparked(
             blocked = {proof.stall: blocking[proof.stall] for proof in proofs if not proof.is_proven}
             return replace(layout, blocked=blocked)
         held_back |= found
-        layout = lay_out(layout.structure, graph, config, unreachable=layout.unreachable, held_back=held_back)
+        layout = layout.again(config, unreachable=layout.unreachable, held_back=held_back)
     return layout
 
 
@@ -141,7 +134,6 @@ def _with_cars_between_lines(config: GarageConfig) -> GarageConfig:
 
 def with_clutter(
     layout: Layout,
-    graph: LaneSquares,
     config: GarageConfig,
     *,
     cars: Iterable[DesignCar] = (DesignCar(),),
@@ -151,7 +143,7 @@ def with_clutter(
 
     Parameters
     ----------
-    layout, graph, config
+    layout, config
         The garage without clutter, and the amount of clutter.
     cars
         The cars whose manoeuvres are kept clear.
@@ -164,7 +156,7 @@ def with_clutter(
     """
     swept: dict[str, list[shapely.Geometry]] = {}
     for car in dict.fromkeys(cars):
-        for proof in prove_stalls(layout, graph, car=car, progress=progress):
+        for proof in prove_stalls(layout, car=car, progress=progress):
             ways = (way for way in (proof.way_in, proof.way_out) if way is not None and way.moves)
             swept.setdefault(proof.stall, []).extend(hull for way in ways for hull in _swept(way, car))
     of_stall = {stall: shapely.buffer(shapely.union_all(hulls), _CLEAR_M) for stall, hulls in swept.items()}
@@ -175,9 +167,7 @@ def with_clutter(
         per_hundred=config.clutter.per_hundred("open_boots"),
         seed=config.seed,
     )
-    cluttered = lay_out(
-        layout.structure,
-        graph,
+    cluttered = layout.again(
         config,
         unreachable=layout.unreachable,
         held_back=layout.held_back,
@@ -196,9 +186,9 @@ def _swept(way: Manoeuvre, car: DesignCar) -> Grounds:
     return hulls
 
 
-def layout_garage(layout: Layout, graph: LaneSquares) -> DrivenGarage:
+def layout_garage(layout: Layout) -> DrivenGarage:
     """Convert a layout to a garage for driving: stalls that take cars, lanes, and obstacles by `object_name`."""
-    return assembled(garage_stalls(layout.stalls, graph), graph.lanes, _standing(layout))
+    return assembled(layout.quads, layout.lane_graph, _standing(layout))
 
 
 def object_name(place: Placement) -> str:

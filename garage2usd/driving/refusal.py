@@ -8,9 +8,8 @@ from garage2usd.config import GarageConfig
 from garage2usd.driving.garage import prove_garage
 from garage2usd.driving.layout_garage import layout_garage
 from garage2usd.driving.proof import Outcome
-from garage2usd.layout import Layout, PlacedStall
-from garage2usd.layout.garage_stalls import clear_aisle_m
-from garage2usd.structure.lane_graph import LaneSquares
+from garage2usd.garage import Stall
+from garage2usd.layout import Layout
 
 __all__ = ["refuse_undrivable"]
 
@@ -19,9 +18,8 @@ _MOST_TRIED, _NAMED = 24, 5
 
 def refuse_undrivable(
     layout: Layout,
-    graph: LaneSquares,
     config: GarageConfig,
-    tight: Sequence[PlacedStall],
+    tight: Sequence[Stall],
     *,
     progress: Progress = silent,
 ) -> None:
@@ -29,7 +27,7 @@ def refuse_undrivable(
 
     Parameters
     ----------
-    layout, graph, config
+    layout, config
         The garage.
     tight
         The stalls in doubt; at most 24 of them, spread evenly, are tried.
@@ -42,7 +40,7 @@ def refuse_undrivable(
         With the setting of the aisle's width and the stalls without manoeuvres.
     """
     every = max(1, -(-len(tight) // _MOST_TRIED))
-    garage = layout_garage(layout, graph)
+    garage = layout_garage(layout)
     names = {stall.name for stall in tight[::every]}
     tried = [at for at in garage.stalls if at.name in names]
     proofs = prove_garage(garage, tried, most_explained=0, progress=progress)
@@ -50,7 +48,7 @@ def refuse_undrivable(
     if not without:
         return
     found = [stall for stall in tight if stall.name in without]
-    narrowest_m = min(clear_aisle_m(stall, graph) for stall in found)
+    narrowest_m = min(layout.lane_graph.clear_aisle_m(stall.access, stall.outwards) for stall in found)
     named = _named([stall.name for stall in found])
     undecided = [proof.stall for proof in proofs if proof.outcome is Outcome.UNDECIDED]
     open_ = f" (undecided, as the search ended at its bound: {_named(undecided)})" if undecided else ""
@@ -68,10 +66,11 @@ def _named(stalls: Sequence[str]) -> str:
     return ", ".join(stalls[:_NAMED]) + (", ..." if len(stalls) > _NAMED else "")
 
 
-def _setting(config: GarageConfig, stall: PlacedStall) -> tuple[str, object]:
+def _setting(config: GarageConfig, stall: Stall) -> tuple[str, object]:
     """Return the setting that determines the aisle of a stall, and its value."""
     bay = config.bay
-    key = "row_depths_m" if stall.edge.name in {"UP", "DOWN"} else "column_widths_m"
+    x, z = stall.outwards
+    key = "row_depths_m" if abs(z) > abs(x) else "column_widths_m"
     if getattr(bay, key) is not None:
         return f"bay.{key}", getattr(bay, key)
     if bay.dimensioned:

@@ -32,19 +32,19 @@ _DIGITS = 4
 
 
 class Spot(NamedTuple):
-    """A pose of the roadmap: the middle of a square, or a point beside it, in line with a lane edge.
+    """A pose of the roadmap: the middle of a lane node, or a point beside it, in line with a lane edge.
 
     Attributes
     ----------
-    square
-        Number of the square's node.
+    node
+        Number of the lane node.
     along
         Direction of driving, a unit vector (x, z).
     aside_m, ahead_m
         Offset from the middle to the right and ahead.
     """
 
-    square: int
+    node: int
     along: Point
     aside_m: float = 0.0
     ahead_m: float = 0.0
@@ -201,7 +201,7 @@ class Roadmap:
             yield self._placed(Spot(portal.node, along, 0.0, math.copysign(ahead_m, length_m)))
 
     def _placed(self, spot: Spot) -> tuple[Spot, Pose]:
-        x, z = self._lanes.nodes[spot.square].position
+        x, z = self._lanes.nodes[spot.node].position
         (along_x, along_z), aside_m, ahead_m = spot.along, spot.aside_m, spot.ahead_m
         yaw = math.atan2(-along_x + 0.0, -along_z + 0.0)
         return spot, Pose(x + aside_m * -along_z + ahead_m * along_x, z + aside_m * along_x + ahead_m * along_z, yaw)
@@ -209,11 +209,11 @@ class Roadmap:
     def edges_from(self, spot: Spot, *, is_back: bool) -> list[Arc]:
         """Return the lane edges in line with a spot that start there, or that end there in a backward search."""
         at = 1 if is_back and not spot.ahead_m else 0
-        return [edge for edge, (along, _) in self._along.items() if edge[at] == spot.square and along == spot.along]
+        return [edge for edge, (along, _) in self._along.items() if edge[at] == spot.node and along == spot.along]
 
-    def middle_m(self, square: int) -> Point:
-        """Return (x, z) of the middle of a square."""
-        return self._lanes.nodes[square].position
+    def middle_m(self, node: int) -> Point:
+        """Return (x, z) of the middle of a lane node."""
+        return self._lanes.nodes[node].position
 
     def joined(self, start: Pose, end: Pose) -> tuple[Piece, ...] | None:
         """Return a collision-free path between two poses with at most two turns."""

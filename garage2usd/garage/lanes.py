@@ -1,4 +1,5 @@
 """The lane graph of a garage: nodes in metres, and edges with their width and direction."""
+# Over 300 lines: the lane graph with its routes, dead ends and reachable arcs is one value.
 
 import math
 from collections import deque
@@ -157,7 +158,8 @@ class LaneGraph:
         for number, node in enumerate(self.nodes):
             (x, z), height = node.position, node.height_m
             graph.add_node(number, kind=node.kind, x_m=x, z_m=z, height_m=height, level=node.level)
-        for (start, end), edge in self.arcs.items():
+        # the order of the arcs decides between equal routes: from each node on down first, then right
+        for (start, end), edge in sorted(self.arcs.items(), key=lambda arc: (min(arc[0]), -max(arc[0]))):
             one, other = self.nodes[start], self.nodes[end]
             graph.add_edge(
                 start,
@@ -240,6 +242,18 @@ class LaneGraph:
             Unit vector (x, z) out of the stalls.
         """
         return self.nodes[access].widths_m[int(abs(outwards[1]) > abs(outwards[0]))]
+
+    def shortest_way(self, start: int, end: int) -> list[int] | None:
+        """Return the nodes of the shortest route between two lane nodes, through no other portal; None without one."""
+        between = [number for number, node in enumerate(self.nodes) if not node.is_portal or number in {start, end}]
+        try:
+            return list(nx.shortest_path(self.graph.subgraph(between), start, end, weight="length_m"))
+        except nx.NetworkXNoPath:
+            return None
+
+    def way_m(self, way: Sequence[int]) -> float:
+        """Return the length of a route in metres, from middle to middle."""
+        return float(nx.path_weight(self.graph, way, "length_m"))
 
     def length_m(self, start: int, end: int) -> float:
         """Return the distance in metres between the middles of two lane nodes."""

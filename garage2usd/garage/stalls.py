@@ -178,6 +178,13 @@ class Stall:
         mouth_m, side_m = self._sides_m
         return StallKind.PARALLEL if mouth_m > side_m else StallKind.PERPENDICULAR
 
+    @property
+    def slant_deg(self) -> float:
+        """Angle in degrees of the stall's long sides to the lane: 90 for perpendicular stalls, 0 for parallel ones."""
+        if self.kind is StallKind.ANGLED:
+            return min(self.angle_deg, 180 - self.angle_deg)
+        return 0.0 if self.kind is StallKind.PARALLEL else 90.0
+
     @cached_property
     def centre(self) -> Point:
         """Centre of the stall."""

@@ -5,6 +5,7 @@ import math
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, LookConfig
 from garage2usd.config.look import AISLE
 from garage2usd.config.plan import DeadEnds, UnreachableStalls
-from garage2usd.garage import StallUse
+from garage2usd.garage import LaneGraph, Stall, StallUse
 from garage2usd.layout.ceiling.beams import beams, ceiling_levels
 from garage2usd.layout.ceiling.lamps import installed_lamps, ramp_lamps
 from garage2usd.layout.ceiling.lighting import LightLevels, light_up
@@ -31,6 +32,7 @@ from garage2usd.layout.floor.panels import drawn_markings_of, floor_panels
 from garage2usd.layout.floor.puddles import puddles
 from garage2usd.layout.floor.stains import floor_stains
 from garage2usd.layout.floor.stall_numbers import stall_numbers
+from garage2usd.layout.garage_stalls import garage_stalls
 from garage2usd.layout.parking.clutter import clutter
 from garage2usd.layout.parking.designation import chargers, with_designated_stalls
 from garage2usd.layout.parking.no_parking import no_parking_signs
@@ -82,6 +84,8 @@ class Layout:
     ----------
     structure
         The plan that it was laid out from.
+    lane_squares
+        The squares of its lanes, for this room only; all others take `Layout.lane_graph` and `Layout.quads`.
     placements
         All objects: tiles in reading order, then the building's.
     stalls
@@ -112,6 +116,7 @@ class Layout:
     """
 
     structure: Structure
+    lane_squares: LaneSquares = field(repr=False)
     placements: ObjectTable
     stalls: StallTable
     ceiling_height_m: float
@@ -125,6 +130,33 @@ class Layout:
     held_back: frozenset[str] = frozenset()
     blocked: Mapping[str, str] = field(default_factory=dict)
     undecided: frozenset[str] = frozenset()
+
+    @property
+    def lane_graph(self) -> LaneGraph:
+        """The lane graph in metres."""
+        return self.lane_squares.lanes
+
+    @cached_property
+    def quads(self) -> tuple[Stall, ...]:
+        """The stalls as those of the neutral garage, in the order of `Layout.stalls`, with the facts of a stage."""
+        return tuple(garage_stalls(tuple(self.stalls), self.lane_squares, self.blocked, self.are_occupied().tolist()))
+
+    @property
+    def again(self) -> "partial[Layout]":
+        """Lay the same plan out again: `lay_out` with its structure and lane squares given."""
+        return partial(lay_out, self.structure, self.lane_squares)
+
+    def node_squares(self) -> NDArray[np.int32]:
+        """Return the (row, col) by which files name each lane node; int32, shape (nodes, 2)."""
+        return np.array([*self.lane_squares.number_of], dtype=np.int32).reshape(-1, 2)
+
+    def kinds_of_squares(self) -> dict[str, int]:
+        """Count the squares of each kind of lane and portal, and of each stall type."""
+        return self.lane_squares.kind_counts()
+
+    def label_of_square(self, row: int, col: int) -> str:
+        """Return the semantic label of a square's tile: the kind of its lane, or the type of its stalls."""
+        return self.lane_squares.label_of((row, col))
 
     def counts(self) -> dict[str, int]:
         """Number of objects of each kind."""
@@ -257,7 +289,9 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     lamps, illuminance = light_up(installed, grid, stalls, fittings)
     country = country_of(look.signs, config.standard)
     parked = with_own_cars(
-        park_cars(stalls, config, draws, tight=tight_stalls(graph, stalls), held_back=held_back),
+        park_cars(
+            stalls, config, draws, tight=tight_stalls(graph.lanes, garage_stalls(stalls, graph)), held_back=held_back
+        ),
         stalls,
         config.vehicles,
         draws,
@@ -308,6 +342,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
 
     return Layout(
         structure,
+        graph,
         ObjectTable(with_signs_of(country, parts())),
         StallTable(stalls),
         fittings.ceiling_height_m,

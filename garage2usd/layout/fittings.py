@@ -102,7 +102,8 @@ def speed_bumps(
         wanted = rng.random() < fittings.speed_bump_rate
         if not wanted or tile.square in crossings or (row - 1, col) in bumps or (row, col - 1) in bumps:
             continue
-        spec = SpeedBumpSpec(round(grid.clear_width_m(tile) - 0.2, 3), height_m)
+        clear_m = graph.lanes.nodes[graph.number_of[tile.square]].widths_m[int(tile.axis_is_x)]
+        spec = SpeedBumpSpec(round(clear_m - 0.2, 3), height_m)
         yaw = _QUARTER_TURN if tile.axis_is_x else 0.0
         bumps[tile.square] = Placement("SpeedBump", spec, (tile.x_m, 0.0, tile.z_m), yaw, tile.square)
     return list(bumps.values())

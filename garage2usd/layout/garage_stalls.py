@@ -1,16 +1,22 @@
 """The stalls of a layout as those of the neutral garage."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+from garage2usd.config import BayConfig
 from garage2usd.garage import Stall
-from garage2usd.layout.placement import PlacedStall, cos_sin
+from garage2usd.layout.parking.stalls import stalls_of
+from garage2usd.layout.placement import PlacedStall
+from garage2usd.layout.tiles import TileGrid
 from garage2usd.structure.lane_graph import LaneSquares
 
-__all__ = ["clear_aisle_m", "garage_stalls"]
+__all__ = ["garage_stalls", "planned_stalls"]
 
 
 def garage_stalls(
-    stalls: Iterable[PlacedStall], lanes: LaneSquares, blocked: Mapping[str, str] | None = None
+    stalls: Sequence[PlacedStall],
+    lanes: LaneSquares,
+    blocked: Mapping[str, str] | None = None,
+    occupied: Iterable[bool] | None = None,
 ) -> Iterator[Stall]:
     """Yield each stall as a quad that opens onto a lane node.
 
@@ -22,16 +28,28 @@ def garage_stalls(
         The lane squares that they open onto.
     blocked
         For the name of a blocked stall, that of the stall of the misparked car that blocks it.
+    occupied
+        True for each stall with a car; None if unknown. The facts are those of a stage's stalls.
     """
-    for stall in stalls:
+    told = [()] * len(stalls) if occupied is None else [(("occupied", int(is_taken)),) for is_taken in occupied]
+    for stall, occupancy in zip(stalls, told, strict=True):
         left, right, rear_right, rear_left = stall.corners_m()
-        said = {"number": stall.number, "size": stall.size, "blocked_by": (blocked or {}).get(stall.name, "")}
-        facts = tuple((fact, value) for fact, value in said.items() if value)
+        by = (blocked or {}).get(stall.name)
+        facts: tuple[tuple[str, str | int], ...] = (
+            *([("number", stall.number)] if stall.number else []),
+            ("type", stall.stall_type.value),
+            ("size", stall.size),
+            ("row", stall.square[0]),
+            ("column", stall.square[1]),
+            ("entryEdge", stall.edge.name.lower()),
+            *([("blocked_by", by)] if by else []),
+            *occupancy,
+        )
         corners = (left, right, rear_right, rear_left)
-        yield Stall(stall.name, corners, stall.use, lanes.number_of[stall.access_square], facts)
+        access = lanes.number_of[stall.access_square]
+        yield Stall(stall.name, corners, stall.use, access, facts, lanes.lanes.nodes[access].level)
 
 
-def clear_aisle_m(stall: PlacedStall, lanes: LaneSquares) -> float:
-    """Metres between the columns on both sides of the aisle that a stall opens onto."""
-    cos, sin = cos_sin(stall.yaw_rad)
-    return lanes.lanes.clear_aisle_m(lanes.number_of[stall.access_square], (sin, cos))
+def planned_stalls(lanes: LaneSquares, bay: BayConfig) -> tuple[Stall, ...]:
+    """Return the stalls of a plan that cannot be laid out."""
+    return tuple(garage_stalls(stalls_of(TileGrid(lanes.structure, lanes, bay), lanes), lanes))

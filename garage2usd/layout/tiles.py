@@ -185,12 +185,6 @@ class TileGrid:
             if part.area > _LEAST_OPENING_M2
         )
 
-    def clear_width_m(self, tile: Tile) -> float:
-        """Width of a straight lane's carriageway across its axis."""
-        across = (Edge.UP, Edge.DOWN) if tile.axis_is_x else (Edge.LEFT, Edge.RIGHT)
-        width = tile.depth_m if tile.axis_is_x else tile.width_m
-        return width - self.setback_m * sum(not tile.drivable[edge] for edge in across)
-
 
 def _way(square: Square, graph: LaneSquares) -> Edge | None:
     """The edge that cars leave a square over, if they enter it over the opposite one only and both are one-way."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning.dimensions import dimensioned
 from garage2usd.planning.score import Score, evaluate
-from garage2usd.structure.directions import BOTH_WAYS, LaneDirections
+from garage2usd.structure.directions import BOTH_WAYS, LaneDirections, stretches_of
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.stall_runs import StallRun
 
@@ -69,6 +69,16 @@ class Plan:
     gave_way: Mapping[str, str] = field(default_factory=dict)
     runs: tuple[StallRun, ...] = ()
     directions: LaneDirections = BOTH_WAYS
+
+    @property
+    def stretches(self) -> tuple[tuple[tuple[int, int], ...], ...]:
+        """Squares of each stretch of lane from one junction or dead end to the next, in reading order."""
+        return stretches_of(self.structure)
+
+    @property
+    def one_way_stretches(self) -> tuple[tuple[tuple[int, int], ...], ...]:
+        """Squares of each one-way stretch in the direction of driving, in reading order."""
+        return self.directions.stretches(self.structure)
 
     def __post_init__(self) -> None:
         """Keep read-only copies of the curve and of the rules that gave way."""

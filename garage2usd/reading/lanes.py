@@ -154,7 +154,8 @@ def _read_nodes(curves: _Curves, lanes: Lanes) -> None:
     if rows is None:
         _incomplete(curves, lanes, "kind, widths, row and column")
         return
-    for line, (kind, widths, row, col) in zip(curves.lines, rows, strict=True):
+    levels = _levels(curves, lanes, "garage:lane:level")
+    for line, (kind, widths, row, col), level in zip(curves.lines, rows, levels, strict=True):
         name = f"[{row}, {col}]"
         if not all(math.isfinite(width) and width > 0 for width in widths):
             lanes.faults.append(Fault(_RULE, name, _middle_of(line), "a node without widths"))
@@ -163,7 +164,7 @@ def _read_nodes(curves: _Curves, lanes: Lanes) -> None:
             lanes.faults.append(Fault(_RULE, name, _middle_of(line), f"a node of the unknown kind {kind!r}"))
         sides = float(widths[0]), float(widths[1])
         height_m = float(line[:, 1].mean()) - GUIDE_LIFT_M
-        lanes.nodes.append(LaneNode(str(kind), _middle_of(line), sides, name, height_m))
+        lanes.nodes.append(LaneNode(str(kind), _middle_of(line), sides, name, height_m, level))
         lanes.squares.append((int(row), int(col)))
 
 
@@ -193,7 +194,8 @@ def _read_stalls(curves: _Curves, lanes: Lanes) -> None:
     columns["blocked_by"] = curves.values("garage:stall:blockedBy")
     columns["occupied"] = [value == 1 for value in curves.values("garage:stall:occupied")]
     known = {name: values for name, values in columns.items() if values}
-    for index, (line, (name, use, access)) in enumerate(zip(curves.lines, rows, strict=True)):
+    levels = _levels(curves, lanes, "garage:stall:level")
+    for index, (line, (name, use, access), level) in enumerate(zip(curves.lines, rows, levels, strict=True)):
         place = str(name)
         if len(line) != _CORNERS:
             lanes.faults.append(Fault(_RULE, place, _middle_of(line), f"a stall with {len(line)} corners"))
@@ -206,7 +208,16 @@ def _read_stalls(curves: _Curves, lanes: Lanes) -> None:
             said = [(fact, values[index]) for fact, values in known.items() if fact != "blocked_by" or values[index]]
             facts = tuple((fact, value if isinstance(value, int) else str(value)) for fact, value in said)
             outline = (left, right, rear_right, rear_left)
-            lanes.stalls.append(Stall(place, outline, StallUse(use), int(access), facts))
+            lanes.stalls.append(Stall(place, outline, StallUse(use), int(access), facts, level))
+
+
+def _levels(curves: _Curves, lanes: Lanes, name: str) -> list[int]:
+    """Return the level of each curve, 0 where no levels are told."""
+    told = curves.values(name)
+    if not all(isinstance(level, int) for level in told):
+        lanes.faults.append(Fault(_RULE, curves.path, None, f"{name} that is not whole numbers"))
+        told = []
+    return told or [0] * len(curves.lines)
 
 
 def _incomplete(curves: _Curves, lanes: Lanes, names: str) -> None:

@@ -30,7 +30,6 @@ from garage2usd.stage.prototypes import asset_of, name_prototypes
 from garage2usd.stage.texture_files import NamedFile, textures_of
 from garage2usd.stage.usdz import write_usdz
 from garage2usd.structure.grid import Cell
-from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = [
     "StageFiles",
@@ -97,7 +96,6 @@ def write_labels(layout: Layout, path: Path, *, arrangement: Arrangement) -> Non
 
 def write_stage(
     layout: Layout,
-    graph: LaneSquares,
     path: Path,
     *,
     arrangement: Arrangement,
@@ -111,7 +109,7 @@ def write_stage(
 
     Parameters
     ----------
-    layout, graph
+    layout
         What to write.
     path
         The stage's file in an existing, empty folder; its extension decides the format.
@@ -178,13 +176,12 @@ def write_stage(
     progress("stage", 0, 1)
     write_garage_layer(
         layout,
-        graph,
         arrangement=arrangement,
         prototypes=prototypes,
         own=own,
         asset_folder=folder.name if shared is None else config.asset_folder,
         metadata=metadata,
-        last_frame=write_drive(path.parent / f"{own}{DRIVE_NAME}.usdc", layout, graph),
+        last_frame=write_drive(path.parent / f"{own}{DRIVE_NAME}.usdc", layout.lane_graph),
         path=layer_path,
         is_compact=is_compact,
     )

@@ -12,7 +12,6 @@ from garage2usd.layout import Layout
 from garage2usd.layout.table import compact
 from garage2usd.objects import KINDS, TilePart
 from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.lane_graph import Square
 
 __all__ = ["ROOT_NAME", "Arrangement", "arrange", "row_name", "tile_name"]
 
@@ -86,7 +85,7 @@ class Arrangement:
         return paths
 
     def _parents(self) -> Iterator[tuple[str, NDArray[np.intp]]]:
-        tiles = (f"/{ROOT_NAME}/Tiles/{row_name(row)}/{tile_name((row, col))}" for row, col in self.squares.tolist())
+        tiles = (f"/{ROOT_NAME}/Tiles/{row_name(row)}/{tile_name(row, col)}" for row, col in self.squares.tolist())
         groups = (f"{tile}/{part}" for tile in tiles for part in self.parts) if self.parts else tiles
         for group, (start, end) in zip(groups, pairwise(self.borders.tolist()), strict=True):
             yield group, self.order[start:end]
@@ -179,9 +178,9 @@ def row_name(row: int) -> str:
     return f"Row_r{row:02d}"
 
 
-def tile_name(square: Square) -> str:
+def tile_name(row: int, col: int) -> str:
     """Return the name of a tile's prim."""
-    return f"Tile_r{square[0]:02d}_c{square[1]:02d}"
+    return f"Tile_r{row:02d}_c{col:02d}"
 
 
 def _grouped(layout: Layout, rows: NDArray[np.intp]) -> dict[str, NDArray[np.intp]]:

@@ -9,11 +9,10 @@ import shapely
 from numpy.typing import NDArray
 from pxr import Gf, Sdf
 
+from garage2usd.garage import LaneGraph, LaneKind
 from garage2usd.layout import Layout
 from garage2usd.stage.authoring import attribute, define, new_layer, operation, order_operations
 from garage2usd.stage.bounds import world_bounds_m
-from garage2usd.structure.grid import Cell
-from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = [
     "APERTURE_MM",
@@ -50,7 +49,7 @@ DRIVE_NAME = "Drive"
 """Name of the camera that drives, and of its asset."""
 
 
-def write_drive(path: Path, layout: Layout, graph: LaneSquares) -> int:
+def write_drive(path: Path, lanes: LaneGraph) -> int:
     """Write the driving camera as a layer of its own, as text is slow with many samples; returns its last frame.
 
     Notes
@@ -61,7 +60,7 @@ def write_drive(path: Path, layout: Layout, graph: LaneSquares) -> int:
     """
     with new_layer(path, default_prim=DRIVE_NAME) as layer:
         camera = _camera(layer, Sdf.Path.absoluteRootPath.AppendChild(DRIVE_NAME))
-        last_frame = _drive(camera, layer, _way(layout, graph))
+        last_frame = _drive(camera, layer, _way(lanes))
         set_frames(layer, last_frame)
     return last_frame
 
@@ -72,14 +71,13 @@ def set_frames(layer: Sdf.Layer, last_frame: int) -> None:
     layer.startTimeCode, layer.endTimeCode = 0.0, float(last_frame)
 
 
-def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneSquares, *, own: str) -> None:
+def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, *, own: str) -> None:
     """Author a camera at a driver's eye at the entrance and one over the whole garage; refer to the one that drives."""
     define(layer, path, "Scope")
-    entrance = layout.structure.where(Cell.ENTRANCE)[0]
-    nodes = graph.graph.nodes
-    lane = min(graph.graph[entrance])
-    x, z = nodes[entrance]["x_m"], nodes[entrance]["z_m"]
-    yaw = math.degrees(math.atan2(x - nodes[lane]["x_m"], z - nodes[lane]["z_m"]))
+    entrance = layout.lane_graph.portals(LaneKind.ENTRANCE)[0]
+    x, z = layout.lane_graph.nodes[entrance].position
+    lane_x, lane_z = layout.lane_graph.nodes[min(layout.lane_graph.onward[entrance])].position
+    yaw = math.degrees(math.atan2(x - lane_x, z - lane_z))
     _fixed(_camera(layer, path.AppendChild("Inside")), (x, EYE_M, z), yaw_deg=yaw)
 
     low, high = world_bounds_m(layout.placements, layout.placements.rows_of(*_SHELL))
@@ -93,18 +91,17 @@ def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: Lane
     drive.SetInfo("references", Sdf.ReferenceListOp.Create(prependedItems=[reference]))
 
 
-def _way(layout: Layout, graph: LaneSquares) -> NDArray[np.float64]:
-    """Middles of the squares from the first entrance that leads to an exit to the nearest one; float64, shape (n, 2).
+def _way(lanes: LaneGraph) -> NDArray[np.float64]:
+    """Middles of the lane nodes from the first entrance that leads to an exit to the nearest one; shape (n, 2).
 
     There is one, as stalls are reached.
     """
-    exits = layout.structure.where(Cell.EXIT)
+    exits = lanes.portals(LaneKind.EXIT)
     found = (
-        list(filter(None, (graph.shortest_way(entrance, exit_) for exit_ in exits)))
-        for entrance in layout.structure.where(Cell.ENTRANCE)
+        list(filter(None, (lanes.shortest_way(entrance, exit_) for exit_ in exits)))
+        for entrance in lanes.portals(LaneKind.ENTRANCE)
     )
-    way = min(next(filter(None, found)), key=graph.length_m)
-    return graph.lanes.positions_m[[graph.number_of[square] for square in way]]
+    return lanes.positions_m[min(next(filter(None, found)), key=lanes.way_m)]
 
 
 def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> int:

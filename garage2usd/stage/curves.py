@@ -17,7 +17,7 @@ def author_curves(
     line_m: NDArray[np.float64],
     counts: NDArray[np.int32],
     *,
-    lift_m: float,
+    lift_m: float | NDArray[np.float64],
     width_m: float,
     closed: bool = False,
 ) -> Sdf.PrimSpec:
@@ -32,14 +32,14 @@ def author_curves(
     counts
         Number of points of each curve; int32, shape (curves,).
     lift_m
-        Height over the floor.
+        Height of the points; one, or float64, shape (points,).
     width_m
         Width of the drawn line.
     closed
         True if the curves are closed.
     """
-    points = np.full((len(line_m), 3), lift_m, dtype=np.float32)
-    points[:, [0, 2]] = line_m
+    points = np.empty((len(line_m), 3), dtype=np.float32)
+    points[:, [0, 2]], points[:, 1] = line_m, lift_m
     prim = define(layer, path, "BasisCurves")
     attribute(prim, "type", _TYPES.Token, UsdGeom.Tokens.linear, uniform=True)
     wrap = UsdGeom.Tokens.periodic if closed else UsdGeom.Tokens.nonperiodic

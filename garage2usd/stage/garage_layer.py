@@ -10,7 +10,6 @@ from itertools import islice
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from pxr import Sdf, Vt
 
 from garage2usd.common.processes import without_collector
@@ -36,7 +35,6 @@ from garage2usd.stage.prototypes import Prototype
 from garage2usd.stage.scatter import write_instancer
 from garage2usd.stage.tile_prototypes import TilePrototypes, share_tiles
 from garage2usd.stage.variants import OCCUPIED_STALL, SWITCHES, variant_texts
-from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = ["write_garage_layer"]
 
@@ -51,7 +49,6 @@ _PHYSICS = "PhysicsScene"
 @without_collector()
 def write_garage_layer(
     layout: Layout,
-    graph: LaneSquares,
     *,
     arrangement: Arrangement,
     prototypes: Mapping[Spec, Prototype],
@@ -66,8 +63,8 @@ def write_garage_layer(
 
     Parameters
     ----------
-    layout, graph
-        What to place, and the kinds of the lane squares.
+    layout
+        What to place.
     arrangement
         Which prim each object is.
     prototypes
@@ -96,17 +93,17 @@ def write_garage_layer(
         classes=f"/{ROOT_NAME}/{_CLASSES}",
         describe_stalls=not arrangement.nested,
     )
-    frame = _frame(layout, graph, arrangement, own, metadata, last_frame)
+    frame = _frame(layout, arrangement, own, metadata, last_frame)
     if is_compact:
         with path.open("w", encoding="utf-8", newline="\n") as file:
-            file.writelines(_pieces(frame, layout, graph, arrangement, writer, own))
+            file.writelines(_pieces(frame, layout, arrangement, writer, own))
     else:
         layer = Sdf.Layer.CreateAnonymous(path.suffix)
-        layer.ImportFromString("".join(_pieces(frame, layout, graph, arrangement, writer, own)))
+        layer.ImportFromString("".join(_pieces(frame, layout, arrangement, writer, own)))
         save(layer, path)
         # of a large garage each layer is a hundred megabytes while it is written
         del layer
-    write_lane_graph(path.parent / f"{own}{LANE_GRAPH_FILE}", layout, graph)
+    write_lane_graph(path.parent / f"{own}{LANE_GRAPH_FILE}", layout)
     beside = anchored(posixpath.relpath(asset_folder, posixpath.dirname(own) or "."))
     for name, rows in arrangement.scattered.items():
         layer_path = path.parent / f"{own}{name}.usdc"
@@ -123,7 +120,6 @@ def write_garage_layer(
 
 def _frame(
     layout: Layout,
-    graph: LaneSquares,
     arrangement: Arrangement,
     own: str,
     metadata: Mapping[str, str | int],
@@ -151,7 +147,7 @@ def _frame(
         set_frames(layer, last_frame)
         layer.GetPrimAtPath(root_path).SetInfo("customData", {**metadata, **_matrices(layout)})
         define(layer, root_path.AppendChild(_PHYSICS), _PHYSICS)
-        author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph, own=own)
+        author_cameras(layer, root_path.AppendChild("Cameras"), layout, own=own)
     text: str = layer.ExportToString()
     return text
 
@@ -159,7 +155,6 @@ def _frame(
 def _pieces(
     frame: str,
     layout: Layout,
-    graph: LaneSquares,
     arrangement: Arrangement,
     writer: InstanceWriter,
     own: str,
@@ -167,7 +162,7 @@ def _pieces(
     """The text of the layer: what stands in the garage within its frame, and the prototypes of tiles."""
     before, physics, after = frame.partition(f'    def {_PHYSICS} "{_PHYSICS}"')
     yield before
-    labels = _tile_labels(graph, arrangement.squares)
+    labels = [layout.label_of_square(row, col) for row, col in arrangement.squares.tolist()]
     tile_classes: Iterable[str] = ()
     if arrangement.nested:
         shared = share_tiles(layout, arrangement, labels, writer, f"/{_TILE_CLASSES}")
@@ -183,19 +178,12 @@ def _pieces(
     yield from tile_classes
 
 
-def _tile_labels(graph: LaneSquares, squares: NDArray[np.intp]) -> list[str]:
-    """Return the semantic label of each tile: the kind of its lane square, or the type of its stalls."""
-    stalls = {square: f"stall_{stall_type.value}" for square, stall_type in graph.stall_types.items()}
-    kinds = {square: kind.value for square, kind in graph.graph.nodes(data="kind")}
-    return [kinds.get((row, col)) or stalls[row, col] for row, col in squares.tolist()]
-
-
 def _tiles(arrangement: Arrangement, labels: Iterable[str], writer: InstanceWriter) -> Iterator[str]:
     """Row and tile groups."""
     counts = np.diff(arrangement.borders)
     objects = writer.texts(arrangement.on_all_tiles(), np.repeat(arrangement.origins_m, counts, axis=0))
     texts = (
-        group_text(tile_name((row, col)), islice(objects, count), label=label, place=place_text(x, 0.0, 0.0))
+        group_text(tile_name(row, col), islice(objects, count), label=label, place=place_text(x, 0.0, 0.0))
         for (row, col), x, count, label in zip(
             arrangement.squares.tolist(), rounded_m(arrangement.origins_m[:, 0]), counts.tolist(), labels, strict=True
         )
@@ -210,7 +198,7 @@ def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes) -> Iterator[
     """
     headers = {name: inherits_text(f"/{_TILE_CLASSES}/{name}") for name in shared.texts}
     texts = (
-        f'def "{tile_name((row, col))}" (\n{headers[name]})\n{{\n{moved_text(x)}}}\n'
+        f'def "{tile_name(row, col)}" (\n{headers[name]})\n{{\n{moved_text(x)}}}\n'
         for (row, col), x, name in zip(
             arrangement.squares.tolist(), rounded_m(arrangement.origins_m[:, 0]), shared.name_of, strict=True
         )

@@ -7,7 +7,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.layout import Layout, PlacedStall
+from garage2usd.garage import Stall
+from garage2usd.layout import Layout
 from garage2usd.objects import KINDS, Spec
 from garage2usd.objects.number_plate import KIND as NUMBER_PLATE
 from garage2usd.objects.number_plate import NumberPlateSpec
@@ -23,7 +24,6 @@ from garage2usd.stage.prim_text import (
 )
 from garage2usd.stage.prototypes import Prototype
 from garage2usd.stage.variants import OCCUPIED_STALL, SWITCHES, occupied_text
-from garage2usd.structure.lane_graph import Square
 
 __all__ = ["CAR_OF_STALL", "InstanceWriter"]
 
@@ -65,12 +65,12 @@ class InstanceWriter:
         self._assets = asset_folder, own_assets
         self._classes = classes
         stalls, cars = self._objects.rows_of("stall"), layout.cars_in_stalls()
-        self._stalls = dict(zip(stalls.tolist(), layout.stalls, strict=True)) if describe_stalls else {}
+        self._stalls = dict(zip(stalls.tolist(), layout.quads, strict=True)) if describe_stalls else {}
+        self._node_squares = layout.node_squares().tolist()
         self._car_of = np.full(len(self._objects), -1)
         self._car_of[stalls] = cars
         plates, wearers = layout.cars_with_plates()
         self._car_of[plates] = wearers
-        self._blocked = layout.blocked
         self._headers: dict[tuple[int, int, bool], str] = {}
 
     def texts(self, rows: NDArray[np.intp], origins_m: NDArray[np.float64] | float = 0.0) -> Iterator[str]:
@@ -90,10 +90,10 @@ class InstanceWriter:
             rows.tolist(), *(column.tolist() for column in columns), positions, yaws, strict=True
         ):
             stall, shape, has_car = self._stalls.get(row), objects.specs[spec], car >= 0
-            is_taken = stall is not None and (has_car or stall.name in self._blocked)
+            is_taken = stall is not None and (has_car or stall.blocked_by is not None)
             header = self._headers.get((kind, spec, is_taken)) or self._header(kind, spec, is_taken=is_taken)
             prim = names[name].decode("ascii")
-            said = "" if stall is None else _stall_text(stall, is_taken=is_taken)
+            said = "" if stall is None else _stall_text(stall, self._node_squares[stall.access], is_taken=is_taken)
             if has_car:
                 car_name = names[self._arrangement.name[car]].decode("ascii")
                 if isinstance(shape, NumberPlateSpec):
@@ -126,27 +126,25 @@ def _placed_text(name: str, header: str, x: float, y: float, z: float, yaw_deg: 
     return instance_text(name, header, place_text(x, y, z, yaw_deg))
 
 
-def _stall_text(stall: PlacedStall, *, is_taken: bool) -> str:
+def _stall_text(stall: Stall, access_square: tuple[int, int], *, is_taken: bool) -> str:
     """What a stall is as attributes of its prim; corners are (x, z) in the world.
 
     That a car stands in it says the class that it inherits from, as variants of the garage take the cars away.
     """
-    corners = ", ".join(f"({x}, {z})" for x, z in stall.corners_m())
+    corners = ", ".join(f"({x}, {z})" for x, z in stall.corners)
+    facts, (access_row, access_column) = dict(stall.facts), access_square
+    kind, row, column, edge = (facts[name] for name in ("type", "row", "column", "entryEdge"))
     return (
         f'custom string garage:stall:id = "{stall.name}"\n'
-        f'custom string garage:stall:number = "{stall.number}"\n'
-        f'custom token garage:stall:type = "{stall.stall_type.value}"\n'
+        f'custom string garage:stall:number = "{stall.number or ""}"\n'
+        f'custom token garage:stall:type = "{kind}"\n'
         f'custom token garage:stall:use = "{stall.use.value}"\n'
-        f"custom int2 garage:stall:square = {_pair(stall.square)}\n"
-        f"custom int2 garage:stall:accessSquare = {_pair(stall.access_square)}\n"
-        f'custom token garage:stall:entryEdge = "{stall.edge.name.lower()}"\n'
+        f"custom int2 garage:stall:square = ({row}, {column})\n"
+        f"custom int2 garage:stall:accessSquare = ({access_row}, {access_column})\n"
+        f'custom token garage:stall:entryEdge = "{edge}"\n'
         f'custom token garage:stall:kind = "{stall.kind.value}"\n'
-        f"custom float garage:stall:angleRad = {round(math.radians(stall.angle_deg), 6)}\n"
-        f'custom token garage:stall:size = "{stall.size}"\n'
+        f"custom float garage:stall:angleRad = {round(math.radians(stall.slant_deg), 6)}\n"
+        f'custom token garage:stall:size = "{facts["size"]}"\n'
         f"custom float2[] garage:stall:corners = [{corners}]\n"
         f"{'' if is_taken else occupied_text(is_occupied=False)}"
     )
-
-
-def _pair(square: Square) -> str:
-    return f"({square[0]}, {square[1]})"

@@ -9,12 +9,10 @@ from pxr import Kind, Sdf, UsdGeom, Vt
 
 from garage2usd.garage import LaneGraph
 from garage2usd.layout import Layout
-from garage2usd.layout.parking.stall_table import EDGES, STALL_SIZES, STALL_TYPES, STALL_USES
 from garage2usd.reading.lanes import GUIDE_LIFT_M
 from garage2usd.stage.authoring import attribute, define, new_layer, numbers, words
 from garage2usd.stage.curves import author_curves
 from garage2usd.stage.variants import BLOCKED_BY, OCCUPIED
-from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = ["LANE_GRAPH_FILE", "STALL_OUTLINES", "write_lane_graph"]
 
@@ -30,7 +28,7 @@ _LINE_WIDTH_M = 0.1
 _TYPES = Sdf.ValueTypeNames
 
 
-def write_lane_graph(path: Path, layout: Layout, graph: LaneSquares) -> None:
+def write_lane_graph(path: Path, layout: Layout) -> None:
     """Write a layer of its own, as text is slow with long arrays, with the curves ``Nodes``, ``Edges`` and ``Stalls``.
 
     Notes
@@ -43,7 +41,8 @@ def write_lane_graph(path: Path, layout: Layout, graph: LaneSquares) -> None:
     left, with ``garage:stall:id``, ``:number``, ``:type``, ``:use``, ``:kind`` (``perpendicular``, ``angled`` or
     ``parallel``), ``:angleRad`` (of the long sides to the lane), ``:size`` (size class), ``:row``, ``:column``,
     ``:accessNode`` (number of a node), ``:entryEdge`` and ``:occupied`` (1 where a car stands, else 0); where misparked
-    cars block stalls, ``:blockedBy`` is the id of the stall of the car, or empty. No attribute is ``bool[]``,
+    cars block stalls, ``:blockedBy`` is the id of the stall of the car, or empty. Nodes and stalls of a garage with
+    several levels have ``:level``, from 0; all curves lie above the floor there. No attribute is ``bool[]``,
     ``int2[]`` or ``string[]``,
     which three.js cannot read from a crate.
     """
@@ -51,25 +50,28 @@ def write_lane_graph(path: Path, layout: Layout, graph: LaneSquares) -> None:
     with new_layer(path, default_prim=_ROOT) as layer:
         group = define(layer, root, "Xform", kind=Kind.Tokens.group)
         attribute(group, "purpose", _TYPES.Token, UsdGeom.Tokens.guide, uniform=True)
-        _author_nodes(layer, root.AppendChild("Nodes"), graph)
-        _author_edges(layer, root.AppendChild("Edges"), graph.lanes)
-        _author_stalls(layer, root.AppendChild(STALL_OUTLINES[-1]), layout, graph)
+        _author_nodes(layer, root.AppendChild("Nodes"), layout)
+        _author_edges(layer, root.AppendChild("Edges"), layout.lane_graph)
+        _author_stalls(layer, root.AppendChild(STALL_OUTLINES[-1]), layout)
 
 
-def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, graph: LaneSquares) -> None:
+def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, layout: Layout) -> None:
     angles = np.arange(_NODE_CORNERS) * math.tau / _NODE_CORNERS
     ring = _NODE_RADIUS_M * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    prim = _author_curves(layer, path, graph.lanes.positions_m[:, None] + ring, closed=True)
-    words(prim, "garage:lane:kind", (node.kind for node in graph.lanes.nodes))
-    _author_squares(prim, "garage:lane", np.array([*graph.number_of], dtype=np.int32).reshape(-1, 2))
-    widths_m = np.array([node.widths_m for node in graph.lanes.nodes], dtype=np.float32)
+    lanes, squares = layout.lane_graph, layout.node_squares()
+    prim = _author_curves(layer, path, lanes.positions_m[:, None] + ring, _heights_m(lanes)[:, None], closed=True)
+    words(prim, "garage:lane:kind", (node.kind for node in lanes.nodes))
+    numbers(prim, "garage:lane:row", squares[:, 0])
+    numbers(prim, "garage:lane:column", squares[:, 1])
+    widths_m = np.array([node.widths_m for node in lanes.nodes], dtype=np.float32)
     attribute(prim, "garage:lane:widths", _TYPES.Float2Array, Vt.Vec2fArray.FromNumpy(widths_m))
+    _author_levels(prim, "garage:lane:level", [node.level for node in lanes.nodes])
 
 
 def _author_edges(layer: Sdf.Layer, path: Sdf.Path, lanes: LaneGraph) -> None:
     ends = np.array([(edge.start, edge.end) for edge in lanes.edges], dtype=np.int32).reshape(-1, 2)
     lines = lanes.positions_m[ends]
-    prim = _author_curves(layer, path, lines, closed=False)
+    prim = _author_curves(layer, path, lines, _heights_m(lanes)[ends], closed=False)
     numbers(prim, "garage:lane:from", ends[:, 0])
     numbers(prim, "garage:lane:to", ends[:, 1])
     words(prim, "garage:lane:direction", ("forward" if edge.one_way else "both" for edge in lanes.edges))
@@ -77,37 +79,46 @@ def _author_edges(layer: Sdf.Layer, path: Sdf.Path, lanes: LaneGraph) -> None:
     numbers(prim, "garage:lane:width", np.array([edge.width_m for edge in lanes.edges]))
 
 
-def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneSquares) -> None:
-    stalls = layout.stalls
-    prim = _author_curves(layer, path, stalls.outlines_m(), closed=True)
-    words(prim, "garage:stall:id", stalls.names())
-    words(prim, "garage:stall:number", stalls.number.astype(np.str_).tolist())
-    for name, choices, column in (
-        ("type", STALL_TYPES, stalls.stall_type),
-        ("use", STALL_USES, stalls.use),
-        ("size", STALL_SIZES, stalls.size),
-        ("entryEdge", [edge.name.lower() for edge in EDGES], stalls.edge),
-    ):
-        words(prim, f"garage:stall:{name}", map([str(choice) for choice in choices].__getitem__, column.tolist()))
-    words(prim, "garage:stall:kind", stalls.kinds())
-    numbers(prim, "garage:stall:angleRad", np.radians(stalls.angle_deg).astype(np.float32))
-    _author_squares(prim, "garage:stall", stalls.square)
-    access = [graph.number_of[row, col] for row, col in zip(*stalls.access_square.T.tolist(), strict=True)]
-    numbers(prim, "garage:stall:accessNode", np.array(access, dtype=np.int32))
-    numbers(prim, OCCUPIED, layout.are_occupied().astype(np.int32))
+def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Layout) -> None:
+    stalls = layout.quads
+    corners = np.array([stall.corners for stall in stalls], dtype=np.float64).reshape(-1, 4, 2)
+    access = np.array([stall.access for stall in stalls], dtype=np.int32)
+    prim = _author_curves(layer, path, corners, _heights_m(layout.lane_graph)[access, None], closed=True)
+    words(prim, "garage:stall:id", (stall.name for stall in stalls))
+    words(prim, "garage:stall:number", (str(stall.number or "") for stall in stalls))
+    facts = [dict(stall.facts) for stall in stalls]
+    words(prim, "garage:stall:type", (str(fact["type"]) for fact in facts))
+    words(prim, "garage:stall:use", (stall.use.value for stall in stalls))
+    words(prim, "garage:stall:kind", (stall.kind.value for stall in stalls))
+    angles_rad = np.radians([stall.slant_deg for stall in stalls])
+    numbers(prim, "garage:stall:angleRad", angles_rad.round(6).astype(np.float32))
+    words(prim, "garage:stall:size", (str(fact["size"]) for fact in facts))
+    words(prim, "garage:stall:entryEdge", (str(fact["entryEdge"]) for fact in facts))
+    for name in ("row", "column"):
+        numbers(prim, f"garage:stall:{name}", np.array([fact[name] for fact in facts], dtype=np.int32))
+    numbers(prim, "garage:stall:accessNode", access)
+    _author_levels(prim, "garage:stall:level", [stall.level for stall in stalls])
+    numbers(prim, OCCUPIED, np.array([fact["occupied"] for fact in facts], dtype=np.int32))
     if layout.blocked:
-        words(prim, BLOCKED_BY, (layout.blocked.get(name, "") for name in stalls.names()))
+        words(prim, BLOCKED_BY, (stall.blocked_by or "" for stall in stalls))
 
 
-def _author_squares(prim: Sdf.PrimSpec, namespace: str, squares: NDArray[np.int32]) -> None:
-    numbers(prim, f"{namespace}:row", squares[:, 0])
-    numbers(prim, f"{namespace}:column", squares[:, 1])
+def _heights_m(lanes: LaneGraph) -> NDArray[np.float64]:
+    """Height of the floor at each lane node; float64, shape (nodes,)."""
+    return np.array([node.height_m for node in lanes.nodes], dtype=np.float64)
 
 
-def _author_curves(layer: Sdf.Layer, path: Sdf.Path, lines: NDArray[np.float64], *, closed: bool) -> Sdf.PrimSpec:
-    """Curves through (x, z) points, shape (curves, points, 2)."""
+def _author_levels(prim: Sdf.PrimSpec, name: str, levels: list[int]) -> None:
+    """Author the level of each curve, unless the garage has one level only."""
+    if any(levels):
+        numbers(prim, name, np.array(levels, dtype=np.int32))
+
+
+def _author_curves(
+    layer: Sdf.Layer, path: Sdf.Path, lines: NDArray[np.float64], floor_m: NDArray[np.float64], *, closed: bool
+) -> Sdf.PrimSpec:
+    """Curves through (x, z) points, shape (curves, points, 2), over floors of a height for each curve or point."""
     count, corners, _ = lines.shape
     counts = np.full(count, corners, dtype=np.int32)
-    return author_curves(
-        layer, path, lines.reshape(-1, 2), counts, lift_m=GUIDE_LIFT_M, width_m=_LINE_WIDTH_M, closed=closed
-    )
+    lift_m = np.broadcast_to(floor_m + GUIDE_LIFT_M, (count, corners)).ravel()
+    return author_curves(layer, path, lines.reshape(-1, 2), counts, lift_m=lift_m, width_m=_LINE_WIDTH_M, closed=closed)

@@ -110,6 +110,10 @@ class LaneSquares:
         kind: LaneKind = self.graph.nodes[square]["kind"]
         return kind
 
+    def label_of(self, square: Square) -> str:
+        """Return the semantic label of a square's tile: the kind of its lane, or the type of its stalls."""
+        return self.kind(square).value if square in self.graph else f"stall_{self.stall_types[square].value}"
+
     def kind_counts(self) -> dict[str, int]:
         """Count the squares of each kind of lane and portal, and of each stall type."""
         counts = Counter(str(kind) for _, kind in self.graph.nodes(data="kind"))

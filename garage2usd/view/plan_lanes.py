@@ -3,12 +3,11 @@
 import math
 from collections.abc import Iterator
 
-from garage2usd.garage import LaneKind
+from garage2usd.garage import LaneGraph, LaneKind
 from garage2usd.layout import Layout
 from garage2usd.objects.outline import rectangle
 from garage2usd.planning import MeasuredCirculation
 from garage2usd.structure.grid import Cell
-from garage2usd.structure.lane_graph import LaneSquares
 from garage2usd.view.drawing import Colour, Line, Point, Region
 
 __all__ = ["DEAD_END", "FREE", "LANE_COLOUR", "LINE_M", "arrows", "lane_legend", "squares"]
@@ -37,23 +36,24 @@ _KEEP_RIGHT_M = 1.3
 _CHEVRON_M = 0.7
 
 
-def lane_legend(graph: LaneSquares, found: MeasuredCirculation) -> list[tuple[Colour, str]]:
+def lane_legend(layout: Layout, found: MeasuredCirculation) -> list[tuple[Colour, str]]:
     """Kinds of lane that there are, with their colours."""
-    rounds = found.circulation.rounds
-    kinds = {kind for square, kind in graph.graph.nodes(data="kind") if not rounds[square]}
+    rounds = found.circulation.rounds[layout.structure.cells >= Cell.LANE]
+    kinds = {node.kind for node, pruned in zip(layout.lane_graph.nodes, rounds.tolist(), strict=True) if not pruned}
     entries = [(LANE_COLOUR[kind], _LANE_NAME[kind]) for kind in LaneKind if kind in kinds]
     return entries + ([(DEAD_END, "dead end")] if found.dead_ends else [])
 
 
-def squares(layout: Layout, graph: LaneSquares, found: MeasuredCirculation) -> Iterator[Region | Line]:
+def squares(layout: Layout, found: MeasuredCirculation) -> Iterator[Region | Line]:
     """Every square by its kind; a lane in a dead end has a tint of its own."""
     structure, rounds = layout.structure, found.circulation.rounds
     x, z = structure.column_edges_m.tolist(), structure.row_edges_m.tolist()
+    nodes = iter(layout.lane_graph.nodes)  # which are numbered in reading order
     for row, line in enumerate(structure.cells.tolist()):
         for col, cell in enumerate(line):
             if cell == Cell.OBSTACLE:
                 continue
-            kind = graph.kind((row, col)) if cell != Cell.FREE else None
+            kind = LaneKind(next(nodes).kind) if cell != Cell.FREE else None
             box = rectangle(x[col], z[row], x[col + 1], z[row + 1])
             if kind is None:
                 yield Region(box, FREE, "free")
@@ -64,11 +64,10 @@ def squares(layout: Layout, graph: LaneSquares, found: MeasuredCirculation) -> I
             yield Line([*box, box[0]], _SEAM, LINE_M / 4)
 
 
-def arrows(graph: LaneSquares) -> Iterator[Line]:
+def arrows(lanes: LaneGraph) -> Iterator[Line]:
     """A chevron for each direction of each pair of lanes that join, on its right; one between a lane and a portal."""
-    nodes = graph.lanes.nodes
-    for (start, end), edge in graph.lanes.arcs.items():
-        yield _chevron(nodes[start].position, nodes[end].position, 0.0 if edge.one_way else _KEEP_RIGHT_M)
+    for (start, end), edge in lanes.arcs.items():
+        yield _chevron(lanes.nodes[start].position, lanes.nodes[end].position, 0.0 if edge.one_way else _KEEP_RIGHT_M)
 
 
 def _chevron(start: Point, end: Point, aside_m: float) -> Line:

@@ -7,12 +7,11 @@ from collections.abc import Iterator, Sequence
 import shapely
 
 from garage2usd.config.vehicles import CarBody
-from garage2usd.garage import StallUse
-from garage2usd.layout import Layout, PlacedStall, Placement
+from garage2usd.garage import LaneGraph, Stall, StallUse
+from garage2usd.layout import Layout, Placement
 from garage2usd.objects import KINDS
 from garage2usd.objects.car import CarSpec
 from garage2usd.planning import MeasuredCirculation, measured_circulation
-from garage2usd.structure.lane_graph import LaneSquares, Square
 from garage2usd.view.drawing import Colour, Disc, Drawing, Line, Point, Region, Text, text_width
 from garage2usd.view.plan_access import RAMP, portals, ramps
 from garage2usd.view.plan_lanes import FREE, LINE_M, arrows, lane_legend, squares
@@ -50,14 +49,12 @@ _DIGIT = re.compile(r"\d")
 _ROUTE_ASIDE_M, _ROUTE_WIDTH_M, _ROUTE_INTO_STALL_M = 0.45, 0.45, 0.3
 
 
-def draw_plan(
-    layout: Layout, graph: LaneSquares, *, stall: PlacedStall | None = None, marks: Sequence[Mark] = ()
-) -> Drawing:
+def draw_plan(layout: Layout, *, stall: Stall | None = None, marks: Sequence[Mark] = ()) -> Drawing:
     """Draw a layout from above, +X to the right and +Z down, its first square's corner at (0, 0).
 
     Parameters
     ----------
-    layout, graph
+    layout
         What to draw.
     stall
         The stall whose route from an entrance and to an exit is drawn.
@@ -66,18 +63,18 @@ def draw_plan(
     """
     rows, cols = layout.structure.shape
     found = measured_circulation(layout.structure)
-    sheet = Sheet(layout.structure, marks, _legend(layout, graph, found, with_route=stall is not None))
+    sheet = Sheet(layout.structure, marks, _legend(layout, found, with_route=stall is not None))
 
     def elements() -> Iterator[_Element]:
-        yield from squares(layout, graph, found)
+        yield from squares(layout, found)
         yield from _stalls(layout)
-        yield from arrows(graph)
+        yield from arrows(layout.lane_graph)
         yield from ramps(layout, sheet)
         yield from _building(layout)
         yield from _clutter(layout)
         yield from portals(layout, sheet)
         if stall is not None:
-            yield from _route(graph, stall)
+            yield from _route(layout.lane_graph, stall)
         yield sheet.title(_figures(layout, found))
         yield from sheet.dimensions()
         yield from sheet.legend(layout)
@@ -101,13 +98,11 @@ def _figures(layout: Layout, found: MeasuredCirculation) -> str:
     )
 
 
-def _legend(
-    layout: Layout, graph: LaneSquares, found: MeasuredCirculation, *, with_route: bool
-) -> list[tuple[Colour, str]]:
+def _legend(layout: Layout, found: MeasuredCirculation, *, with_route: bool) -> list[tuple[Colour, str]]:
     """Colours and names of what the plan shows."""
-    uses = {stall.use for stall in layout.stalls}
+    uses = {stall.use for stall in layout.quads}
     counts = layout.counts()
-    entries = lane_legend(graph, found)
+    entries = lane_legend(layout, found)
     entries += [(STALL_COLOUR[use], _stall_words(use)) for use in StallUse if use in uses]
     entries += [(_CAR, "parked car")] if counts["car"] else []
     entries += [(FREE, "free")]
@@ -125,10 +120,9 @@ def _stall_words(use: StallUse) -> str:
 
 def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
     cars = {car.stall: car for car in layout.of_kind("car")}
-    for stall in layout.stalls:
-        corners = stall.corners_m()
-        car = cars.get(stall.name)
-        said = " blocked" if stall.name in layout.blocked else " occupied" if car else ""
+    for stall in layout.quads:
+        corners = stall.corners
+        said = " blocked" if stall.blocked_by else " occupied" if stall.name in cars else ""
         kind = f"stall {stall.use}{said}"
         yield Region(corners, STALL_COLOUR[stall.use], kind, stall.name)
         yield Line([corners[0], corners[3], corners[2], corners[1]], PAPER, LINE_M)
@@ -138,9 +132,7 @@ def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
         for car in cars.values()
         if isinstance(car.spec, CarSpec)
     )
-    for stall in layout.stalls:
-        if stall.number:
-            yield _number(stall)
+    yield from (_number(stall, str(stall.number)) for stall in layout.quads if stall.number)
 
 
 def _clutter(layout: Layout) -> Iterator[Region]:
@@ -161,13 +153,20 @@ def _car_outline(car: Placement, body: CarBody) -> list[Point]:
     return [car.to_world(point) for point in shape]
 
 
-def _number(stall: PlacedStall) -> Text:
+def _number(stall: Stall, number: str) -> Text:
     """The number of a stall, level and beside its mouth, so that the stall's middle stays clear."""
     # all digits as wide as the widest, so that few are measured
-    width = text_width(_DIGIT.sub("8", stall.number), _NUMBER_M)
+    width = text_width(_DIGIT.sub("8", number), _NUMBER_M)
     height = _NUMBER_M * min(1.0, _NUMBER_WIDTH_M / width)
-    inwards = _NUMBER_FROM_MOUTH_M if stall.edge.along_x else (_NUMBER_FROM_MOUTH_M + width * height / _NUMBER_M) / 2
-    return Text(stall.to_world((0.0, stall.length_m / 2 - inwards)), stall.number, height, INK, kind="number")
+    x, z = stall.outwards
+    inwards = _NUMBER_FROM_MOUTH_M if abs(z) > abs(x) else (_NUMBER_FROM_MOUTH_M + width * height / _NUMBER_M) / 2
+    return Text(_inside(stall, inwards), number, height, INK, kind="number")
+
+
+def _inside(stall: Stall, inwards_m: float) -> Point:
+    """The (x, z) of a point at some distance inwards from the middle of a stall's mouth."""
+    (x, z), (out_x, out_z) = stall.mouth, stall.outwards
+    return x - inwards_m * out_x, z - inwards_m * out_z
 
 
 def _building(layout: Layout) -> Iterator[Region | Line]:
@@ -182,19 +181,19 @@ def _building(layout: Layout) -> Iterator[Region | Line]:
             yield Region(place.outlines()[0], INK, kind)
 
 
-def _route(graph: LaneSquares, stall: PlacedStall) -> Iterator[Region | Line]:
+def _route(lanes: LaneGraph, stall: Stall) -> Iterator[Region | Line]:
     """Both routes on the right side of the lanes, and the stall with a frame."""
-    route = route_of(graph, stall)
-    corners = stall.corners_m()
+    route = route_of(lanes, stall)
+    corners = stall.corners
     yield Line([*corners, corners[0]], _IN, 2.5 * LINE_M, "chosen")
-    mouth, inside = (stall.to_world((0.0, stall.length_m / 2 - into_m)) for into_m in (0.0, _ROUTE_INTO_STALL_M))
-    yield from _way(graph, route.to_stall, [mouth, inside], _IN, "way in")
-    yield from _way(graph, tuple(reversed(route.from_stall)), [mouth, inside], _OUT, "way out", is_reversed=True)
+    ends = [stall.mouth, _inside(stall, _ROUTE_INTO_STALL_M)]
+    yield from _way(lanes, route.to_stall, ends, _IN, "way in")
+    yield from _way(lanes, route.from_stall[::-1], ends, _OUT, "way out", is_reversed=True)
 
 
 def _way(
-    graph: LaneSquares,
-    squares: Sequence[Square],
+    lanes: LaneGraph,
+    nodes: Sequence[int],
     end: Sequence[Point],
     colour: Colour,
     kind: str,
@@ -202,8 +201,7 @@ def _way(
     is_reversed: bool = False,
 ) -> Iterator[Line]:
     """The line from a portal to a stall, or reversed, with an arrow head."""
-    nodes = graph.graph.nodes
-    middles = [(nodes[square]["x_m"], nodes[square]["z_m"]) for square in squares]
+    middles = [lanes.nodes[node].position for node in nodes]
     # the lane before the stall is left where the mouth lies
     before, mouth = middles[-1], end[0]
     is_along_x = abs(end[1][0] - mouth[0]) < abs(end[1][1] - mouth[1])

@@ -41,7 +41,7 @@ def made(tmp_path_factory):
 
 def test_each_stall_that_is_not_blocked_is_driven_to_with_the_cars_as_they_stand(made):
     layout = made[0].garage.layout
-    proven = {proof.stall for proof in prove_stalls(layout, made[0].garage.graph) if proof.is_proven}
+    proven = {proof.stall for proof in prove_stalls(layout) if proof.is_proven}
     parking = {stall.name for stall in layout.stalls if stall.use.takes_cars}
     assert proven == parking - set(layout.blocked)
 

@@ -308,7 +308,7 @@ def test_nuscenes_devkit_finds_their_points_in_their_boxes(own, tmp_path):
 
 def test_the_plan_draws_each_as_long_and_wide_as_it_is(own):
     garage = own.built.garage
-    elements = draw_plan(garage.layout, garage.graph).elements
+    elements = draw_plan(garage.layout).elements
     found = [np.array(each.points) for each in elements if isinstance(each, Region) and each.kind == "car"]
     assert len(found) == len(own.cars)
     for points, car in zip(found, own.cars.values(), strict=True):

@@ -149,7 +149,7 @@ def grounds(garage):
     yield from entered(layout)
     yield from driven_lines(garage.graph)
     for car in dict.fromkeys((DesignCar(), design_car(garage.config.standard))):
-        for proof in prove_stalls(without_clutter(layout), garage.graph, car=car):
+        for proof in prove_stalls(without_clutter(layout), car=car):
             for way in (proof.way_in, proof.way_out):
                 if way is not None and way.moves:
                     yield from ((shape, f"a way of {proof.stall}", proof.stall) for shape in swept(way, car))

@@ -217,7 +217,7 @@ def drive_stalls(count, seed):
     while driven < count:
         garage = garage2usd.generate(seed=seed)
         world = World(garage)
-        proofs = prove_stalls(garage.layout, garage.graph)
+        proofs = prove_stalls(garage.layout)
         stalls = {stall.name: stall for stall in garage.layout.stalls}
         for proof in proofs[: count - driven]:
             driven += 1

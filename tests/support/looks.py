@@ -21,5 +21,5 @@ def beside_its_look(made):
         "places": [(place.position_m, place.yaw_rad, place.square, place.ordinal) for place in layout.placements],
         "outlines": [place.outlines() for place in layout.placements],
         "cores": layout.cores,
-        "proofs": [repr(proof) for proof in prove_stalls(layout, made.graph)],
+        "proofs": [repr(proof) for proof in prove_stalls(layout)],
     }

@@ -148,7 +148,7 @@ def carriageways(layout):
 def test_every_stall_that_was_proven_stays_so_and_checks_find_no_more(seed):
     bare, full = garage(seed, {}), garage(seed, MANY)
     assert clutter_of(full.layout)
-    proven = [{proof.stall for proof in prove_stalls(g.layout, g.graph) if proof.is_proven} for g in (bare, full)]
+    proven = [{proof.stall for proof in prove_stalls(g.layout) if proof.is_proven} for g in (bare, full)]
     assert proven[0] == proven[1]
-    findings = [Counter(finding.rule for finding in check_layout(g.layout, g.graph, g.config)) for g in (bare, full)]
+    findings = [Counter(finding.rule for finding in check_layout(g.layout, g.config)) for g in (bare, full)]
     assert findings[0] == findings[1]

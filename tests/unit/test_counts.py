@@ -75,7 +75,7 @@ def test_build_and_report_tell_the_same(counted, built):
 
 def test_the_plan_tells_it_twice(counted, garage):
     stalls, area_m2 = counted
-    sheet = ET.fromstring(to_svg(draw_plan(garage.layout, garage.graph)))
+    sheet = ET.fromstring(to_svg(draw_plan(garage.layout)))
     told = " ".join(sheet.itertext())
     assert {int(number) for number in re.findall(r"(\d+) stalls", told)} == {stalls}
     assert f"{area_m2:.1f} m2 a stall" in told
@@ -84,7 +84,7 @@ def test_the_plan_tells_it_twice(counted, garage):
 def test_check_and_viewer_count_so(counted, garage, built):
     stalls, _ = counted
     steps = {"steps": [[10, 1]], "above_percent": 100, "unit": "count", "source": "us", "confidence": "low"}
-    subject = garage_of_layout(garage.layout, garage.graph, source="", kind="report")
+    subject = garage_of_layout(garage.layout, source="", kind="report")
     profile = read_profile({"name": "client", "accessible_stalls": steps})
     (finding,) = (finding for finding in check(subject, profile) if finding.rule == "accessible-count")
     assert (finding.required, finding.message) == (stalls, f"too few accessible stalls among {stalls}")

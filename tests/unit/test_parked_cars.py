@@ -204,7 +204,7 @@ def test_cars_over_a_line_leave_every_stall_proven():
         garage = generate(GarageConfig(seed=seed, parking={"over_line": 0.2, "occupancy": 0.8}))
         leaning += len(garage.layout.reaching)
         assert not garage.layout.blocked
-        assert all(proof.is_full for proof in prove_stalls(garage.layout, garage.graph))
+        assert all(proof.is_full for proof in prove_stalls(garage.layout))
         assert not list(Solids(garage.layout, ("car", "wheel_stop", "column", "wall", "cone")).clashes())
     assert leaning > 40
 
@@ -226,7 +226,7 @@ def test_stalls_that_misparked_cars_block_are_told():
     for seed in range(5):
         garage = generate(GarageConfig(seed=seed, parking={"misparked": 0.15, "occupancy": 0.6}))
         layout = garage.layout
-        proofs = {proof.stall: proof for proof in prove_stalls(layout, garage.graph)}
+        proofs = {proof.stall: proof for proof in prove_stalls(layout)}
         assert {name for name, proof in proofs.items() if not proof.is_proven} == set(layout.blocked)
         occupied = dict(zip(layout.stalls.names(), layout.are_occupied().tolist(), strict=True))
         cars = {car.stall: car for car in layout.of_kind("car")}
@@ -242,7 +242,7 @@ def test_stalls_that_misparked_cars_block_are_told():
 def test_the_check_allows_cars_over_a_line_and_names_misparked_ones():
     for parking, rules in (({"over_line": 0.2}, set()), ({"misparked": 0.2}, {"car-outside-stall"})):
         garage = generate(GarageConfig(seed=2, parking=parking))
-        findings = check_layout(garage.layout, garage.graph, garage.config)
+        findings = check_layout(garage.layout, garage.config)
         assert {finding.rule for finding in findings if finding.severity == "error"} == rules
         assert len(findings) >= len(garage.layout.misparked)
 

@@ -49,7 +49,7 @@ def drawn(request, garage):
         rows = ["." * 30, "E" + "=" * 28 + "X", "." * 30, "." * 30]
         config = GarageConfig(site={"structure": "\n".join(rows * 5)}, seed=4)
         garage = generate(config)
-    drawing = draw_plan(garage.layout, garage.graph, marks=MARKS)
+    drawing = draw_plan(garage.layout, marks=MARKS)
     return garage, drawing, ET.fromstring(to_svg(drawing))
 
 
@@ -154,7 +154,7 @@ def test_dimensions_are_those_of_r_and_c(drawn):
 
 
 def test_directions_keep_right_and_portals_are_one_way(garage):
-    drawing = draw_plan(garage.layout, garage.graph)
+    drawing = draw_plan(garage.layout)
     chevrons = [
         element.points
         for element in drawing.elements
@@ -186,24 +186,25 @@ def test_directions_keep_right_and_portals_are_one_way(garage):
 def test_the_route_is_the_shortest_over_lanes(garage, number):
     stall = find_stall(garage.layout, number)
     assert {find_stall(garage.layout, name).name for name in (number.lower(), stall.name.upper())} == {stall.name}
-    route = route_of(garage.graph, stall)
-    graph = garage.graph.graph
-    assert (garage.graph.kind(route.to_stall[0]), garage.graph.kind(route.from_stall[-1])) == (
-        LaneKind.ENTRANCE, LaneKind.EXIT,
-    )  # fmt: skip
-    assert route.to_stall[-1] == route.from_stall[0] == stall.access_square
-    for way in (route.to_stall, route.from_stall):
+    lanes, graph = garage.layout.lane_graph, garage.graph.graph
+    route = route_of(lanes, stall)
+    (kind_in, kind_out) = (lanes.nodes[node].kind for node in (route.to_stall[0], route.from_stall[-1]))
+    assert (kind_in, kind_out) == (LaneKind.ENTRANCE, LaneKind.EXIT)
+    assert route.to_stall[-1] == route.from_stall[0] == stall.access
+    squares_of = {node: square for square, node in garage.graph.number_of.items()}
+    to_stall, from_stall = ([squares_of[node] for node in way] for way in (route.to_stall, route.from_stall))
+    for way in (to_stall, from_stall):
         assert nx.is_path(graph, way)
         assert nx.path_weight(graph, way, "length_m") == pytest.approx(
             nx.shortest_path_length(graph, way[0], way[-1], weight="length_m")
         )
-    drawing = draw_plan(garage.layout, garage.graph, stall=stall)
+    drawing = draw_plan(garage.layout, stall=stall)
     svg = ET.fromstring(to_svg(drawing))
     x, z = garage.layout.structure.column_edges_m, garage.layout.structure.row_edges_m
-    for way, squares in (("in", route.to_stall), ("out", route.from_stall)):
+    for way, squares in (("in", to_stall), ("out", from_stall)):
         line, head = [points(element) for element in svg.iter(f"{SVG}polyline") if element.get("class") == f"way {way}"]
         ground = shapely.union_all([shapely.box(x[c], z[r], x[c + 1], z[r + 1]) for r, c in squares])
-        outline = shapely.Polygon(stall.corners_m())
+        outline = stall.polygon
         assert shapely.union_all([ground, outline]).buffer(0.5).contains(shapely.LineString(line))
         start, end = (line[0], line[-1]) if way == "in" else (line[-1], line[0])
         portal = squares[0] if way == "in" else squares[-1]
@@ -301,7 +302,7 @@ def circulating():
 
 
 def test_lanes_are_tinted_by_whether_cars_drive_through_them(circulating):
-    svg = ET.fromstring(to_svg(draw_plan(circulating.layout, circulating.graph)))
+    svg = ET.fromstring(to_svg(draw_plan(circulating.layout)))
     structure = circulating.layout.structure
     x, z = structure.column_edges_m, structure.row_edges_m
     graph = circulating.graph.graph.copy()
@@ -319,7 +320,7 @@ def test_lanes_are_tinted_by_whether_cars_drive_through_them(circulating):
 
 def test_the_title_has_the_figures_of_the_report(circulating, tmp_path):
     report = json.loads(build(circulating.config, tmp_path / "g.usda").report.read_text())
-    (title,) = texts(ET.fromstring(to_svg(draw_plan(circulating.layout, circulating.graph))), "title")
+    (title,) = texts(ET.fromstring(to_svg(draw_plan(circulating.layout))), "title")
     figures, loops = report["circulation"], report["circulation"]["loops"]
     assert title.text == (
         f"{report['parking_stalls']} stalls, {sum(stall['occupied'] for stall in report['stalls'])} occupied, "
@@ -339,7 +340,7 @@ def test_the_title_has_the_figures_of_the_report(circulating, tmp_path):
 
 def test_ramps_are_drawn_from_their_doors_on_as_far_as_the_sheet_goes(drawn, circulating):
     for garage in (drawn[0], circulating):
-        drawing = draw_plan(garage.layout, garage.graph)
+        drawing = draw_plan(garage.layout)
         svg = ET.fromstring(to_svg(drawing))
         expected = shapely.union_all([footprint(place) for place in garage.layout.of_kind("ramp")])
         found = shapely.union_all([shape for _, shape in polygons(svg, "ramp")])
@@ -353,7 +354,7 @@ def test_ramps_are_drawn_from_their_doors_on_as_far_as_the_sheet_goes(drawn, cir
 def test_doors_of_stair_cores_are_drawn_where_they_open():
     config = GarageConfig(site={"structure": ".......\n..#....\nE=====X\n......."})
     garage = generate(config)
-    svg = ET.fromstring(to_svg(draw_plan(garage.layout, garage.graph)))
+    svg = ET.fromstring(to_svg(draw_plan(garage.layout)))
     doors = [points(line) for line in svg.iter(f"{SVG}polyline") if "on_foot" in line.get("class", "").split()]
     assert len(doors) == len(garage.layout.cores) == 2
     x, z = garage.layout.structure.column_edges_m, garage.layout.structure.row_edges_m
@@ -377,7 +378,7 @@ def test_a_png_of_few_colours_looks_the_same(drawn, tmp_path):
 
 
 def test_the_same_drawing_gives_the_same_bytes(garage):
-    one, other = (draw_plan(garage.layout, garage.graph, marks=MARKS) for _ in range(2))
+    one, other = (draw_plan(garage.layout, marks=MARKS) for _ in range(2))
     assert to_svg(one) == to_svg(other)
     assert to_image(one).tobytes() == to_image(other).tobytes()
 

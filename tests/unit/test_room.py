@@ -8,7 +8,6 @@ from garage2usd.as_built.layout_reader import garage_of_layout
 from garage2usd.checks import RULES, check, check_layout
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
-from garage2usd.layout.garage_stalls import clear_aisle_m
 from garage2usd.layout.parking.tight import tight_stalls
 from garage2usd.pipeline import generate
 
@@ -53,10 +52,11 @@ def test_stalls_are_in_doubt_beside_narrow_aisles_alone():
     wide, narrow = (
         generate(GarageConfig(seed=1, plan=QUICK, bay={**UNIFORM, "square_side_m": side})) for side in (6.2, 6.19)
     )
-    assert not tight_stalls(wide.graph, wide.layout.stalls)
-    found = tight_stalls(narrow.graph, narrow.layout.stalls)
-    assert found == tuple(stall for stall in narrow.layout.stalls if stall.use.takes_cars)
-    aisles = [clear_aisle_m(stall, narrow.graph) for stall in found]
+    assert not tight_stalls(wide.layout.lane_graph, wide.layout.quads)
+    lanes = narrow.layout.lane_graph
+    found = tight_stalls(lanes, narrow.layout.quads)
+    assert found == tuple(stall for stall in narrow.layout.quads if stall.takes_cars)
+    aisles = [lanes.clear_aisle_m(stall.access, stall.outwards) for stall in found]
     assert aisles == pytest.approx([5.49] * len(found))
 
 
@@ -106,8 +106,8 @@ def test_the_check_of_a_build_is_that_of_its_report_without_the_long_rules(tmp_p
     config = GarageConfig(site={"structure": DRAWING}, bay={"square_side_m": 5.4, "dimensioned": False})
     made = build(config, tmp_path / "g.usda")
     garage = made.garage
-    subject = garage_of_layout(garage.layout, garage.graph, source="", kind="report")
-    assert list(made.findings) == check(subject, config.standard) == check_layout(garage.layout, garage.graph, config)
+    subject = garage_of_layout(garage.layout, source="", kind="report")
+    assert list(made.findings) == check(subject, config.standard) == check_layout(garage.layout, config)
     assert (
         {"aisle-width", "portal-width"} <= {finding.rule for finding in made.findings} < {rule.name for rule in RULES}
     )

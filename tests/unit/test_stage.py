@@ -14,7 +14,6 @@ from support.sample_files import REPOSITORY
 
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.config.vehicles import PAINTS
-from garage2usd.layout import lay_out
 from garage2usd.objects import CAR_LABELS, CLASSES_VERSION, PIECE_LABELS, TilePart
 from garage2usd.pipeline import build
 from garage2usd.reading.labels import CITYSCAPES
@@ -303,11 +302,11 @@ def test_the_drive_goes_from_an_entrance_to_an_exit_over_lanes(stage, made):
 
 
 def test_the_camera_that_drives_is_nowhere_seen_to_turn_otherwise_than_frame_by_frame(made, tmp_path, monkeypatch):
-    layout, graph = made.garage.layout, made.garage.graph
+    lanes = made.garage.layout.lane_graph
     drives = []
     for name, unseen_deg in (("few", cameras._UNSEEN_DEG), ("all", 0.0)):
         monkeypatch.setattr(cameras, "_UNSEEN_DEG", unseen_deg)
-        last = cameras.write_drive(tmp_path / f"{name}.usdc", layout, graph)
+        last = cameras.write_drive(tmp_path / f"{name}.usdc", lanes)
         drives.append(Usd.Stage.Open(str(tmp_path / f"{name}.usdc")))
     few, every = (drive.GetDefaultPrim().GetAttribute("xformOp:rotateY") for drive in drives)
     assert 10 < few.GetNumTimeSamples() < 0.6 * every.GetNumTimeSamples()
@@ -410,7 +409,7 @@ def test_the_drive_leads_from_the_first_entrance_with_a_way_out_to_the_nearest_e
     structure = Structure.from_arrays(cells_from_text(text, field="S"), widths, depths)
     graph = build_lane_graph(structure, config.bay)
     path = tmp_path / "drive.usda"
-    last = write_drive(path, lay_out(structure, graph, config), graph)
+    last = write_drive(path, graph.lanes)
     stage = Usd.Stage.Open(str(path))
     camera = UsdGeom.Camera(stage.GetDefaultPrim())
     for frame, square in ((0, start), (last, end)):

@@ -15,6 +15,7 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.common.randomness import Step
 from garage2usd.config import GarageConfig, ParkingConfig
 from garage2usd.config.vehicles import CAR_BODIES, CarBody
+from garage2usd.garage import Stall
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.parking.fleet import Fleet
 from garage2usd.layout.parking.stalls import WHEEL_STOP_FROM_REAR_M
@@ -194,7 +195,7 @@ def park_cars(
     config: GarageConfig,
     draws: SquareDraws,
     *,
-    tight: Iterable[PlacedStall] = (),
+    tight: Iterable[Stall] = (),
     held_back: Collection[str] = (),
 ) -> ParkedCars:
     """Random cars, of which none touches another or leaves the length of its stall.

@@ -2,9 +2,7 @@
 
 from collections.abc import Iterable
 
-from garage2usd.layout.garage_stalls import clear_aisle_m
-from garage2usd.layout.placement import PlacedStall
-from garage2usd.structure.lane_graph import LaneSquares
+from garage2usd.garage import LaneGraph, Stall
 
 __all__ = ["tight_stalls"]
 
@@ -13,11 +11,14 @@ _ROOMY_AISLE_M, _ROOMY_STALL_M = 5.5, 2.3
 _ROUNDING_M = 1e-6
 
 
-def tight_stalls(graph: LaneSquares, stalls: Iterable[PlacedStall]) -> tuple[PlacedStall, ...]:
+def tight_stalls(lanes: LaneGraph, stalls: Iterable[Stall]) -> tuple[Stall, ...]:
     """Stalls of which it is in doubt whether the design car gets into them, in their order."""
     return tuple(
         stall
         for stall in stalls
-        if stall.use.takes_cars
-        and (clear_aisle_m(stall, graph) < _ROOMY_AISLE_M - _ROUNDING_M or stall.width_m < _ROOMY_STALL_M - _ROUNDING_M)
+        if stall.takes_cars
+        and (
+            lanes.clear_aisle_m(stall.access, stall.outwards) < _ROOMY_AISLE_M - _ROUNDING_M
+            or stall.width_m < _ROOMY_STALL_M - _ROUNDING_M
+        )
     )

@@ -167,7 +167,7 @@ def _load_commands() -> None:
     from garage2usd.view import viewer
 
     garage = garage2usd.generate(garage2usd.GarageConfig(site={"width_cells": 4, "height_cells": 5}))
-    prove_stalls(garage.layout, garage.graph)
+    prove_stalls(garage.layout)
     show = viewer.ViewerServer.show
 
     def show_and_end(server: viewer.ViewerServer, scene: viewer.Scene) -> None:

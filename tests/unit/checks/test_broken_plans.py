@@ -37,7 +37,7 @@ def found_in(settings, profile=CN):
     structure = Structure.from_arrays(cells_from_text(config.site.structure, field="S"), widths, depths)
     plan = with_stall_kinds(given_plan(structure, bay=config.bay), config)
     structure, graph = plan.structure, build_lane_graph(plan.structure, config.bay, plan.runs)
-    subject = garage_of_layout(lay_out(structure, graph, config), graph, source="", kind="plan")
+    subject = garage_of_layout(lay_out(structure, graph, config), source="", kind="plan")
     return {finding.rule for finding in check(subject, profile)}
 
 

@@ -35,7 +35,7 @@ confidence = "high"
 
 def errors_of(config):
     garage = generate(config)
-    subject = garage_of_layout(garage.layout, garage.graph, source="", kind="report")
+    subject = garage_of_layout(garage.layout, source="", kind="report")
     return [f for f in check(subject, config.standard) if f.severity is Severity.ERROR], garage
 
 
@@ -68,14 +68,14 @@ def test_a_garage_planned_by_the_default_rules_circulates(seed, profile, dimensi
     config = GarageConfig(seed=seed, profile=profile, plan=plan, bay={"dimensioned": dimensioned})
     garage = generate(config)
     assert not circulation(garage.plan.structure).faults(rules_of(config.plan, squares=63))
-    found = check_layout(garage.layout, garage.graph, config)
+    found = check_layout(garage.layout, config)
     assert not CIRCULATION & {finding.rule for finding in found}
 
 
 def test_a_garage_planned_for_the_score_alone_does_not_circulate():
     config = GarageConfig(seed=1, plan={"episodes": 150, "circulation": "allow"})
     garage = generate(config)
-    found = {finding.rule: finding for finding in check_layout(garage.layout, garage.graph, config)}
+    found = {finding.rule: finding for finding in check_layout(garage.layout, config)}
     assert {"dead-end-depth", "loop"} <= set(found)
     assert {found[rule].severity for rule in CIRCULATION & set(found)} == {Severity.WARNING}
 
@@ -196,4 +196,4 @@ def test_columns_on_a_grid_stand_on_one(least, most, side_m):
 def test_default_garages_get_no_remark_of_their_own_checker(profile, seed):
     config = GarageConfig(seed=seed, profile=profile, plan={"episodes": 150, "starts": 1})
     garage = generate(config)
-    assert check_layout(garage.layout, garage.graph, config) == []
+    assert check_layout(garage.layout, config) == []

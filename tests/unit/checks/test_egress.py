@@ -61,7 +61,7 @@ def test_the_doors_of_a_stage_are_those_of_its_layout(made, stage):
     assert len(placed) >= 2
     for subject in (
         garage_of_stage(stage, source="stage"),
-        garage_of_layout(garage.layout, garage.graph, source="layout", kind="plan"),
+        garage_of_layout(garage.layout, source="layout", kind="plan"),
     ):
         found = sorted(door.position for door in core_doors(subject))
         assert len(found) == len(placed)

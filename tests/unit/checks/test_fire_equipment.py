@@ -18,7 +18,7 @@ CN, US = load_profile("cn-jgj100"), load_profile("us-ada")
 @pytest.fixture(scope="module")
 def subject():
     garage = generate(GarageConfig(**SETTINGS))
-    return garage_of_layout(garage.layout, garage.graph, source="layout", kind="plan")
+    return garage_of_layout(garage.layout, source="layout", kind="plan")
 
 
 LABELS = {"hydrant_cabinet", "fire_extinguisher"}

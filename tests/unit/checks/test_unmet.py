@@ -29,10 +29,10 @@ def judged(profile, **settings):
     """Findings of the whole check but for USD, and the clauses that build names."""
     config = GarageConfig(profile=profile, **{"plan": QUICK, **settings})
     garage = generate(config)
-    subject = garage_of_layout(garage.layout, garage.graph, source="", kind="report")
+    subject = garage_of_layout(garage.layout, source="", kind="report")
     rules = [rule for rule in RULES if rule not in usd.BOOK.rules]
     findings = [finding for rule in rules for finding in rule.findings(subject, config.standard)]
-    return findings, judged_layout(garage.layout, garage.graph, config)[1]
+    return findings, judged_layout(garage.layout, config)[1]
 
 
 ROOM_FOR_CORES = {"personnel_exits", "exit_distance", "exit_distance_sprinklered"}
@@ -64,7 +64,7 @@ SECONDS = {
 def test_a_clause_is_checked_without_a_second_one(clause):
     config = GarageConfig(**{**SETTINGS, "fittings": {"ramp_transition_m": 1.0}})
     garage = generate(config)
-    subject = garage_of_layout(garage.layout, garage.graph, source="", kind="report")
+    subject = garage_of_layout(garage.layout, source="", kind="report")
     profile = profile_of(**{clause: SECONDS[clause]})
     assert {finding.clause for finding in check(subject, profile)} - {""} == {clause}
     assert not_checked(subject, profile) == {}
@@ -107,7 +107,7 @@ def test_an_aisle_alone_may_make_room_for_vans():
 
 def test_what_a_file_does_not_tell_is_not_checked():
     garage = generate(GarageConfig(**SETTINGS))
-    subject = garage_of_layout(garage.layout, garage.graph, source="", kind="stage")
+    subject = garage_of_layout(garage.layout, source="", kind="stage")
     standard = load_profile("cn-jgj100")
     assert not_checked(subject, standard) == {}
     circulation = {"dead_end_depth", "loops", "lane_field_width"}

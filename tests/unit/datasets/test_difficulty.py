@@ -49,7 +49,7 @@ def garage():
 
 @pytest.fixture(scope="module")
 def proofs(garage):
-    return prove_stalls(garage.layout, garage.graph)
+    return prove_stalls(garage.layout)
 
 
 @pytest.fixture(scope="module")

@@ -67,8 +67,8 @@ def test_a_layout_its_report_and_its_stage_are_the_same_garage(structure, tmp_pa
     fittings = {"cone_rate": 1.0}
     settings = SETTINGS | {"site": {"structure": structure}, "parking": {"occupancy": 0.5}, "fittings": fittings}
     built = garage2usd.build(garage2usd.GarageConfig(**settings), tmp_path / "garage.usda")
-    layout, graph = built.garage.layout, built.garage.graph
-    made = layout_garage(layout, graph)
+    layout = built.garage.layout
+    made = layout_garage(layout)
     owned = {(place.stall, place.kind) for place in layout.placements if place.stall}
     stall_fittings = {"stall", "car", "number_plate", "wheel_stop", "cone", "stall_number", "charger"}
     assert stall_fittings >= {kind for _, kind in owned}

@@ -41,7 +41,7 @@ def drawn(*, structure=DRAWN, **sections):
 
 
 def proofs_of(garage, **settings):
-    return prove_stalls(garage.layout, garage.graph, **settings)
+    return prove_stalls(garage.layout, **settings)
 
 
 def named(arcs, garage):
@@ -84,7 +84,7 @@ def test_every_stall_that_takes_a_car_has_its_proof(garage, proofs):
 
 def test_what_a_car_could_touch_is_held_by_its_outline():
     garage = garage2usd.generate(garage2usd.load_config(REPOSITORY / "samples" / "irregular.toml"))
-    obstacles = layout_garage(garage.layout, garage.graph).standing
+    obstacles = layout_garage(garage.layout).standing
     outline = {
         name: shapely.union_all(
             [shapely.MultiPoint(piece).convex_hull for piece in obstacles.pieces[obstacles.owner == number]]
@@ -117,7 +117,7 @@ def test_directions_are_those_of_driving_on_from_an_entrance_and_to_an_exit():
 
 
 def test_a_dead_end_is_backed_out_of_only_where_there_is_no_other_way(garage, proofs):
-    backing = named(layout_garage(garage.layout, garage.graph).backing, garage)
+    backing = named(layout_garage(garage.layout).backing, garage)
     assert {((3, 3), (4, 3)), ((4, 3), (5, 3))} <= backing
     assert not {((4, 3), (3, 3)), ((5, 3), (4, 3))} & backing
     for proof in proofs:
@@ -262,7 +262,7 @@ def test_a_single_cause_is_named():
     stall = next(s for s in garage.layout.stalls if s.name == proofs[4].stall)
     x, z = np.mean(stall.corners_m()[:2], axis=0)
     pillar = Obstacles.of([("new pillar", shapely.box(x - 0.3, z - 0.3, x + 0.3, z + 0.3))])
-    made = layout_garage(garage.layout, garage.graph)
+    made = layout_garage(garage.layout)
     made = replace(made, standing=made.standing.joined(pillar))
     (proof,) = prove_garage(made, [s for s in made.stalls if s.name == stall.name])
     assert (proof.is_proven, proof.touched, proof.is_single_cause) == (False, ("new pillar",), True)
@@ -286,7 +286,7 @@ def turned(garage, yaw_rad):
 @pytest.mark.parametrize("yaw_rad", [1e-6, 0.5])
 def test_a_garage_that_is_turned_is_driven_alike(garage, proofs, yaw_rad):
     """Squares keep their sides, which only matter where they are shorter than a car."""
-    made = turned(layout_garage(garage.layout, garage.graph), yaw_rad)
+    made = turned(layout_garage(garage.layout), yaw_rad)
     for proof, other in zip(proofs, prove_garage(made), strict=True):
         assert (other.stall, other.is_proven, other.is_full) == (proof.stall, True, True)
         assert other.way_out.clearance_m >= 0.05

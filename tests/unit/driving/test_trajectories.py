@@ -37,7 +37,7 @@ BRISK = DriveConfig(
 
 
 def subject_of(garage):
-    return garage_of_layout(garage.layout, garage.graph, source="garage", kind="plan")
+    return garage_of_layout(garage.layout, source="garage", kind="plan")
 
 
 def rows_of(motion, tmp_path):

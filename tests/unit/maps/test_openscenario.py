@@ -26,7 +26,7 @@ def garage():
 
 @pytest.fixture(scope="module")
 def subject(garage):
-    return garage_of_layout(garage.layout, garage.graph, source="garage", kind="plan")
+    return garage_of_layout(garage.layout, source="garage", kind="plan")
 
 
 @pytest.fixture(scope="module")
