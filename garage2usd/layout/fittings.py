@@ -132,7 +132,7 @@ def cones(
             ]
     for tile in grid:
         x, z = tile.half_x_m - _CONES_FROM_EDGE_M, tile.half_z_m - _CONES_FROM_EDGE_M
-        is_hatched = tile.cell is Cell.FREE and tile.square not in grid.stall_places and tile.square not in built_on
+        is_hatched = tile.square not in built_on and grid.is_bare(tile)
         if is_hatched and min(x, z) > _CONES_FROM_EDGE_M and numbers[tile.square][0] < fittings.cone_rate:
             for number, (right, down) in enumerate(((-x, -z), (x, -z), (-x, z), (x, z)), start=1):
                 place = tile.x_m + right, tile.z_m + down

@@ -162,6 +162,10 @@ class TileGrid:
         places = self.stall_places.get(square, ())
         return bool(places) and all(place.row.shape.kind is StallKind.PERPENDICULAR for place in places)
 
+    def is_bare(self, tile: Tile) -> bool:
+        """Whether a tile is free and no stall lies on it, nor part of an angled one of a tile beside."""
+        return tile.cell is Cell.FREE and not self.openings(tile)
+
     def openings(self, tile: Tile) -> tuple[Polygon, ...]:
         """Outlines of the stalls on a tile, in its coordinates, with the parts of angled stalls of the tiles beside."""
         own = [stall_outline(tile, place.row, place.slot) for place in self.stall_places.get(tile.square, [])]

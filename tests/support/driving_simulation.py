@@ -137,7 +137,9 @@ class World:
     def _lines(self):
         """Pairs of squares by direction, joined where a car drives on from one to the next."""
         cells, graph = self.garage.plan.structure.cells, self.garage.graph.graph
-        lines = nx.line_graph(nx.DiGraph(graph))
+        driven = nx.DiGraph(graph)
+        driven.remove_edges_from([(end, start) for start, end in self.garage.plan.directions.one_way])
+        lines = nx.line_graph(driven)
         turns = [(one, other) for one, other in lines.edges if one[0] == other[1] or cells[one[1]] != Cell.LANE]
         lines.remove_edges_from(turns)
         return lines
@@ -208,14 +210,17 @@ class World:
         return faults
 
 
-def drive_stalls(count, seed):
-    """Drive the stalls of default garages from a seed on until there are so many: (stalls driven, faults, unproven)."""
+def drive_stalls(count, seed, settings=None):
+    """Drive the stalls of garages from a seed on until there are so many: (stalls driven, faults, unproven).
+
+    The garages have the default settings, or those that a function gives for a seed.
+    """
     import garage2usd
     from garage2usd.driving import prove_stalls
 
     driven, faults, unproven = 0, [], []
     while driven < count:
-        garage = garage2usd.generate(seed=seed)
+        garage = garage2usd.generate(garage2usd.GarageConfig(**(settings(seed) if settings else {"seed": seed})))
         world = World(garage)
         proofs = prove_stalls(garage.layout)
         stalls = {stall.name: stall for stall in garage.layout.stalls}

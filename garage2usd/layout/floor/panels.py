@@ -98,7 +98,7 @@ class _Panels:
         places = self.grid.stall_places.get(tile.square, [])
         if core is not None:
             return (*self._row_ends(tile, places), *stripes(*core.landing(tile)))
-        if not places:
+        if self.grid.is_bare(tile):
             return hatching(tile.half_x_m, tile.half_z_m)
         hatched = row_end_hatching(tile, places, self.look) if self.look.hatching else ()
         return (*self._row_ends(tile, places), *hatched)

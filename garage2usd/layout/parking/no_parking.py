@@ -14,7 +14,6 @@ from garage2usd.objects.no_parking_sign import NoParkingSignSpec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.structure.doors import door_edges
-from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import Square
 from garage2usd.structure.stalls import Edge
 
@@ -36,7 +35,7 @@ def no_parking_signs(
     built_on = {core.square for core in cores}
     signs = []
     for tile in grid:
-        if tile.cell is not Cell.FREE or tile.square in grid.stall_places or tile.square in built_on:
+        if tile.square in built_on or not grid.is_bare(tile):
             continue
         if rng.random() < fittings.no_parking_sign_rate:
             signs.append(_sign(tile.middle_m, float(rng.integers(4)) * _QUARTER_TURN, tile.square))
