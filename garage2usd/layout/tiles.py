@@ -164,7 +164,7 @@ class TileGrid:
 
     def is_bare(self, tile: Tile) -> bool:
         """Whether a tile is free and no stall lies on it, nor part of an angled one of a tile beside."""
-        return tile.cell is Cell.FREE and not self.openings(tile)
+        return tile.cell is Cell.FREE and not self.stall_places.get(tile.square) and not self.openings(tile)
 
     def openings(self, tile: Tile) -> tuple[Polygon, ...]:
         """Outlines of the stalls on a tile, in its coordinates, with the parts of angled stalls of the tiles beside."""
