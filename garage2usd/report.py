@@ -144,7 +144,7 @@ def _reported(stall: Stall, access_square: tuple[int, int]) -> ReportedStall:
         length_m=round(stall.length_m, _DECIMALS),
         kind=stall.kind,
         angle_rad=round(math.radians(stall.slant_deg), _DECIMALS),
-        size=str(facts["size"]),
+        size=stall.size,
         occupied=stall.is_occupied,
         blocked_by=stall.blocked_by,
     )

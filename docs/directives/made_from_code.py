@@ -105,6 +105,11 @@ def _by_preset(setting: str) -> str:
     return ", ".join(f"`{value}` {name}" for name, value in values)
 
 
+def _part(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
+    """What a schema of one of several values in a row allows, in words."""
+    return _values(schema, definitions) if schema["type"] == "array" else WORDS[schema["type"]]
+
+
 def _values(schema: dict[str, Any], definitions: dict[str, Any]) -> str:  # noqa: PLR0911 - one a type
     """What a schema allows, in words."""
     if "$ref" in schema:
@@ -117,7 +122,7 @@ def _values(schema: dict[str, Any], definitions: dict[str, Any]) -> str:  # noqa
     kind = schema["type"]
     if kind == "array":
         if "prefixItems" in schema:
-            return "[" + ", ".join(WORDS[part["type"]] for part in schema["prefixItems"]) + "]"
+            return "[" + ", ".join(_part(part, definitions) for part in schema["prefixItems"]) + "]"
         items = _values(schema["items"], definitions)
         return f"list of ({items})" if "," in items and not items.startswith("[") else f"list of {items}"
     if kind == "object" and "properties" not in schema:

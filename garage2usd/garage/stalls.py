@@ -116,9 +116,19 @@ class Stall:
         return None if found is None else bool(found)
 
     @property
+    def size(self) -> str:
+        """Size class of the stall; the standard one unless a fact says otherwise."""
+        return str(dict(self.facts).get("size", "standard"))
+
+    @property
+    def is_usual(self) -> bool:
+        """True if the stall is perpendicular and of the standard size class."""
+        return self.kind is StallKind.PERPENDICULAR and self.size == "standard"
+
+    @property
     def is_compact(self) -> bool:
         """True if the stall is of the size class for compact cars, which the design car is not."""
-        return dict(self.facts).get("size") == "compact"
+        return self.size == "compact"
 
     def vacated(self) -> "Stall":
         """Return the stall without a parked car."""

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from garage2usd.config import BayConfig
+from garage2usd.config.stalls import SizeClass
 from garage2usd.garage import Stall
 from garage2usd.layout.parking.stalls import stalls_of
 from garage2usd.layout.placement import PlacedStall
@@ -38,7 +39,7 @@ def garage_stalls(
         facts: tuple[tuple[str, str | int], ...] = (
             *([("number", stall.number)] if stall.number else []),
             ("type", stall.stall_type.value),
-            ("size", stall.size),
+            *([("size", stall.size)] if stall.size != SizeClass.STANDARD else []),
             ("row", stall.square[0]),
             ("column", stall.square[1]),
             ("entryEdge", stall.edge.name.lower()),

@@ -6,8 +6,6 @@ from typing import NamedTuple
 import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse import csgraph
 
 from garage2usd.common.errors import GenerationError
 from garage2usd.common.randomness import Step, generator
@@ -142,6 +140,9 @@ class _Drives:
 
     def mean_m(self, directions: LaneDirections) -> float:
         """Mean length of the drives; infinite if a lane with stalls is not reached or does not reach an exit."""
+        from scipy import sparse  # noqa: PLC0415 - few garages have one-way lanes, all wait for imports
+        from scipy.sparse import csgraph  # noqa: PLC0415
+
         allowed = [(start, end, length) for start, end, length in self._steps if directions.allows(start, end)]
         rows = [self.number_of[start] for start, _, _ in allowed]
         cols = [self.number_of[end] for _, end, _ in allowed]
@@ -247,6 +248,9 @@ class _Orientation:
 
     def _is_strong(self, forward: list[bool]) -> bool:
         """Return True if each lane is reached from each within the pieces that bridges join."""
+        from scipy import sparse  # noqa: PLC0415 - likewise
+        from scipy.sparse import csgraph  # noqa: PLC0415
+
         ends: dict[Square, int] = {}
         rows, cols = [], []
         for path, ahead in zip(self._stretches, forward, strict=True):

@@ -1,4 +1,5 @@
 """Kinds and sizes of stalls for finished lanes: drawn run by run, and the sides of squares that they need."""
+# Over 300 lines: the draw, the shapes that it draws and the sides that they need change together.
 
 import math
 from collections import Counter

@@ -113,12 +113,19 @@ class ReportedStall(Record):
     blocked_by: str | None = None
 
     @model_serializer(mode="wrap")
-    def _where_it_is_blocked(self, handler: SerializerFunctionWrapHandler) -> dict[str, object]:
-        """Serialize the stall, without `blocked_by` unless a car blocks it."""
+    def _what_is_unusual(self, handler: SerializerFunctionWrapHandler) -> dict[str, object]:
+        """Serialize the stall, without `blocked_by`, `kind`, `angle_rad` and `size` where they are the usual ones."""
         told: dict[str, object] = handler(self)
+        usual = {name: field.default for name, field in type(self).model_fields.items()}
+        if all(told[name] == usual[name] for name in _OF_SHAPE):
+            for name in _OF_SHAPE:
+                del told[name]
         if self.blocked_by is None:
             del told["blocked_by"]
         return told
+
+
+_OF_SHAPE = ("kind", "angle_rad", "size")
 
 
 class UnmetClause(Record):

@@ -126,6 +126,17 @@ def _placed_text(name: str, header: str, x: float, y: float, z: float, yaw_deg: 
     return instance_text(name, header, place_text(x, y, z, yaw_deg))
 
 
+def _shape_text(stall: Stall) -> str:
+    """The kind, angle and size class of a stall, unless it is perpendicular and of the standard size."""
+    if stall.is_usual:
+        return ""
+    return (
+        f'custom token garage:stall:kind = "{stall.kind.value}"\n'
+        f"custom float garage:stall:angleRad = {round(math.radians(stall.slant_deg), 6)}\n"
+        f'custom token garage:stall:size = "{stall.size}"\n'
+    )
+
+
 def _stall_text(stall: Stall, access_square: tuple[int, int], *, is_taken: bool) -> str:
     """What a stall is as attributes of its prim; corners are (x, z) in the world.
 
@@ -142,9 +153,7 @@ def _stall_text(stall: Stall, access_square: tuple[int, int], *, is_taken: bool)
         f"custom int2 garage:stall:square = ({row}, {column})\n"
         f"custom int2 garage:stall:accessSquare = ({access_row}, {access_column})\n"
         f'custom token garage:stall:entryEdge = "{edge}"\n'
-        f'custom token garage:stall:kind = "{stall.kind.value}"\n'
-        f"custom float garage:stall:angleRad = {round(math.radians(stall.slant_deg), 6)}\n"
-        f'custom token garage:stall:size = "{facts["size"]}"\n'
+        f"{_shape_text(stall)}"
         f"custom float2[] garage:stall:corners = [{corners}]\n"
         f"{'' if is_taken else occupied_text(is_occupied=False)}"
     )

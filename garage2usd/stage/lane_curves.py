@@ -38,11 +38,11 @@ def write_lane_graph(path: Path, layout: Layout) -> None:
     ``:widths``. ``Edges`` has a line from middle to middle for each pair that joins, with ``garage:lane:from`` and
     ``:to`` (numbers of nodes), ``:length``, ``:width`` (metres) and ``:direction`` (``both``, or ``forward`` from an
     entrance and into an exit). ``Stalls`` has the outline of each stall, mouth left, mouth right, rear right, rear
-    left, with ``garage:stall:id``, ``:number``, ``:type``, ``:use``, ``:kind`` (``perpendicular``, ``angled`` or
-    ``parallel``), ``:angleRad`` (of the long sides to the lane), ``:size`` (size class), ``:row``, ``:column``,
-    ``:accessNode`` (number of a node), ``:entryEdge`` and ``:occupied`` (1 where a car stands, else 0); where misparked
-    cars block stalls, ``:blockedBy`` is the id of the stall of the car, or empty. Nodes and stalls of a garage with
-    several levels have ``:level``, from 0; all curves lie above the floor there. No attribute is ``bool[]``,
+    left, with ``garage:stall:id``, ``:number``, ``:type``, ``:use``, ``:row``, ``:column``, ``:accessNode`` (number of
+    a node), ``:entryEdge`` and ``:occupied`` (1 where a car stands, else 0); where misparked cars block stalls,
+    ``:blockedBy`` is the id of the stall of the car, or empty. If not all are perpendicular and of the standard size,
+    ``:kind``, ``:angleRad`` (of the long sides to the lane) and ``:size`` (class) tell so. Nodes and stalls of a garage
+    with several levels have ``:level``, from 0; all curves lie above the floor there. No attribute is ``bool[]``,
     ``int2[]`` or ``string[]``,
     which three.js cannot read from a crate.
     """
@@ -89,10 +89,11 @@ def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Layout) -> None:
     facts = [dict(stall.facts) for stall in stalls]
     words(prim, "garage:stall:type", (str(fact["type"]) for fact in facts))
     words(prim, "garage:stall:use", (stall.use.value for stall in stalls))
-    words(prim, "garage:stall:kind", (stall.kind.value for stall in stalls))
-    angles_rad = np.radians([stall.slant_deg for stall in stalls])
-    numbers(prim, "garage:stall:angleRad", angles_rad.round(6).astype(np.float32))
-    words(prim, "garage:stall:size", (str(fact["size"]) for fact in facts))
+    if not all(stall.is_usual for stall in stalls):
+        words(prim, "garage:stall:kind", (stall.kind.value for stall in stalls))
+        angles_rad = np.radians([stall.slant_deg for stall in stalls])
+        numbers(prim, "garage:stall:angleRad", angles_rad.round(6).astype(np.float32))
+        words(prim, "garage:stall:size", (stall.size for stall in stalls))
     words(prim, "garage:stall:entryEdge", (str(fact["entryEdge"]) for fact in facts))
     for name in ("row", "column"):
         numbers(prim, f"garage:stall:{name}", np.array([fact[name] for fact in facts], dtype=np.int32))

@@ -21,6 +21,7 @@ from garage2usd.objects.fire_extinguisher import FireExtinguisherSpec
 from garage2usd.objects.floor_stain import PuddleSpec, StainSpec, TyreMarkSpec
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.lamp import LampSpec
+from garage2usd.objects.lane_sign import LaneSignSpec
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.no_parking_sign import NoParkingSignSpec
 from garage2usd.objects.number_plate import NumberPlateSpec
@@ -30,6 +31,7 @@ from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.ramp import RampSpec
 from garage2usd.objects.speed_bump import SpeedBumpSpec
 from garage2usd.objects.sprinkler import SprinklerSpec
+from garage2usd.objects.stall import StallSpec
 from garage2usd.objects.stall_number import NumberFrameSpec, NumberSpec, WallNumberSpec
 from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.objects.wheel_stop import WheelStopSpec
@@ -47,6 +49,10 @@ def footprint(placement):
 
 def _local(spec):  # noqa: PLR0912 - a case for each kind of object
     match spec:
+        case StallSpec() if spec.slope:
+            corners = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+            half_x, half_z = spec.width_m / 2, spec.depth_m / 2
+            return shapely.Polygon([(x * half_x, z * half_z + spec.slope * x * half_x) for x, z in corners])
         case PanelSpec():
             panel = _centred(spec.width_m, spec.depth_m)
             return panel.difference(shapely.union_all([shapely.Polygon(opening) for opening in spec.openings]))
@@ -95,6 +101,8 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(2 * spec.radius_m, spec.length_m)
         case ExitSignSpec():
             return _centred(0.8, 0.05)
+        case LaneSignSpec():
+            return _centred(spec.height_m, 0.03)
         case MirrorSpec():
             return _centred(2 * spec.radius_m, 0.2)
         case ChargerSpec():

@@ -25,6 +25,7 @@ from garage2usd.objects.floor import FloorSpec
 from garage2usd.objects.floor_stain import DirtSpec, PuddleSpec, StainMark, StainSpec, TyreMarkSpec
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.lamp import LampSpec
+from garage2usd.objects.lane_sign import LaneSignSpec, LaneSignText
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.motorbike import MotorbikeSpec
 from garage2usd.objects.no_parking_sign import NoParkingSignSpec
@@ -110,6 +111,7 @@ SPECS = {
     "sign": NoParkingSignSpec(),
     "sprinkler": SprinklerSpec(8.1, 0.03, 0.075, rods_at_m=(-2.0, 1.0), heads_at_m=(-2.0, 2.0)),
     "pipe": SprinklerSpec(0.7, 0.03, 0.075, rods_at_m=(0.1,), heads_at_m=()),
+    **{f"lane_sign_{text}": LaneSignSpec(text, 0.58, 0.4) for text in LaneSignText},
     **{f"exit_sign_{turn}": ExitSignSpec(turn, 0.58, 0.2) for turn in Turn},
     "mirror": MirrorSpec(0.25, arm_m=0.12),
     "charger": ChargerSpec(),

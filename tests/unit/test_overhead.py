@@ -173,5 +173,6 @@ E======X
 def test_what_finds_no_room_over_the_clear_height_is_left_out(ceiling_m, switches, depth_m, absent):
     layout, config = laid_out(CROSS, ceiling_height_m=ceiling_m, **switches)
     assert_solid_objects_keep_apart(layout, config)
-    assert {kind for kind in HANGING if not layout.of_kind(kind)} == absent
+    # its lanes are two-way
+    assert {kind for kind in HANGING if not layout.of_kind(kind)} == absent | {"lane_sign"}
     assert {place.spec.depth_m for place in layout.of_kind("beam")} == ({depth_m} if depth_m else set())

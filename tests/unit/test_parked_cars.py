@@ -47,7 +47,7 @@ def plan(config):
     structure = Structure.from_arrays(cells_from_text(PLAN, field="S"), *[3 * config.bay.stall_width_m + 0.9] * 2)
     graph = build_lane_graph(structure, config.bay)
     grid = TileGrid(structure, graph, config.bay)
-    return grid, stalls_of(grid, graph, config.bay)
+    return grid, stalls_of(grid, graph)
 
 
 def parked(config, garages=GARAGES):

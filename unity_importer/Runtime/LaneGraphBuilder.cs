@@ -236,7 +236,8 @@ namespace Garage.Unity
             int[] rows = Ints(curves, "garage:stall:row", count), columns = Ints(curves, "garage:stall:column", count);
             int[] access = Ints(curves, "garage:stall:accessNode", count),
                 occupied = Ints(curves, "garage:stall:occupied", count);
-            string[] kinds = Texts(curves, "garage:stall:kind", count), sizes = Texts(curves, "garage:stall:size", count);
+            string[] kinds = Texts(curves, "garage:stall:kind", count),
+                sizes = Texts(curves, "garage:stall:size", count);
             float[] angles = Floats(curves, "garage:stall:angleRad", count);
             Vector3[] points = Points(curves.Curves.Points);
             Transform holder = null;

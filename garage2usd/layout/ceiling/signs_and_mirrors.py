@@ -26,6 +26,8 @@ __all__ = ["exit_signs", "lane_signs", "mirrors"]
 _SIGN_HEIGHT_M = 0.2
 _SIGN_FROM_EDGE_M = 0.45
 _LANE_SIGN_M, _LEAST_LANE_SIGN_M = 0.4, 0.2
+_LANE_SIGN_ASIDE_M = 1.0
+"""From the middle of a lane, between the tubes over it and the ducts and trays beside."""
 _MIRROR_RADIUS_M = 0.25
 _MIRROR_GAP_M = 0.05
 _MIRROR_FROM_COLUMN_M, _MIRROR_FROM_WALL_M = 0.07, 0.22
@@ -85,7 +87,7 @@ def _exit_sign(tile: Tile, edge: Edge, out: Edge, ceiling_m: float, top_m: float
 def lane_signs(grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, levels: CeilingLevels) -> list[Placement]:
     """Signs over both ends of one-way lanes: one way for those who may enter, no entry for those who may not.
 
-    Each hangs over the right side of the first square of the lane, as its reader sees it. A ceiling without room over
+    Each hangs over the right half of the first square of the lane, as its reader sees it. A ceiling without room over
     the clear height has no signs.
     """
     room = fittings.ceiling_height_m - levels.sign_top_m - fittings.clear_height_m
@@ -107,9 +109,8 @@ def lane_signs(grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, lev
 def _lane_sign(tile: Tile, edge: Edge, spec: LaneSignSpec, fittings: FittingsConfig) -> Placement:
     """The sign over one edge of a lane square, which faces the drivers who come over that edge."""
     half = (tile.half_x_m, tile.half_z_m)
-    across = (half[0] if edge.along_x else half[1]) / 2
     # on the right of who looks at it, which is the sign's own +X
-    to_right = across if edge in {Edge.DOWN, Edge.LEFT} else -across
+    to_right = _LANE_SIGN_ASIDE_M if edge in {Edge.DOWN, Edge.LEFT} else -_LANE_SIGN_ASIDE_M
     x, z, *_ = box_inside(edge, half, (to_right, to_right), (_SIGN_FROM_EDGE_M, _SIGN_FROM_EDGE_M))
     name = f"{pascal_case(spec.says)}Sign_{edge.name.capitalize()}"
     place = tile.x_m + x, tile.z_m + z

@@ -1,4 +1,5 @@
 """Stair cores: where people leave on foot, and which stalls give way to them."""
+# Over 300 lines: candidates among perpendicular, angled and parallel stalls share their room.
 
 from collections import Counter
 from collections.abc import Iterator, Mapping

@@ -15,7 +15,7 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.common.randomness import Step
 from garage2usd.config import GarageConfig, ParkingConfig
 from garage2usd.config.vehicles import CAR_BODIES, CarBody
-from garage2usd.garage import Stall
+from garage2usd.garage import Stall, StallKind
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.parking.fleet import Fleet
 from garage2usd.layout.parking.stalls import WHEEL_STOP_FROM_REAR_M
@@ -259,7 +259,8 @@ def _car(
 ) -> _Car | None:
     """The car of a stall by its draws and those of the state that it was left in; None where no body fits."""
     _, reverse, yaw_share, side_share, along_share, body_share, paint_share = drawn
-    is_reversed = reverse < fleet.reversed_share
+    # cars follow the traffic into angled and parallel stalls
+    is_reversed = reverse < fleet.reversed_share and stall.kind is StallKind.PERPENDICULAR
     bodies = fitting(stall.width_m, stall.length_m, is_reversed=is_reversed)
     if not bodies:
         return None

@@ -97,7 +97,7 @@ def test_what_a_car_could_touch_is_held_by_its_outline():
             beyond = ground(place).difference(outline[object_name(place)].buffer(0.001, join_style="mitre"))
             assert beyond.area < 1e-6, (place.name, beyond.bounds)
             kinds.add(place.kind)
-    world = {place.kind for place, _ in World(garage).items if hasattr(place, "kind")}
+    world = {place.kind for place, _ in World(garage).items if hasattr(place, "spec")}
     assert kinds == world
 
 
