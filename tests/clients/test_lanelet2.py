@@ -86,7 +86,7 @@ FAULTS = [
         ".reshape(-1, 4, 2)[:, [0, 2, 1, 3]]",
     ),
     Fault("spaces from rear to mouth", "lanelet2_parking", "mean(axis=2)", "mean(axis=2)[:, ::-1]"),
-    Fault("width of the side", "lanelet2_parking", "[:, 1] - corners_of[:, 0]", "[:, 2] - corners_of[:, 1]"),
+    Fault("width of the side", "lanelet2_parking", "[stall.width_m for", "[stall.length_m for"),
     Fault("occupied stalls free", "lanelet2_parking", '"yes" if is_taken else "no"', '"no" if is_taken else "yes"'),
     Fault("a gap before the lane", "lanelet2_parking", "_Foot((x, y, 0.0)", "_Foot((x + 0.05, y + 0.05, 0.0)"),
     Fault("lots without lanes", "lanelet2_parking", "[shapely.union_all(_valid(level)), stalls]", "[stalls, stalls]"),
