@@ -2,6 +2,7 @@
 
 ``python benchmarks/digests.py --write`` stores them in ``digests.json``; without it each garage is compared with that
 file, and the exit code is 1 where one differs. Names choose garages: ``python benchmarks/digests.py plain_1 wide``.
+``--file`` names another file, such as one written on another machine.
 """
 
 import argparse
@@ -158,9 +159,10 @@ def main() -> int:
     parser.add_argument("names", nargs="*", help="which garages; left out, all")
     parser.add_argument("--quick", action="store_true", help="the eight that touch most of the road")
     parser.add_argument("--write", action="store_true", help="store what is found")
+    parser.add_argument("--file", type=Path, default=STORED, help="the file to compare with or to write")
     asked = parser.parse_args()
     wanted = {*asked.names} or ({*QUICK} if asked.quick else None)
-    stored = json.loads(STORED.read_text()) if STORED.exists() else {}
+    stored = json.loads(asked.file.read_text()) if asked.file.exists() else {}
     differ = 0
     for name, settings in configurations():
         if wanted is not None and name not in wanted:
@@ -168,7 +170,7 @@ def main() -> int:
         found = digests_of(settings)
         if asked.write:
             stored[name] = found
-            STORED.write_text(json.dumps(stored, indent=1, sort_keys=True) + "\n")
+            asked.file.write_text(json.dumps(stored, indent=1, sort_keys=True) + "\n")
             print(name, len(found), flush=True)
             continue
         known = stored.get(name, {})

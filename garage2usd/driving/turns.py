@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from garage2usd.driving.car import Pose
 from garage2usd.driving.manoeuvre import Gear
 from garage2usd.driving.path import GAUSS, WEIGHTS, Floats, Piece
+from garage2usd.native import elementary
 
 __all__ = ["Steering", "joining_pieces"]
 
@@ -63,14 +64,14 @@ class Steering:
         peak, arc_m = self._shape(size)
         easing_m = peak / self.sharpness_per_m2
         way = easing_m[:, None] / 2 * (1 + GAUSS)
-        easing = easing_m / 2 * (np.exp(0.5j * self.sharpness_per_m2 * way**2) @ WEIGHTS)
+        easing = easing_m / 2 * (elementary.turned(0.5 * self.sharpness_per_m2 * way**2) * WEIGHTS).sum(axis=1)
         eased = peak * easing_m / 2
         # twice the projection of the first half onto the chord
         half_turn = peak * arc_m / 2
-        half_arc = np.divide(2 * np.sin(half_turn / 2), peak, out=np.zeros_like(peak), where=peak > 0)
-        first_half = easing + half_arc * np.exp(1j * (eased + half_turn / 2))
-        length = 2 * (first_half * np.exp(-0.5j * size)).real
-        chords: NDArray[np.complex128] = length * np.exp(0.5j * deflections_rad)
+        half_arc = np.divide(2 * elementary.sin(half_turn / 2), peak, out=np.zeros_like(peak), where=peak > 0)
+        first_half = easing + half_arc * elementary.turned(eased + half_turn / 2)
+        length = 2 * (first_half * elementary.turned(-0.5 * size)).real
+        chords: NDArray[np.complex128] = length * elementary.turned(0.5 * deflections_rad)
         return chords
 
     def chord(self, deflection_rad: float) -> complex:
@@ -82,7 +83,7 @@ class Steering:
             return 0j
         half_turn = max(size - peak**2 / sharpness, 0.0) / 2 if peak >= most else 0.0
         eased = peak**2 / sharpness / 2
-        half_arc = 2 * math.sin(half_turn / 2) / peak
+        half_arc = 2 * elementary.sin(half_turn / 2) / peak
         first_half = _easing(peak, sharpness) + cmath.rect(half_arc, eased + half_turn / 2)
         length = 2 * (first_half * cmath.rect(1.0, -size / 2)).real
         return cmath.rect(length, deflection_rad / 2)
@@ -114,7 +115,7 @@ def _scanned(
     # where the path changes form, so that no root lies unseen between two of the same sign
     steps = np.linspace(low, high, math.ceil((high - low) / _SCAN_RAD))
     scan = np.unique(np.concatenate([steps, [0.0, turned_rad]]))
-    return scan, steering.chords(scan), np.exp(-1j * scan), steering.chords(turned_rad - scan)
+    return scan, steering.chords(scan), elementary.turned(-scan), steering.chords(turned_rad - scan)
 
 
 def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple[Piece, ...]]:

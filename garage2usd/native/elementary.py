@@ -1,7 +1,7 @@
 """Elementary functions that give the same bits on every machine, for numbers and arrays.
 
-NumPy and the C library round these functions differently from processor to processor. Use this module for each number that
-decides a plan, a layout or a drive, or that is written to a file unrounded. `elementary.c` names the methods.
+NumPy and the C library round these functions differently from processor to processor. Use this module for each number
+that decides a plan, a layout or a drive, or that is written to a file unrounded. `elementary.c` names the methods.
 """
 
 from typing import TypeVar
@@ -99,6 +99,7 @@ def _of(function: int, first: F, second: F | None = None) -> F:
 @in_c
 def _elementary(function: int, first: float, second: float) -> float:
     """Evaluate a function of one pair of numbers."""
+    raise NotImplementedError
 
 
 @in_c
