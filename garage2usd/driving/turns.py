@@ -3,7 +3,6 @@
 The turns are those of Scheuer and Fraichard, "Continuous-curvature path planning for car-like vehicles" (IROS 1997).
 """
 
-import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -84,9 +83,9 @@ class Steering:
         half_turn = max(size - peak**2 / sharpness, 0.0) / 2 if peak >= most else 0.0
         eased = peak**2 / sharpness / 2
         half_arc = 2 * elementary.sin(half_turn / 2) / peak
-        first_half = _easing(peak, sharpness) + cmath.rect(half_arc, eased + half_turn / 2)
-        length = 2 * (first_half * cmath.rect(1.0, -size / 2)).real
-        return cmath.rect(length, deflection_rad / 2)
+        first_half = _easing(peak, sharpness) + elementary.rect(half_arc, eased + half_turn / 2)
+        length = 2 * (first_half * elementary.rect(1.0, -size / 2)).real
+        return elementary.rect(length, deflection_rad / 2)
 
     def _shape(self, size_rad: Floats) -> tuple[Floats, Floats]:
         """Return the greatest curvature and the length of the arc of turns by some angles."""
@@ -100,7 +99,7 @@ def _easing(peak_per_m: float, sharpness_per_m2: float) -> complex:
     """Return the displacement along a clothoid from curvature 0 to its peak; all long turns share one."""
     half_m = peak_per_m / sharpness_per_m2 / 2
     headings = [sharpness_per_m2 / 2 * (half_m * (1 + place)) ** 2 for place in _PLACES]
-    return half_m * sum(cmath.rect(weight, heading) for weight, heading in zip(_WEIGHTS, headings, strict=True))
+    return half_m * sum(elementary.rect(weight, heading) for weight, heading in zip(_WEIGHTS, headings, strict=True))
 
 
 @lru_cache(maxsize=256)
@@ -128,7 +127,7 @@ def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple
     steering
         Curvature limits of the turns.
     """
-    across = complex(end.x_m - start.x_m, start.z_m - end.z_m) * cmath.rect(1.0, -(start.yaw_rad + math.pi / 2))
+    across = complex(end.x_m - start.x_m, start.z_m - end.z_m) * elementary.rect(1.0, -(start.yaw_rad + math.pi / 2))
     turned = math.remainder(end.yaw_rad - start.yaw_rad, math.tau)
     if abs(turned) < _SAME_RAD and abs(across.imag) < _SAME_M:
         if across.real >= 0:
@@ -137,7 +136,7 @@ def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple
 
     def straight_at(first_rad: float) -> complex:
         """Return the straight between the two turns in the heading's frame; real if the path reaches the end pose."""
-        ahead = (across - steering.chord(first_rad)) * cmath.rect(1.0, -first_rad)
+        ahead = (across - steering.chord(first_rad)) * elementary.rect(1.0, -first_rad)
         return ahead - steering.chord(turned - first_rad)
 
     from scipy.optimize import brentq  # noqa: PLC0415 - takes a quarter of a second, for which maps need not wait

@@ -11,7 +11,21 @@ from numpy.typing import NDArray
 
 from garage2usd.native import Float64s, in_c
 
-__all__ = ["arccos", "arcsin", "arctan", "arctan2", "cos", "exp", "hypot", "log", "power", "sin", "tan", "turned"]
+__all__ = [
+    "arccos",
+    "arcsin",
+    "arctan",
+    "arctan2",
+    "cos",
+    "exp",
+    "hypot",
+    "log",
+    "power",
+    "rect",
+    "sin",
+    "tan",
+    "turned",
+]
 
 Floats = NDArray[np.float64]
 F = TypeVar("F", float, Floats)
@@ -40,6 +54,11 @@ def turned(angle_rad: Floats) -> NDArray[np.complex128]:
     results = np.empty((*angles.shape, 2))
     _write_turns(angles, results, angles.size)
     return results.view(np.complex128)[..., 0]
+
+
+def rect(length: float, angle_rad: float) -> complex:
+    """Complex number of some length at an angle in radians."""
+    return complex(length * cos(angle_rad), length * sin(angle_rad))
 
 
 def arcsin(sine: F) -> F:
