@@ -17,7 +17,8 @@ from garage2usd.native import elementary
 __all__ = ["GAUSS", "WEIGHTS", "Path", "PathPoints", "Piece"]
 
 Floats = NDArray[np.float64]
-GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(12)  # type: ignore[no-untyped-call]
+# rounded, as eigenvalues differ in the last bits from processor to processor
+GAUSS, WEIGHTS = (np.round(each, 15) for each in np.polynomial.legendre.leggauss(12))  # type: ignore[no-untyped-call]
 """Nodes on [-1, 1] and weights of a Gauss quadrature, exact to rounding on the pieces of paths."""
 _STEP_M = 0.1
 """Distance in metres between the poses at which the clearance of a path is evaluated."""

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from garage2usd.driving.car import Pose
 from garage2usd.driving.manoeuvre import Gear
 from garage2usd.driving.path import GAUSS, WEIGHTS, Floats, Piece
-from garage2usd.native import elementary
+from garage2usd.native import Float64s, elementary, in_c
 
 __all__ = ["Steering", "joining_pieces"]
 
@@ -22,7 +22,15 @@ _MOST_RAD = 2.4
 """Greatest angle of each of the two turns."""
 _SCAN_RAD = math.radians(2.0)
 _SAME_M, _SAME_RAD = 1e-6, 1e-9
-_PLACES, _WEIGHTS = GAUSS.tolist(), WEIGHTS.tolist()
+_NODES = np.stack([GAUSS, WEIGHTS], axis=1)
+
+
+@in_c
+def _write_straight(
+    curvature: float, sharpness: float, nodes: Float64s, count: int, x: float, y: float,
+    first: float, turned: float, straight: Float64s,
+) -> None:  # fmt: skip
+    raise NotImplementedError
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,33 +81,11 @@ class Steering:
         chords: NDArray[np.complex128] = length * elementary.turned(0.5 * deflections_rad)
         return chords
 
-    def chord(self, deflection_rad: float) -> complex:
-        """Return the displacement of a single turn; faster than `chords` in a root search."""
-        size = abs(deflection_rad)
-        sharpness, most = self.sharpness_per_m2, self.curvature_per_m
-        peak = min(math.sqrt(size * sharpness), most)
-        if peak == 0.0:
-            return 0j
-        half_turn = max(size - peak**2 / sharpness, 0.0) / 2 if peak >= most else 0.0
-        eased = peak**2 / sharpness / 2
-        half_arc = 2 * elementary.sin(half_turn / 2) / peak
-        first_half = _easing(peak, sharpness) + elementary.rect(half_arc, eased + half_turn / 2)
-        length = 2 * (first_half * elementary.rect(1.0, -size / 2)).real
-        return elementary.rect(length, deflection_rad / 2)
-
     def _shape(self, size_rad: Floats) -> tuple[Floats, Floats]:
         """Return the greatest curvature and the length of the arc of turns by some angles."""
         peak = np.minimum(np.sqrt(size_rad * self.sharpness_per_m2), self.curvature_per_m)
         arc_turn = np.maximum(size_rad - peak**2 / self.sharpness_per_m2, 0.0)
         return peak, np.where(peak < self.curvature_per_m, 0.0, arc_turn / self.curvature_per_m)
-
-
-@lru_cache(maxsize=1024)
-def _easing(peak_per_m: float, sharpness_per_m2: float) -> complex:
-    """Return the displacement along a clothoid from curvature 0 to its peak; all long turns share one."""
-    half_m = peak_per_m / sharpness_per_m2 / 2
-    headings = [sharpness_per_m2 / 2 * (half_m * (1 + place)) ** 2 for place in _PLACES]
-    return half_m * sum(elementary.rect(weight, heading) for weight, heading in zip(_WEIGHTS, headings, strict=True))
 
 
 @lru_cache(maxsize=256)
@@ -134,10 +120,13 @@ def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple
             yield (Piece(Gear.FORWARD, across.real),) if across.real > 0 else ()
         return
 
-    def straight_at(first_rad: float) -> complex:
-        """Return the straight between the two turns in the heading's frame; real if the path reaches the end pose."""
-        ahead = (across - steering.chord(first_rad)) * elementary.rect(1.0, -first_rad)
-        return ahead - steering.chord(turned - first_rad)
+    limits = steering.curvature_per_m, steering.sharpness_per_m2, _NODES, len(_NODES)
+    straight = np.zeros(2)
+
+    def straight_at(first_rad: float) -> tuple[float, float]:
+        """Return the straight between the two turns in the heading's frame; its second number is 0 at a root."""
+        _write_straight(*limits, across.real, across.imag, first_rad, turned, straight)
+        return float(straight[0]), float(straight[1])
 
     from scipy.optimize import brentq  # noqa: PLC0415 - takes a quarter of a second, for which maps need not wait
 
@@ -147,10 +136,10 @@ def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple
     roots = scan[are_met].tolist()
     changes = (misses[:-1] * misses[1:] < 0) & ~are_met[:-1] & ~are_met[1:]
     for one, other in zip(scan[:-1][changes].tolist(), scan[1:][changes].tolist(), strict=True):
-        roots.append(brentq(lambda first_rad: straight_at(first_rad).imag, one, other, xtol=1e-13, rtol=1e-13))
+        roots.append(brentq(lambda first_rad: straight_at(first_rad)[1], one, other, xtol=1e-13, rtol=1e-13))
     found = []
     for root in roots:
-        straight_m = straight_at(root).real
+        straight_m = straight_at(root)[0]
         if straight_m >= 0:
             ahead = (Piece(Gear.FORWARD, straight_m),) if straight_m > _SAME_M else ()
             found.append((*steering.turn(root), *ahead, *steering.turn(turned - root)))
