@@ -72,6 +72,7 @@ def with_turning_stalls(
     """
     if not ends:
         return stalls
+
     def is_straight_on(stall: PlacedStall) -> bool:
         return grid.tiles[stall.access_square].drivable[stall.edge]
 
