@@ -2,6 +2,8 @@
 
 ``python benchmarks/digests.py --write`` stores them in ``digests.json``; without it each garage is compared with that
 file, and the exit code is 1 where one differs. Names choose garages: ``python benchmarks/digests.py plain_1 wide``.
+``--file`` names another file, such as one written on another machine; then ``--portable`` leaves out what differs
+there. A configuration file such as ``samples/looks.toml`` is taken as well as a name.
 """
 
 import argparse
@@ -9,6 +11,7 @@ import hashlib
 import json
 import sys
 import tempfile
+import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
@@ -27,6 +30,7 @@ from garage2usd.exports import export
 from garage2usd.layout import Layout
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.pipeline import build
+from garage2usd.reading.content import stage_digest
 from garage2usd.reading.files import open_stage
 from garage2usd.sensors.slots import read_slots
 from garage2usd.view.plan_picture import draw_plan
@@ -37,6 +41,8 @@ QUICK = ("plain_1", "angled_contour_2", "given_loop", "two_portals_3", "uk_1", "
 """Eight of them, which touch most of the road."""
 
 _PROFILES = ("cn-jgj100", "de-garvo", "uk-istructe", "us-ada")
+_OF_MACHINE = {"stage", "xosc"}
+"""OpenUSD writes other bytes on other machines, and OpenSCENARIO's package has no wheel for all."""
 _LOOP = "......\n.====E\n.=..=.\n.=..=.\n.====X\n......"
 _SMALL = "....\nE==X\n...."
 _DEAD_END = "......\nE====X\n..=...\n..=...\n......"
@@ -105,6 +111,7 @@ def digests_of(settings: Mapping[str, Any]) -> dict[str, str]:
         found["report"] = _digest(report)
         layers = sorted(path for path in folder.rglob("*") if path.is_file() and path.suffix in {".usda", ".usdc"})
         found["stage"] = _digest([hashlib.sha256(path.read_bytes()).hexdigest() for path in layers])
+        found["content"] = stage_digest(built.stage, digits=16)
         found["labels"] = _digest(built.labels.read_text())
         maps = MapsConfig(grid=GridConfig(resolution_m=0.1, keepout=True, speed=True))
         for suffix in (".glb", ".xodr", ".osm", ".yaml", ".xosc"):
@@ -158,17 +165,24 @@ def main() -> int:
     parser.add_argument("names", nargs="*", help="which garages; left out, all")
     parser.add_argument("--quick", action="store_true", help="the eight that touch most of the road")
     parser.add_argument("--write", action="store_true", help="store what is found")
+    parser.add_argument("--portable", action="store_true", help="leave out bytes of .usdc and OpenSCENARIO")
+    parser.add_argument("--file", type=Path, default=STORED, help="the file to compare with or to write")
     asked = parser.parse_args()
     wanted = {*asked.names} or ({*QUICK} if asked.quick else None)
-    stored = json.loads(STORED.read_text()) if STORED.exists() else {}
+    stored = json.loads(asked.file.read_text()) if asked.file.exists() else {}
     differ = 0
-    for name, settings in configurations():
+    files = [Path(name) for name in asked.names if name.endswith(".toml")]
+    given = [(path.stem, tomllib.loads(path.read_text(encoding="utf-8"))) for path in files]
+    wanted = wanted and wanted | {name for name, _ in given}
+    for name, settings in (*configurations(), *given):
         if wanted is not None and name not in wanted:
             continue
-        found = digests_of(settings)
+        found = {
+            key: each for key, each in digests_of(settings).items() if not asked.portable or key not in _OF_MACHINE
+        }
         if asked.write:
             stored[name] = found
-            STORED.write_text(json.dumps(stored, indent=1, sort_keys=True) + "\n")
+            asked.file.write_text(json.dumps(stored, indent=1, sort_keys=True) + "\n")
             print(name, len(found), flush=True)
             continue
         known = stored.get(name, {})

@@ -3,7 +3,6 @@
 import hashlib
 import sys
 import time
-from collections.abc import Iterable
 
 import click
 
@@ -31,7 +30,7 @@ _DIGITS = 12
 def doctor(*, seeds: int) -> None:
     """Check this installation and print a report: packages, compiled loops, rays, Blender and small garages.
 
-    Each garage is planned, built, checked and driven in a temporary folder. The digests of its plan, its files and its
+    Each garage is planned, built, checked and driven in a temporary folder. The digests of its plan, its stage and its
     ways tell whether two machines make the same. Exit code 1 if something that is installed does not work.
 
     \b
@@ -96,28 +95,20 @@ def _garage(seed: int) -> tuple[str, list[str]]:
     from garage2usd.driving import prove_stalls  # noqa: PLC0415
     from garage2usd.driving.witness import write_witness  # noqa: PLC0415
     from garage2usd.pipeline import build  # noqa: PLC0415
+    from garage2usd.reading.content import stage_digest  # noqa: PLC0415
     from garage2usd.structure.symmetry import plan_digest  # noqa: PLC0415
 
     height, width = _SIDES
     config = GarageConfig(seed=seed, site={"width_cells": width, "height_cells": height})
     with staging_folder() as folder:
         made = build(config, folder / "garage.usdc")
-        files = [path for path in folder.rglob("*") if path.is_file() and path != made.report]
-        stage = _digest((path.relative_to(folder).as_posix(), path.read_bytes()) for path in files)
+        stage = stage_digest(made.stage, digits=_DIGITS)
         findings, _ = check_file(made.stage)
         proofs = prove_stalls(made.garage.layout)
         ways = folder / "ways.json"
         write_witness(ways, proofs)
-        driven = _digest([(ways.name, ways.read_bytes())])
+        driven = hashlib.sha256(ways.read_bytes()).hexdigest()[:_DIGITS]
     wrong = [f"{each.rule}: {each.place} {each.message}" for each in findings if each.severity is Severity.ERROR]
     plan = plan_digest(made.garage.layout.structure.cells)[:_DIGITS]
     proven = sum(proof.is_proven for proof in proofs)
     return f"plan {plan}, stage {stage}, ways {driven}, {proven} of {len(proofs)} stalls driven", wrong
-
-
-def _digest(named: Iterable[tuple[str, bytes]]) -> str:
-    """Digest files with their names, in the order of these."""
-    sums = hashlib.sha256()
-    for name, data in sorted(named):
-        sums.update(f"{name} {len(data)}\n".encode() + data)
-    return sums.hexdigest()[:_DIGITS]

@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from garage2usd.common.settings import Settings, validated
+from garage2usd.native import elementary
 
 __all__ = ["Choice", "Distribution", "LogRange", "Mix", "Range", "distribution_of"]
 
@@ -76,8 +77,7 @@ class LogRange(Settings):
     def draw(self, random: np.random.Generator) -> Number:
         """Draw a number from the log range."""
         low, high = self.log_range
-        # nine digits, as machines may differ in the last one of a logarithm
-        drawn = float(f"{math.exp(random.uniform(math.log(low), math.log(high))):.9g}")
+        drawn = float(f"{elementary.exp(random.uniform(elementary.log(low), elementary.log(high))):.9g}")
         if isinstance(low, int) and isinstance(high, int):
             return min(max(round(drawn), low), high)
         return min(max(drawn, low), high)

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 from garage2usd.common.errors import ConfigError
+from garage2usd.native import elementary
 from garage2usd.profiles.profile import USUAL_CAR_LENGTH_M, USUAL_CAR_WIDTH_M
 
 __all__ = ["DesignCar", "Point", "Pose"]
@@ -42,10 +43,10 @@ class Pose:
         """
         yaw = self.yaw_rad + length_m * curvature_per_m
         if length_m * curvature_per_m == 0.0:
-            along_x, along_z = -math.sin(yaw) * length_m, -math.cos(yaw) * length_m
+            along_x, along_z = -elementary.sin(yaw) * length_m, -elementary.cos(yaw) * length_m
         else:
-            along_x = (math.cos(yaw) - math.cos(self.yaw_rad)) / curvature_per_m
-            along_z = -(math.sin(yaw) - math.sin(self.yaw_rad)) / curvature_per_m
+            along_x = (elementary.cos(yaw) - elementary.cos(self.yaw_rad)) / curvature_per_m
+            along_z = -(elementary.sin(yaw) - elementary.sin(self.yaw_rad)) / curvature_per_m
         return Pose(self.x_m + along_x, self.z_m + along_z, yaw)
 
 
@@ -111,11 +112,11 @@ class DesignCar:
     def centred(self, middle: Point, yaw_rad: float) -> Pose:
         """Return the pose that puts the middle of the car's footprint at `middle`."""
         back = self.length_m / 2 - self.rear_overhang_m
-        return Pose(middle[0] + math.sin(yaw_rad) * back, middle[1] + math.cos(yaw_rad) * back, yaw_rad)
+        return Pose(middle[0] + elementary.sin(yaw_rad) * back, middle[1] + elementary.cos(yaw_rad) * back, yaw_rad)
 
     def corners(self, pose: Pose) -> tuple[Point, Point, Point, Point]:
         """Return (x, z) of the car's corners: front left, front right, rear right, rear left."""
-        sin, cos = math.sin(pose.yaw_rad), math.cos(pose.yaw_rad)
+        sin, cos = elementary.sin(pose.yaw_rad), elementary.cos(pose.yaw_rad)
         half = self.width_m / 2
 
         def at(ahead: float, left: float) -> Point:

@@ -21,6 +21,7 @@ from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.proof import LanePose, Limits, Outcome, Search, least_clearance_m, touched_parked
 from garage2usd.driving.way_search import find_guided_way, find_way_by_steps
 from garage2usd.garage import DEAD_END_LIMIT_M, Arc, LaneGraph, Point, Stall
+from garage2usd.native import elementary
 
 __all__ = ["DrivenGarage", "Find", "Nose", "StallProof", "middle_of", "prove_garage"]
 
@@ -283,7 +284,7 @@ class _Prover:
     def _parked(self, stall: Stall, nose: Nose, obstacles: Obstacles) -> Pose:
         """Return the parked pose in the middle of the stall, moved out as little as obstacles behind require."""
         (x, z), yaw_rad = middle_of(stall), stall.yaw_rad
-        sin, cos = math.sin(yaw_rad), math.cos(yaw_rad)
+        sin, cos = elementary.sin(yaw_rad), elementary.cos(yaw_rad)
         poses = [
             self.car.centred((x + sin * out_m, z + cos * out_m), yaw_rad + nose.turn_rad) for out_m in _FURTHER_OUT_M
         ]

@@ -7,6 +7,7 @@ from dataclasses import replace
 from garage2usd.driving.car import DesignCar
 from garage2usd.driving.proof import LanePose
 from garage2usd.garage import Arc, LaneGraph, Point
+from garage2usd.native import elementary
 
 __all__ = ["families", "lane_poses"]
 
@@ -55,4 +56,4 @@ def families(poses: Iterable[LanePose]) -> list[list[LanePose]]:
 
 def _yaw_rad(along: Point) -> float:
     """Return the yaw of a direction, with negative zeros removed so that the yaw is unique."""
-    return math.atan2(-along[0] + 0.0, -along[1] + 0.0)
+    return elementary.arctan2(-along[0] + 0.0, -along[1] + 0.0)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from garage2usd.driving.car import Pose
 from garage2usd.driving.sweep import Floats
+from garage2usd.native import elementary
 
 __all__ = ["Gear", "Manoeuvre", "Move", "Waypoint"]
 
@@ -148,8 +149,9 @@ class Manoeuvre:
         yaw = yaws + driven * curvatures
         bends = driven * curvatures != 0
         curvature = np.where(bends, curvatures, 1.0)
-        along_x = np.where(bends, (np.cos(yaw) - np.cos(yaws)) / curvature, -np.sin(yaw) * driven)
-        along_z = np.where(bends, -(np.sin(yaw) - np.sin(yaws)) / curvature, -np.cos(yaw) * driven)
+        before, after = elementary.turned(yaws), elementary.turned(yaw)
+        along_x = np.where(bends, (after.real - before.real) / curvature, -after.imag * driven)
+        along_z = np.where(bends, (before.imag - after.imag) / curvature, -after.real * driven)
         end = [[starts[-1].x_m, starts[-1].z_m, starts[-1].yaw_rad]]
         return np.concatenate([np.stack([x + along_x, z + along_z, yaw], axis=1), end]), owner
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from garage2usd.driving.car import DesignCar
 from garage2usd.driving.sweep import Floats, Scene
+from garage2usd.native import elementary
 
 __all__ = ["Obstacles"]
 
@@ -93,7 +94,7 @@ class Obstacles:
 
     def seen_from(self, x_m: float, z_m: float, yaw_rad: float) -> "Obstacles":
         """Transform the obstacles into a frame with its origin at a point and its axes turned by a yaw about +Y."""
-        cos, sin = np.cos(yaw_rad), np.sin(yaw_rad)
+        cos, sin = elementary.cos(yaw_rad), elementary.sin(yaw_rad)
         x, z = self.pieces[..., 0] - x_m, self.pieces[..., 1] - z_m
         return Obstacles(self.names, self.owner, np.stack([x * cos - z * sin, x * sin + z * cos], axis=-1))
 

@@ -1,5 +1,6 @@
 """A smooth path of the rear axle's middle: clothoids, arcs and straights, whose curvature changes linearly."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,11 +12,13 @@ from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.sweep import least_clearance
+from garage2usd.native import elementary
 
 __all__ = ["GAUSS", "WEIGHTS", "Path", "PathPoints", "Piece"]
 
 Floats = NDArray[np.float64]
-GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(12)  # type: ignore[no-untyped-call]
+# rounded, as eigenvalues differ in the last bits from processor to processor
+GAUSS, WEIGHTS = (np.round(each, 15) for each in np.polynomial.legendre.leggauss(12))  # type: ignore[no-untyped-call]
 """Nodes on [-1, 1] and weights of a Gauss quadrature, exact to rounding on the pieces of paths."""
 _STEP_M = 0.1
 """Distance in metres between the poses at which the clearance of a path is evaluated."""
@@ -178,7 +181,7 @@ class Path:
         points = self._within(np.append(owner, owner[-1]), np.append(within * length, length[-1]))
         poses = np.stack([points.x_m, points.z_m, points.yaw_rad], axis=1)
         body = np.array([car.ahead_m, car.rear_overhang_m, car.width_m / 2])
-        reach = float(np.hypot(max(body[:2]), body[2]))
+        reach = math.hypot(max(body[:2]), body[2])
         tightest = np.maximum(np.abs(curvature), np.abs(curvature + rate * length))
         bulges = (length / counts[owner]) ** 2 / 8 * (tightest + np.abs(rate) * reach + tightest**2 * reach)
         low, high = poses[:, :2].min(axis=0), poses[:, :2].max(axis=0)
@@ -188,12 +191,12 @@ class Path:
 
 def _moved(into: Floats, signs: Floats, curvatures: Floats, rates: Floats, yaws: Floats) -> NDArray[np.complex128]:
     """Integrate the heading of pieces up to some of their lengths by Gauss quadrature; displacements (x - iz)."""
-    moved: NDArray[np.complex128] = signs * into * np.exp(1j * (np.pi / 2 + yaws))
+    moved: NDArray[np.complex128] = signs * into * elementary.turned(np.pi / 2 + yaws)
     bends = (curvatures != 0) | (rates != 0)
     if bends.any():
         into, signs, curvatures, rates, yaws = (values[bends] for values in (into, signs, curvatures, rates, yaws))
         at = into[:, None] / 2 * (1 + GAUSS)
         heading = np.pi / 2 + yaws[:, None] + signs[:, None] * at * (curvatures[:, None] + rates[:, None] * at / 2)
         # not by a product of matrices, for which a BLAS library wakes threads that then wait for more
-        moved[bends] = signs * into / 2 * np.einsum("ij,j->i", np.exp(1j * heading), WEIGHTS)
+        moved[bends] = signs * into / 2 * (elementary.turned(heading) * WEIGHTS).sum(axis=1)
     return moved

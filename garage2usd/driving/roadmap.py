@@ -15,6 +15,7 @@ from garage2usd.driving.proof import LanePose
 from garage2usd.driving.road import DrivenRoad, Portal
 from garage2usd.driving.turns import Steering, joining_pieces
 from garage2usd.garage import Arc, LaneGraph, Point
+from garage2usd.native import elementary
 
 __all__ = ["GRAINS", "Grain", "Roadmap", "Spot"]
 
@@ -109,7 +110,7 @@ class Roadmap:
             run = (x - one[0]) * along[0] + (z - one[1]) * along[1]
             aside = abs((x - one[0]) * along[1] - (z - one[1]) * along[0])
             far = length + self._lanes.nodes[edge[1]].reach_m(along)
-            same = -math.sin(pose.yaw_rad) * along[0] - math.cos(pose.yaw_rad) * along[1]
+            same = -elementary.sin(pose.yaw_rad) * along[0] - elementary.cos(pose.yaw_rad) * along[1]
             if same > _SAME_WAY and aside <= self._lanes.arcs[edge].width_m / 2 and -0.01 <= run <= far:  # noqa: PLR2004
                 found.append(edge)
         return found
@@ -137,7 +138,7 @@ class Roadmap:
             ahead = (low + high) / 2 + self._car.length_m / 2 - self._car.rear_overhang_m
             room = min(_BESIDE_M, self._lanes.arcs[edge].width_m - self._car.width_m)
             if room >= 0:
-                yaw = math.atan2(-along[0] + 0.0, -along[1] + 0.0)
+                yaw = elementary.arctan2(-along[0] + 0.0, -along[1] + 0.0)
                 poses.append(LanePose((x + ahead * along[0], z + ahead * along[1]), yaw, high - low, room))
         return poses
 
@@ -195,7 +196,7 @@ class Roadmap:
     def door_spots(self, portal: Portal) -> Iterator[tuple[Spot, Pose]]:
         """Yield roadmap poses in line with the pose of cars outside a portal, up to the middle of its square."""
         x, z = self._lanes.nodes[portal.node].position
-        along = -math.sin(portal.pose.yaw_rad), -math.cos(portal.pose.yaw_rad)
+        along = -elementary.sin(portal.pose.yaw_rad), -elementary.cos(portal.pose.yaw_rad)
         length_m = (portal.pose.x_m - x) * along[0] + (portal.pose.z_m - z) * along[1]
         for ahead_m in np.arange(0.0, min(abs(length_m), _DOOR_SPOTS_M), _DOOR_SPOT_M).tolist():
             yield self._placed(Spot(portal.node, along, 0.0, math.copysign(ahead_m, length_m)))
@@ -203,7 +204,7 @@ class Roadmap:
     def _placed(self, spot: Spot) -> tuple[Spot, Pose]:
         x, z = self._lanes.nodes[spot.node].position
         (along_x, along_z), aside_m, ahead_m = spot.along, spot.aside_m, spot.ahead_m
-        yaw = math.atan2(-along_x + 0.0, -along_z + 0.0)
+        yaw = elementary.arctan2(-along_x + 0.0, -along_z + 0.0)
         return spot, Pose(x + aside_m * -along_z + ahead_m * along_x, z + aside_m * along_x + ahead_m * along_z, yaw)
 
     def edges_from(self, spot: Spot, *, is_back: bool) -> list[Arc]:
@@ -232,4 +233,4 @@ class Roadmap:
 def _middle(car: DesignCar, pose: Pose) -> Point:
     """Return (x, z) of the middle of a car's footprint."""
     ahead = car.length_m / 2 - car.rear_overhang_m
-    return pose.x_m - math.sin(pose.yaw_rad) * ahead, pose.z_m - math.cos(pose.yaw_rad) * ahead
+    return pose.x_m - elementary.sin(pose.yaw_rad) * ahead, pose.z_m - elementary.cos(pose.yaw_rad) * ahead

@@ -13,6 +13,7 @@ from garage2usd.driving.car import DesignCar
 from garage2usd.driving.path import Floats, Path, Piece
 from garage2usd.driving.road import RampFloor, heights_m
 from garage2usd.driving.trajectory import Trajectory
+from garage2usd.native import elementary
 
 __all__ = ["Motion", "timed"]
 
@@ -128,7 +129,7 @@ class Motion:
         )
         speed = np.where(stands, 0.0, np.maximum(run.speed_m_s[node] + pace * left, 0.0))
         points = run.path.at(np.interp(way, run.way_m, run.plan_m))
-        steering = np.arctan(self.car.wheelbase_m * points.curvature_per_m)
+        steering = elementary.arctan(self.car.wheelbase_m * points.curvature_per_m)
         if index + 1 < len(self.runs):
             target = self._angle(self.runs[index + 1].path.pieces[0].start_per_m)
             turned = np.clip((since - run.seconds) * self.steering_rate_rad_s, 0.0, np.abs(target - steering))
@@ -136,8 +137,8 @@ class Motion:
         height, nose = (
             heights_m(
                 self.ramps,
-                points.x_m - np.sin(points.yaw_rad) * ahead,
-                points.z_m - np.cos(points.yaw_rad) * ahead,
+                points.x_m - elementary.sin(points.yaw_rad) * ahead,
+                points.z_m - elementary.cos(points.yaw_rad) * ahead,
             )
             for ahead in (0.0, self.car.wheelbase_m)
         )
@@ -148,17 +149,17 @@ class Motion:
             height,
             points.z_m,
             points.yaw_rad,
-            np.arctan2(nose - height, self.car.wheelbase_m),
+            elementary.arctan((nose - height) / self.car.wheelbase_m),
             sign * speed,
             sign * pace,
-            np.tan(steering) / self.car.wheelbase_m,
+            elementary.tan(steering) / self.car.wheelbase_m,
             steering,
             np.full(len(times), sign),
             driven_m + way,
         )
 
     def _angle(self, curvature_per_m: float) -> float:
-        return math.atan(self.car.wheelbase_m * curvature_per_m)
+        return elementary.arctan(self.car.wheelbase_m * curvature_per_m)
 
     def _steering_s(self, number: int) -> float:
         """Return the duration of steering at a standstill after a run."""
@@ -232,7 +233,8 @@ def _groups(path: Path, settings: DriveConfig, parked_after: int | None) -> tupl
 def _steering_s(one: Path, other: Path, car: DesignCar, rate_rad_s: float) -> float:
     """Return the time in which the wheels turn from the end of one path to the start of another."""
     angles = [
-        math.atan(car.wheelbase_m * curvature) for curvature in (one.pieces[-1].end_per_m, other.pieces[0].start_per_m)
+        elementary.arctan(car.wheelbase_m * curvature)
+        for curvature in (one.pieces[-1].end_per_m, other.pieces[0].start_per_m)
     ]
     return abs(angles[1] - angles[0]) / rate_rad_s
 
@@ -249,7 +251,7 @@ def _run(path: Path, settings: DriveConfig, car: DesignCar, ramps: Sequence[Ramp
     plan_m = np.array(plan)
     points = path.at(plan_m)
     rise = np.diff(heights_m(ramps, points.x_m, points.z_m))
-    steps = np.hypot(np.diff(plan_m), rise)
+    steps = elementary.hypot(np.diff(plan_m), rise)
     square = np.append(np.array(limits) ** 2, 0.0)
     square[1:-1] = np.minimum(square[:-2], square[1:-1])
     square[0] = 0.0

@@ -3,7 +3,6 @@
 The turns are those of Scheuer and Fraichard, "Continuous-curvature path planning for car-like vehicles" (IROS 1997).
 """
 
-import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 from garage2usd.driving.car import Pose
 from garage2usd.driving.manoeuvre import Gear
 from garage2usd.driving.path import GAUSS, WEIGHTS, Floats, Piece
+from garage2usd.native import Float64s, elementary, in_c
 
 __all__ = ["Steering", "joining_pieces"]
 
@@ -22,7 +22,15 @@ _MOST_RAD = 2.4
 """Greatest angle of each of the two turns."""
 _SCAN_RAD = math.radians(2.0)
 _SAME_M, _SAME_RAD = 1e-6, 1e-9
-_PLACES, _WEIGHTS = GAUSS.tolist(), WEIGHTS.tolist()
+_NODES = np.stack([GAUSS, WEIGHTS], axis=1)
+
+
+@in_c
+def _write_straight(
+    curvature: float, sharpness: float, nodes: Float64s, count: int, x: float, y: float,
+    first: float, turned: float, straight: Float64s,
+) -> None:  # fmt: skip
+    raise NotImplementedError
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,43 +71,21 @@ class Steering:
         peak, arc_m = self._shape(size)
         easing_m = peak / self.sharpness_per_m2
         way = easing_m[:, None] / 2 * (1 + GAUSS)
-        easing = easing_m / 2 * (np.exp(0.5j * self.sharpness_per_m2 * way**2) @ WEIGHTS)
+        easing = easing_m / 2 * (elementary.turned(0.5 * self.sharpness_per_m2 * way**2) * WEIGHTS).sum(axis=1)
         eased = peak * easing_m / 2
         # twice the projection of the first half onto the chord
         half_turn = peak * arc_m / 2
-        half_arc = np.divide(2 * np.sin(half_turn / 2), peak, out=np.zeros_like(peak), where=peak > 0)
-        first_half = easing + half_arc * np.exp(1j * (eased + half_turn / 2))
-        length = 2 * (first_half * np.exp(-0.5j * size)).real
-        chords: NDArray[np.complex128] = length * np.exp(0.5j * deflections_rad)
+        half_arc = np.divide(2 * elementary.sin(half_turn / 2), peak, out=np.zeros_like(peak), where=peak > 0)
+        first_half = easing + half_arc * elementary.turned(eased + half_turn / 2)
+        length = 2 * (first_half * elementary.turned(-0.5 * size)).real
+        chords: NDArray[np.complex128] = length * elementary.turned(0.5 * deflections_rad)
         return chords
-
-    def chord(self, deflection_rad: float) -> complex:
-        """Return the displacement of a single turn; faster than `chords` in a root search."""
-        size = abs(deflection_rad)
-        sharpness, most = self.sharpness_per_m2, self.curvature_per_m
-        peak = min(math.sqrt(size * sharpness), most)
-        if peak == 0.0:
-            return 0j
-        half_turn = max(size - peak**2 / sharpness, 0.0) / 2 if peak >= most else 0.0
-        eased = peak**2 / sharpness / 2
-        half_arc = 2 * math.sin(half_turn / 2) / peak
-        first_half = _easing(peak, sharpness) + cmath.rect(half_arc, eased + half_turn / 2)
-        length = 2 * (first_half * cmath.rect(1.0, -size / 2)).real
-        return cmath.rect(length, deflection_rad / 2)
 
     def _shape(self, size_rad: Floats) -> tuple[Floats, Floats]:
         """Return the greatest curvature and the length of the arc of turns by some angles."""
         peak = np.minimum(np.sqrt(size_rad * self.sharpness_per_m2), self.curvature_per_m)
         arc_turn = np.maximum(size_rad - peak**2 / self.sharpness_per_m2, 0.0)
         return peak, np.where(peak < self.curvature_per_m, 0.0, arc_turn / self.curvature_per_m)
-
-
-@lru_cache(maxsize=1024)
-def _easing(peak_per_m: float, sharpness_per_m2: float) -> complex:
-    """Return the displacement along a clothoid from curvature 0 to its peak; all long turns share one."""
-    half_m = peak_per_m / sharpness_per_m2 / 2
-    headings = [sharpness_per_m2 / 2 * (half_m * (1 + place)) ** 2 for place in _PLACES]
-    return half_m * sum(cmath.rect(weight, heading) for weight, heading in zip(_WEIGHTS, headings, strict=True))
 
 
 @lru_cache(maxsize=256)
@@ -114,7 +100,7 @@ def _scanned(
     # where the path changes form, so that no root lies unseen between two of the same sign
     steps = np.linspace(low, high, math.ceil((high - low) / _SCAN_RAD))
     scan = np.unique(np.concatenate([steps, [0.0, turned_rad]]))
-    return scan, steering.chords(scan), np.exp(-1j * scan), steering.chords(turned_rad - scan)
+    return scan, steering.chords(scan), elementary.turned(-scan), steering.chords(turned_rad - scan)
 
 
 def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple[Piece, ...]]:
@@ -127,17 +113,20 @@ def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple
     steering
         Curvature limits of the turns.
     """
-    across = complex(end.x_m - start.x_m, start.z_m - end.z_m) * cmath.rect(1.0, -(start.yaw_rad + math.pi / 2))
+    across = complex(end.x_m - start.x_m, start.z_m - end.z_m) * elementary.rect(1.0, -(start.yaw_rad + math.pi / 2))
     turned = math.remainder(end.yaw_rad - start.yaw_rad, math.tau)
     if abs(turned) < _SAME_RAD and abs(across.imag) < _SAME_M:
         if across.real >= 0:
             yield (Piece(Gear.FORWARD, across.real),) if across.real > 0 else ()
         return
 
-    def straight_at(first_rad: float) -> complex:
-        """Return the straight between the two turns in the heading's frame; real if the path reaches the end pose."""
-        ahead = (across - steering.chord(first_rad)) * cmath.rect(1.0, -first_rad)
-        return ahead - steering.chord(turned - first_rad)
+    limits = steering.curvature_per_m, steering.sharpness_per_m2, _NODES, len(_NODES)
+    straight = np.zeros(2)
+
+    def straight_at(first_rad: float) -> tuple[float, float]:
+        """Return the straight between the two turns in the heading's frame; its second number is 0 at a root."""
+        _write_straight(*limits, across.real, across.imag, first_rad, turned, straight)
+        return float(straight[0]), float(straight[1])
 
     from scipy.optimize import brentq  # noqa: PLC0415 - takes a quarter of a second, for which maps need not wait
 
@@ -147,10 +136,10 @@ def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple
     roots = scan[are_met].tolist()
     changes = (misses[:-1] * misses[1:] < 0) & ~are_met[:-1] & ~are_met[1:]
     for one, other in zip(scan[:-1][changes].tolist(), scan[1:][changes].tolist(), strict=True):
-        roots.append(brentq(lambda first_rad: straight_at(first_rad).imag, one, other, xtol=1e-13, rtol=1e-13))
+        roots.append(brentq(lambda first_rad: straight_at(first_rad)[1], one, other, xtol=1e-13, rtol=1e-13))
     found = []
     for root in roots:
-        straight_m = straight_at(root).real
+        straight_m = straight_at(root)[0]
         if straight_m >= 0:
             ahead = (Piece(Gear.FORWARD, straight_m),) if straight_m > _SAME_M else ()
             found.append((*steering.turn(root), *ahead, *steering.turn(turned - root)))

@@ -13,7 +13,7 @@ from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.proof import LanePose, Limits, Search, least_clearance_m
 from garage2usd.driving.search import HEADINGS, Found, Task, search
 from garage2usd.driving.sweep import Floats, touched_shapes
-from garage2usd.native import Int64s
+from garage2usd.native import Int64s, elementary
 
 __all__ = ["find_guided_way", "find_way", "find_way_by_steps"]
 
@@ -203,7 +203,7 @@ def _goal(car: DesignCar, parked: Pose, lane: LanePose, frame: float) -> tuple[f
         raise ConfigError("lanes", turned, "directions that differ by quarter turns")
     axle = car.centred(lane.middle_m, lane.yaw_rad)
     x, z = axle.x_m - parked.x_m, axle.z_m - parked.z_m
-    cos, sin = math.cos(frame), math.sin(frame)
+    cos, sin = elementary.cos(frame), elementary.sin(frame)
     x, z = x * cos - z * sin, x * sin + z * cos
     half_x, half_z = lane.width_m / 2, lane.length_m / 2
     if quarters % 2:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import shapely
 
 from garage2usd.garage.lanes import Point
+from garage2usd.native import elementary
 
 __all__ = ["Fault", "Stall", "StallKind", "StallUse"]
 
@@ -178,7 +179,7 @@ class Stall:
         right, forward = right_x - left_x, right_z - left_z
         along, back = rear_x - left_x, rear_z - left_z
         # seen from above, with X to the right and Z downwards, the left side is a turn to the left from the mouth
-        return math.degrees(math.atan2(forward * along - right * back, right * along + forward * back))
+        return math.degrees(elementary.arctan2(forward * along - right * back, right * along + forward * back))
 
     @property
     def kind(self) -> StallKind:
@@ -231,8 +232,8 @@ class Stall:
         """Yaw about +Y of a car parked nose in, 0 where its nose points to -Z; quarter turns are exact."""
         x, z = self.backwards
         if abs(x * z) > _LEAST_SKEW:
-            return round(math.atan2(x, z), _YAW_DIGITS)
-        return math.atan2(round(x) + 0.0, round(z) + 0.0)
+            return round(elementary.arctan2(x, z), _YAW_DIGITS)
+        return elementary.arctan2(round(x) + 0.0, round(z) + 0.0)
 
     @cached_property
     def polygon(self) -> shapely.Polygon:

@@ -7,6 +7,7 @@ from typing import TypeVar
 
 from garage2usd.config.stalls import SizeClass
 from garage2usd.garage import StallKind, StallUse
+from garage2usd.native import elementary
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Box, Point, Polygon
 from garage2usd.structure.lane_graph import Square, StallType
@@ -272,7 +273,7 @@ _EXACT_QUARTER = {math.pi: (-1.0, 0.0), 0.0: (1.0, 0.0), -math.pi / 2: (0.0, -1.
 
 def cos_sin(yaw_rad: float) -> tuple[float, float]:
     """Cosine and sine of a yaw; those of quarter turns are exact."""
-    return _EXACT_QUARTER.get(yaw_rad) or (math.cos(yaw_rad), math.sin(yaw_rad))
+    return _EXACT_QUARTER.get(yaw_rad) or (elementary.cos(yaw_rad), elementary.sin(yaw_rad))
 
 
 def to_world(point: Point, origin: Point, yaw_rad: float) -> Point:

@@ -7,6 +7,7 @@ import numpy as np
 
 from garage2usd.common.randomness import Step, named_generator
 from garage2usd.config.look import LookConfig
+from garage2usd.native import elementary
 
 __all__ = ["Axes", "Group"]
 
@@ -57,7 +58,7 @@ class Group:
             return str(self._given[axis])
         generator = self._generator(axis)
         colour = self._pick(generator, weights)
-        factors = np.exp(generator.normal(0.0, tone) + generator.normal(0.0, hue, 3))
+        factors = elementary.exp(generator.normal(0.0, tone) + generator.normal(0.0, hue, 3))
         if not colour.startswith("#"):
             return colour
         channels = np.array([int(colour[start : start + 2], 16) for start in (1, 3, 5)])

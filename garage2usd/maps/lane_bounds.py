@@ -7,6 +7,7 @@ from itertools import pairwise
 
 from garage2usd.maps.network import LEFT, RIGHT, Network, Road
 from garage2usd.maps.osm_file import Place
+from garage2usd.native import elementary
 
 __all__ = ["Bound", "LaneBounds", "lane_bounds"]
 
@@ -92,7 +93,7 @@ def _turns_back(bound: Bound, road: Road, runs: Sequence[float]) -> bool:
     """Test if a bound runs backwards, as the inner bound of a bend tighter than its lane is wide."""
     for (before, start), (after, end) in pairwise(zip(runs, bound.places, strict=True)):
         heading = road.line.at((before + after) / 2)[2]
-        if (end[0] - start[0]) * math.cos(heading) + (end[1] - start[1]) * math.sin(heading) < -_LEAST_M:
+        if (end[0] - start[0]) * elementary.cos(heading) + (end[1] - start[1]) * elementary.sin(heading) < -_LEAST_M:
             return True
     return False
 

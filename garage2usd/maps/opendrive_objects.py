@@ -16,6 +16,7 @@ from garage2usd.maps.frame import heading_rad, map_point, map_points
 from garage2usd.maps.network import Network, Road
 from garage2usd.maps.road_places import RoadPlaces
 from garage2usd.maps.xml_text import child
+from garage2usd.native import elementary
 
 __all__ = ["MapObject", "Signal", "add_objects", "add_signals", "signals_of", "solids_of", "stalls_of"]
 
@@ -287,6 +288,6 @@ def _about_road(heading: float, road: Road, s_m: float) -> float:
 
 
 def _turned(points: Floats, angle_rad: float) -> Floats:
-    cos, sin = math.cos(angle_rad), math.sin(angle_rad)
+    cos, sin = elementary.cos(angle_rad), elementary.sin(angle_rad)
     turned: Floats = points @ np.array([[cos, sin], [-sin, cos]])
     return turned

@@ -15,6 +15,7 @@ from garage2usd.driving.trajectory import Trajectory
 from garage2usd.maps.frame import heading_rad, map_point, map_points
 from garage2usd.maps.parked_cars import ParkedCar
 from garage2usd.maps.xml_text import element_lines, write_lines
+from garage2usd.native import elementary
 
 with of_extra("a scenario"):
     from scenariogeneration import xosc
@@ -76,7 +77,7 @@ def write_scenario(
         entities.add_scenario_object(other.name, _standing_car(other))
         x, y = map_point(other.middle_m)
         heading, back_m = heading_rad(other.yaw_rad), _wheelbase_m(other) / 2
-        x, y = x - back_m * math.cos(heading), y - back_m * math.sin(heading)
+        x, y = x - back_m * elementary.cos(heading), y - back_m * elementary.sin(heading)
         place = xosc.WorldPosition(_number(x), _number(y), 0.0, _number(heading), 0.0, 0.0)
         init.add_init_action(other.name, xosc.TeleportAction(place))
     times = [_number(time) for time in trajectory.time_s.tolist()]

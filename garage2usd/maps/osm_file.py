@@ -22,8 +22,8 @@ _SAME_M = 5e-4
 """Distance along each axis up to which points are merged."""
 _GROUP_BITS = 7
 """Cells of the side `_SAME_M` are grouped for lookup, by two to the power of this number along each axis."""
-_DEGREE_DIGITS = 13
-"""Decimals of degrees: a hundred-millionth of a metre."""
+_DEGREE_DIGITS = 11
+"""Decimals of degrees: a micrometre. PROJ's last digits differ by processor."""
 
 
 _Cell = tuple[int, int, int]

@@ -9,6 +9,7 @@ import shapely
 
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.placed_pieces import placed_pieces
+from garage2usd.native import elementary
 from garage2usd.objects import CAR_LABELS
 
 __all__ = ["ParkedCar", "parked_cars"]
@@ -70,7 +71,7 @@ def parked_cars(garage: BuiltGarage, *, free: Collection[str] = ()) -> list[Park
         outline = pieces.corners[corners[first[number]] : corners[first[number + 1]]]
         if ground is not None:
             outline = shapely.get_coordinates(ground)
-        turn = np.array([[math.cos(yaw), -math.sin(yaw)], [math.sin(yaw), math.cos(yaw)]])
+        turn = np.array([[elementary.cos(yaw), -elementary.sin(yaw)], [elementary.sin(yaw), elementary.cos(yaw)]])
         # in the car's own frame: (x, z) by rows times the inverse turn
         own = outline @ turn.T
         low, high = own.min(axis=0), own.max(axis=0)

@@ -8,6 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.native import elementary
+
 __all__ = ["Arc", "Point", "ReferenceLine", "straight", "turn"]
 
 Floats = NDArray[np.float64]
@@ -42,11 +44,11 @@ class Arc(NamedTuple):
         """Evaluate (x, y, heading) at a distance along the arc; a straight extends beyond both ends."""
         (x, y), heading, curvature = self.start, self.heading_rad, self.curvature_per_m
         if curvature == 0.0:
-            return x + run_m * math.cos(heading), y + run_m * math.sin(heading), heading
+            return x + run_m * elementary.cos(heading), y + run_m * elementary.sin(heading), heading
         turned = heading + curvature * run_m
         return (
-            x + (math.sin(turned) - math.sin(heading)) / curvature,
-            y - (math.cos(turned) - math.cos(heading)) / curvature,
+            x + (elementary.sin(turned) - elementary.sin(heading)) / curvature,
+            y - (elementary.cos(turned) - elementary.cos(heading)) / curvature,
             turned,
         )
 
@@ -54,11 +56,11 @@ class Arc(NamedTuple):
         """Evaluate points (x, y) at distances along the arc and offsets to its left; shape (n, 2)."""
         (x, y), heading, curvature = self.start, self.heading_rad, self.curvature_per_m
         turned = heading + curvature * run_m
-        cos, sin = np.cos(turned), np.sin(turned)
+        cos, sin = elementary.cos(turned), elementary.sin(turned)
         if curvature == 0.0:
             return np.stack([x + run_m * cos - t_m * sin, y + run_m * sin + t_m * cos], axis=1)
         radius_m = 1 / curvature
-        middle = x - radius_m * math.sin(heading), y + radius_m * math.cos(heading)
+        middle = x - radius_m * elementary.sin(heading), y + radius_m * elementary.cos(heading)
         return np.stack([middle[0] + (radius_m - t_m) * sin, middle[1] - (radius_m - t_m) * cos], axis=1)
 
 
@@ -95,7 +97,7 @@ class ReferenceLine:
     def beside(self, s_m: float, t_m: float) -> Point:
         """Evaluate the point (x, y) at a distance along the reference line and an offset to its left."""
         x, y, heading = self.at(s_m)
-        return x - t_m * math.sin(heading), y + t_m * math.cos(heading)
+        return x - t_m * elementary.sin(heading), y + t_m * elementary.cos(heading)
 
     def beside_each(self, s_m: Floats, t_m: Floats) -> Floats:
         """Evaluate points (x, y) at distances along the reference line and offsets to its left; shape (n, 2)."""
@@ -119,7 +121,7 @@ class ReferenceLine:
             raise ValueError("a line that bends")
         (arc,) = self.arcs
         dx, dy = point[0] - arc.start[0], point[1] - arc.start[1]
-        cos, sin = math.cos(arc.heading_rad), math.sin(arc.heading_rad)
+        cos, sin = elementary.cos(arc.heading_rad), elementary.sin(arc.heading_rad)
         return dx * cos + dy * sin, dy * cos - dx * sin
 
 
@@ -139,7 +141,7 @@ def turn(start: Point, corner: Point, end: Point) -> ReferenceLine:
     if abs(turned) < _PARALLEL:
         return straight(start, end)
     tangent_m = min(before_m, after_m)
-    curvature = math.tan(turned / 2) / tangent_m
+    curvature = elementary.tan(turned / 2) / tangent_m
     lead = Arc(start, inwards, before_m - tangent_m)
     bend = Arc(lead.at(lead.length_m)[:2], inwards, turned / curvature, curvature)
     tail = Arc(bend.at(bend.length_m)[:2], outwards, after_m - tangent_m)
@@ -147,4 +149,4 @@ def turn(start: Point, corner: Point, end: Point) -> ReferenceLine:
 
 
 def _heading(start: Point, end: Point) -> float:
-    return math.atan2(end[1] - start[1], end[0] - start[0])
+    return elementary.arctan2(end[1] - start[1], end[0] - start[0])

@@ -151,12 +151,12 @@ static void anneal(const Annealing *search, uint64_t *random, double value, int6
     double best = value;
     int64_t best_faults = AT(search->board->tally, FAULTS);
     keep_best(search);
-    double cooling = pow(coldest / hottest, 1.0 / (double)flips), heat = hottest;
+    double cooling = same_pow(coldest / hottest, 1.0 / (double)flips), heat = hottest;
     for (int64_t index = 0; index < flips; index++) {
         heat *= cooling;
         uint64_t draw = next_random(random);
         double lot = uniform(random);
-        double threshold = value + heat * log(lot > 1e-300 ? lot : 1e-300);
+        double threshold = value + heat * same_log(lot > 1e-300 ? lot : 1e-300);
         if (is_sized(search->sizes) && (draw >> 40) % RESIZED_EVERY == 0) {
             resize_any(search, draw, threshold, &value);
             continue;

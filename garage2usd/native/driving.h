@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "arrays.h"
+#include "elementary.h"
 
 /* A point of the floor. */
 typedef struct { double x, z; } Spot;
@@ -63,7 +63,12 @@ typedef struct {
 static inline double lesser(double one, double other) { return other < one ? other : one; }
 static inline double greater(double one, double other) { return other > one ? other : one; }
 
-static inline Heading heading_of(double yaw) { return (Heading){yaw, sin(yaw), cos(yaw)}; }
+static inline Heading heading_of(double yaw)
+{
+    Heading heading = {.yaw = yaw};
+    same_sin_cos(yaw, &heading.sine, &heading.cosine);
+    return heading;
+}
 
 /* sweep.c */
 void put_footprint(Hull *hull, int64_t first, double x, double z, Heading heading, const double *body);

@@ -107,7 +107,7 @@ double anneal_flips(const Ground *ground, Board *board, int8_t *best_cells, uint
     memcpy(best_cells, cells.at, bytes);
     int64_t known[3]; /* stalls, time and unused squares, as in the board's tally */
     memcpy(known, board->tally.at, sizeof known);
-    double cooling = pow(coldest / hottest, 1.0 / (double)most(1, flips)), heat = hottest;
+    double cooling = same_pow(coldest / hottest, 1.0 / (double)most(1, flips)), heat = hottest;
     int64_t wholes = 0;
     bool changed = false;
     for (int64_t trial = 0; trial < flips; trial++) {
@@ -144,7 +144,7 @@ double anneal_flips(const Ground *ground, Board *board, int8_t *best_cells, uint
                 AT(weights, 1) * (double)(known[TIME] + change[TIME]) / (double)(known[STALLS] + change[STALLS]);
             double gain =
                 AT(weights, 0) * (double)change[STALLS] + AT(weights, 2) * (double)change[UNUSED] + after - before;
-            double lot = uniform(random), threshold = heat * log(lot > 1e-300 ? lot : 1e-300);
+            double lot = uniform(random), threshold = heat * same_log(lot > 1e-300 ? lot : 1e-300);
             if (gain >= threshold) {
                 /* joined still? */
                 bool sure = !(step != 0 && AT(cells, q) == FREE && AT(cells, p) == FREE), held = true;

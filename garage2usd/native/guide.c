@@ -58,7 +58,7 @@ static double distance_to(const Spot *shape, int64_t count, double x, double z)
         double along_x = to.x - from.x, along_z = to.z - from.z, square = along_x * along_x + along_z * along_z;
         double part = square > 0 ? ((x - from.x) * along_x + (z - from.z) * along_z) / square : 0;
         part = lesser(greater(part, 0), 1);
-        least = lesser(least, hypot(x - from.x - part * along_x, z - from.z - part * along_z));
+        least = lesser(least, same_hypot(x - from.x - part * along_x, z - from.z - part * along_z));
         double side = along_x * (z - from.z) - along_z * (x - from.x);
         if (square > 0) {
             is_left = is_left && side >= 0;

@@ -286,7 +286,7 @@ static bool try_move(const Ground *ground, Board *board, TrialMove *move, const 
 static double threshold_at(double heat, uint64_t *random)
 {
     double draw = uniform(random);
-    return heat * log(draw > 1e-300 ? draw : 1e-300);
+    return heat * same_log(draw > 1e-300 ? draw : 1e-300);
 }
 
 /* Give a line along which no car drives another side, if that pays. */
@@ -337,9 +337,9 @@ double anneal_labels(const Ground *ground, Board *board, TrialMove *move, const 
     int64_t best_faults = 0;
     copy_cells(&room->cells, &board->cells);
     copy_sides(&room->kept_mm, &sizes->kept_mm);
-    double cooling = pow(heats[1] / heats[0], share), heat = heats[0];
-    double pricing = pow(prices[1] / prices[0], share), price = prices[0];
-    double stretch_pricing = pow(prices[3] / prices[2], share), stretch_price = prices[2];
+    double cooling = same_pow(heats[1] / heats[0], share), heat = heats[0];
+    double pricing = same_pow(prices[1] / prices[0], share), price = prices[0];
+    double stretch_pricing = same_pow(prices[3] / prices[2], share), stretch_price = prices[2];
     double faulty_share = FAULTY_SHARE;
     bool sized = is_sized(sizes), changed = true;
     if (sized) {

@@ -11,7 +11,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "arrays.h"
+#include "elementary.h"
 
 /* The paper's matrix S, and a square outside of every distance. */
 enum { OBSTACLE = -1, FREE = 0, LANE = 1, ENTRANCE = 2, EXIT = 3 };

@@ -25,7 +25,7 @@ typedef struct {
     bool is_backwards;
 } Words;
 
-static Polar polar(double x, double y) { return (Polar){sqrt(x * x + y * y), atan2(y, x)}; }
+static Polar polar(double x, double y) { return (Polar){sqrt(x * x + y * y), same_atan2(y, x)}; }
 
 /* An angle between half a turn to the right and half a turn to the left. */
 static double within_half(double angle)
@@ -62,7 +62,7 @@ static void add_with_straight(Words *found, Aim to)
     Polar two = polar(to.x + to.sine, to.y - 1 - to.cosine);
     if (two.length >= 2) {
         double straight = sqrt(two.length * two.length - 4);
-        double first = within_half(two.angle + atan2(2, straight));
+        double first = within_half(two.angle + same_atan2(2, straight));
         last = within_half(first - to.phi);
         if (first >= -LEAST && last >= -LEAST)
             add(found, 3, other, (double[]){first, straight, last});
@@ -76,7 +76,7 @@ static void add_three_arcs(Words *found, Aim to)
     Polar at = polar(to.x - to.sine, to.y - 1 + to.cosine);
     if (at.length > 4)
         return;
-    double middle = -2 * asin(at.length / 4);
+    double middle = -2 * same_asin(at.length / 4);
     double first = within_half(at.angle + middle / 2 + TAU / 2);
     if (first >= -LEAST)
         add(found, 3, letters, (double[]){first, middle, within_half(to.phi - first + middle)});
@@ -86,9 +86,10 @@ static void add_three_arcs(Words *found, Aim to)
 static void outer_arcs(double u, double v, double xi, double eta, double phi, double *first, double *last)
 {
     double delta = within_half(u - v);
-    double a = sin(u) - sin(delta), b = cos(u) - cos(delta) - 1;
-    double angle = atan2(eta * a - xi * b, xi * a + eta * b);
-    double turns = 2 * (cos(delta) - cos(v) - cos(u)) + 3;
+    Heading at_u = heading_of(u), at_delta = heading_of(delta);
+    double a = at_u.sine - at_delta.sine, b = at_u.cosine - at_delta.cosine - 1;
+    double angle = same_atan2(eta * a - xi * b, xi * a + eta * b);
+    double turns = 2 * (at_delta.cosine - same_cos(v) - at_u.cosine) + 3;
     *first = within_half(turns < 0 ? angle + TAU / 2 : angle);
     *last = within_half(*first - u + v - phi);
 }
@@ -100,14 +101,14 @@ static void add_four_arcs(Words *found, Aim to)
     double xi = to.x + to.sine, eta = to.y - 1 - to.cosine, square = xi * xi + eta * eta, first, last;
     double rho = (2 + sqrt(square)) / 4;
     if (rho <= 1) {
-        double u = acos(rho);
+        double u = same_acos(rho);
         outer_arcs(u, -u, xi, eta, to.phi, &first, &last);
         if (first >= -LEAST && last <= LEAST)
             add(found, 4, letters, (double[]){first, u, -u, last});
     }
     rho = (20 - square) / 16;
     if (rho >= 0 && rho <= 1) {
-        double u = -acos(rho);
+        double u = -same_acos(rho);
         outer_arcs(u, u, xi, eta, to.phi, &first, &last);
         if (first >= -LEAST && last >= -LEAST)
             add(found, 4, letters, (double[]){first, u, u, last});
@@ -121,7 +122,7 @@ static void add_quarter(Words *found, Aim to)
     Polar one = polar(to.x - to.sine, to.y - 1 + to.cosine);
     if (one.length >= 2) {
         double straight = sqrt(one.length * one.length - 4);
-        double first = within_half(one.angle + atan2(straight, -2));
+        double first = within_half(one.angle + same_atan2(straight, -2));
         double last = within_half(to.phi - QUARTER - first);
         if (first >= -LEAST && straight >= 2 - LEAST && last <= LEAST)
             add(found, 4, same, (double[]){first, -QUARTER, 2 - straight, last});
@@ -146,7 +147,7 @@ static void add_two_quarters(Words *found, Aim to)
     double straight = 4 - sqrt(square - 4);
     if (straight > LEAST)
         return;
-    double first = within_half(atan2((4 - straight) * xi - 2 * eta, -2 * xi + (straight - 4) * eta));
+    double first = within_half(same_atan2((4 - straight) * xi - 2 * eta, -2 * xi + (straight - 4) * eta));
     double last = within_half(first - to.phi);
     if (first >= -LEAST && last >= -LEAST)
         add(found, 5, letters, (double[]){first, -QUARTER, straight, -QUARTER, last});
@@ -155,16 +156,16 @@ static void add_two_quarters(Words *found, Aim to)
 /* Write all words between two poses; returns how many they are, at most MOST_WORDS. */
 int64_t reeds_shepp(Pose from, Pose to, double radius, Word *words)
 {
-    double sine = sin(from.yaw), cosine = cos(from.yaw), x = to.x - from.x, z = to.z - from.z;
-    double ahead = -(sine * x + cosine * z) / radius, left = (sine * z - cosine * x) / radius;
-    double phi = remainder(to.yaw - from.yaw, TAU), along = cos(phi), across = sin(phi);
+    Heading start = heading_of(from.yaw), turned_by = heading_of(remainder(to.yaw - from.yaw, TAU));
+    double x = to.x - from.x, z = to.z - from.z;
+    double ahead = -(start.sine * x + start.cosine * z) / radius, left = (start.sine * z - start.cosine * x) / radius;
     Words found = {.words = words};
     for (int symmetry = 0; symmetry < 4; symmetry++) {
         bool is_reverse = symmetry & 1, is_mirrored = symmetry & 2;
         found.gear = is_reverse ? -1 : 1;
         found.side = is_mirrored ? -1 : 1;
         double turned = found.gear * found.side;
-        Aim aim = {ahead * found.gear, left * found.side, phi * turned, across * turned, along};
+        Aim aim = {ahead * found.gear, left * found.side, turned_by.yaw * turned, turned_by.sine * turned, turned_by.cosine};
         found.is_backwards = false;
         add_with_straight(&found, aim);
         add_three_arcs(&found, aim);

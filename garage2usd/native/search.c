@@ -125,7 +125,7 @@ static double left_of_way(const Node *at, const DoubleTable *goals, double radiu
         const double *goal = goals->at + number * 5;
         double beside = greater(greater(goal[1] - at->x, 0.0), at->x - goal[3]);
         double before = greater(greater(goal[2] - at->z, 0.0), at->z - goal[4]);
-        least = lesser(least, greater(radius * turn_to(goal, at->yaw, turn), hypot(beside, before)));
+        least = lesser(least, greater(radius * turn_to(goal, at->yaw, turn), same_hypot(beside, before)));
     }
     return least;
 }
@@ -348,20 +348,21 @@ static double cost_of(const Word *word, int gear, int steering, int64_t *changes
 /* The poses on a goal to aim at from a place: beside it, and some way on along the goal and back. */
 static int aims_on(const double *goal, const Pose *at, double turn, double radius, Pose *aims)
 {
-    double yaw = goal[0] * turn, low[2] = {goal[1], goal[2]}, high[2] = {goal[3], goal[4]};
+    Heading heading = heading_of(goal[0] * turn);
+    double low[2] = {goal[1], goal[2]}, high[2] = {goal[3], goal[4]};
     for (int axis = 0; axis < 2; axis++)
         if (high[axis] - low[axis] < SAME_AIM_M)
             low[axis] = high[axis] = (low[axis] + high[axis]) / 2;
     int count = 0;
     for (int along = 0; along < 3; along++) {
         double ahead = (along == 0 ? 0 : along == 1 ? AHEAD : -AHEAD) * radius;
-        double x = lesser(greater(at->x - sin(yaw) * ahead, low[0]), high[0]);
-        double z = lesser(greater(at->z - cos(yaw) * ahead, low[1]), high[1]);
+        double x = lesser(greater(at->x - heading.sine * ahead, low[0]), high[0]);
+        double z = lesser(greater(at->z - heading.cosine * ahead, low[1]), high[1]);
         bool is_new = true;
         for (int other = 0; other < count; other++)
-            is_new = is_new && hypot(aims[other].x - x, aims[other].z - z) >= SAME_AIM_M;
+            is_new = is_new && same_hypot(aims[other].x - x, aims[other].z - z) >= SAME_AIM_M;
         if (is_new)
-            aims[count++] = (Pose){x, z, yaw};
+            aims[count++] = (Pose){x, z, heading.yaw};
     }
     return count;
 }
@@ -490,7 +491,7 @@ int64_t find_steps(const Task *task, int64_t *touched, int64_t *places, double *
         size *= 2;
     Room room = {.mask = size - 1, .cell_m = CELL_PER_STEP * task->straight_m, .turn = TAU / task->headings};
     const double *body = task->scene.body.at;
-    room.body_reach = hypot(greater(body[0], body[1]), body[2]);
+    room.body_reach = same_hypot(greater(body[0], body[1]), body[2]);
     room.nodes = malloc(sizeof(Node) * (size_t)task->max_nodes);
     room.open = malloc(sizeof(Open) * (size_t)task->max_nodes);
     room.slots = calloc((size_t)size, sizeof(int32_t));

@@ -37,8 +37,8 @@ Box box_around(const Hull *hull, double reach)
 /* How far the way of any point of the body lies off its chord, at most, on an arc of the rear axle's middle. */
 double bulge(double radius, double turn, const double *body)
 {
-    double reach = hypot(radius + body[2], greater(body[0], body[1]));
-    return reach * (1.0 - cos(turn / 2));
+    double reach = same_hypot(radius + body[2], greater(body[0], body[1]));
+    return reach * (1.0 - same_cos(turn / 2));
 }
 
 /* Least and most of some corners along an axis. */
@@ -63,7 +63,7 @@ static Spot between(const Spot *corners, int64_t one, int64_t other)
 static Axis across(const Hull *hull, Spot edge)
 {
     Axis axis = {.has_length = false};
-    double length = hypot(edge.x, edge.z);
+    double length = same_hypot(edge.x, edge.z);
     if (length < SHORTEST)
         return axis;
     axis.has_length = true;

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from garage2usd.common.progress import Progress, silent
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import Agent, CirculationMode, DeadEnds, SarsaParameters
+from garage2usd.native import elementary
 from garage2usd.planning import aisles
 from garage2usd.planning.archive import new_archive, next_random, ranked_lanes
 from garage2usd.planning.board import Board, new_board
@@ -160,7 +161,7 @@ def _school(ground: Ground, parameters: SarsaParameters, random: NDArray[np.uint
 
 def _schedule(episodes: int, *, epsilon: tuple[float, float], alpha: tuple[float, float]) -> NDArray[np.float64]:
     """Schedule of epsilon and alpha: each first value and its factor after an episode; 0 stays 0."""
-    factors = [(last / first) ** (1 / episodes) if first > 0 else 1.0 for first, last in (epsilon, alpha)]
+    factors = [elementary.power(last / first, 1 / episodes) if first > 0 else 1.0 for first, last in (epsilon, alpha)]
     return np.array([epsilon[0], factors[0], alpha[0], factors[1]])
 
 

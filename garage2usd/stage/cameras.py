@@ -11,6 +11,7 @@ from pxr import Gf, Sdf
 
 from garage2usd.garage import LaneGraph, LaneKind
 from garage2usd.layout import Layout
+from garage2usd.native import elementary
 from garage2usd.stage.authoring import attribute, define, new_layer, operation, order_operations
 from garage2usd.stage.bounds import world_bounds_m
 
@@ -77,7 +78,7 @@ def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, *, own: str
     entrance = layout.lane_graph.portals(LaneKind.ENTRANCE)[0]
     x, z = layout.lane_graph.nodes[entrance].position
     lane_x, lane_z = layout.lane_graph.nodes[min(layout.lane_graph.onward[entrance])].position
-    yaw = math.degrees(math.atan2(x - lane_x, z - lane_z))
+    yaw = math.degrees(elementary.arctan2(x - lane_x, z - lane_z))
     _fixed(_camera(layer, path.AppendChild("Inside")), (x, EYE_M, z), yaw_deg=yaw)
 
     low, high = world_bounds_m(layout.placements, layout.placements.rows_of(*_SHELL))
@@ -121,7 +122,7 @@ def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> 
     yaw, yaws_deg = 0.0, []
     for (x, z), (ahead_x, ahead_z) in zip(here, ahead, strict=True):
         if math.hypot(ahead_x - x, ahead_z - z) > 1e-3:  # noqa: PLR2004 - at the end it looks on as before
-            target = math.degrees(math.atan2(x - ahead_x, z - ahead_z))
+            target = math.degrees(elementary.arctan2(x - ahead_x, z - ahead_z))
             yaw += math.remainder(target - yaw, 360.0)
         yaws_deg.append(yaw)
     turns.default = yaws_deg[0]

@@ -71,7 +71,7 @@ FAULTS = [
     ),
     Fault("longitude before latitude", "osm_file", "always_xy=True", "always_xy=False"),
     Fault("mirrored y", "frame", "(1.0, -1.0)", "(1.0, 1.0)"),
-    Fault("degrees of a tenth of a metre", "osm_file", "_DEGREE_DIGITS = 13", "_DEGREE_DIGITS = 6"),
+    Fault("degrees of a tenth of a metre", "osm_file", "_DEGREE_DIGITS = 11", "_DEGREE_DIGITS = 6"),
     Fault("heights left out", "osm_file", 'k="ele" v="{number_text(z)}"', 'k="ele" v="0"'),
     Fault("bends cut", "lane_bounds", "_SAG_M = 1e-3", "_SAG_M = 1e-2"),
     Fault("tapers cut", "lane_bounds", "+ 2 * bend * slope + eased", "* (bend > 0)"),

@@ -9,12 +9,18 @@ from pathlib import Path
 import numpy as np
 
 from garage2usd.config import BayConfig, PlanConfig, SiteConfig
+from garage2usd.driving.car import Pose
 from garage2usd.driving.search import Task, reeds_shepp_words, search
 from garage2usd.driving.sweep import Scene
-from garage2usd.native import using
+from garage2usd.driving.turns import Steering, joining_pieces
+from garage2usd.native import elementary, using
 from garage2usd.planning import find_optimum, plan_lanes
 from garage2usd.site import make_site
 
+NUMBERS = np.array(
+    [0.0, -0.0, 5e-324, -1e-310, 1e-9, 0.5, -0.97, 1.0, 3.3, -710.0, 1e6, -1e17, 1e300, np.inf, -np.inf, np.nan]
+)
+"""Corners of the elementary functions: conversions to integers, shifts and exponents that could overflow."""
 RIGHT_ANGLED = {"dimensioned": False}
 CASES = (
     (7, 6, {}, {}),  # over squares, climb, annealing with sides
@@ -43,6 +49,12 @@ def plan_and_drive():
     for is_guided in (False, True):
         search(task._replace(is_guided=is_guided), np.zeros(1, np.int64))
     reeds_shepp_words(np.zeros(3), np.array([3.0, -8.0, 1.0]), 4.5)
+    for name in ("sin", "cos", "tan", "arcsin", "arccos", "arctan", "exp", "log"):
+        getattr(elementary, name)(NUMBERS)
+    elementary.power(np.abs(NUMBERS), NUMBERS)
+    elementary.arctan2(NUMBERS[:, None], NUMBERS)
+    elementary.turned(NUMBERS)
+    list(joining_pieces(Pose(0.0, 0.0, 0.3), Pose(4.0, -19.0, 0.2), Steering(0.2, 0.1)))
 
 
 if __name__ == "__main__":

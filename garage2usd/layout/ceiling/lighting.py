@@ -10,6 +10,7 @@ from garage2usd.config import FittingsConfig
 from garage2usd.layout.nearness import Points
 from garage2usd.layout.placement import PlacedStall, Placement, of_spec
 from garage2usd.layout.tiles import TileGrid
+from garage2usd.native import elementary
 from garage2usd.objects.lamp import LampSpec
 from garage2usd.structure.grid import Cell
 
@@ -134,7 +135,7 @@ def _pieces(lamps: Sequence[Placement]) -> tuple[NDArray[np.float64], NDArray[np
         x, y, z = lamp.position_m
         for index in range(_SEGMENTS):
             along = ((index + 0.5) / _SEGMENTS - 0.5) * spec.length_m
-            middles.append((x + along * np.cos(lamp.yaw_rad), z - along * np.sin(lamp.yaw_rad)))
+            middles.append((x + along * elementary.cos(lamp.yaw_rad), z - along * elementary.sin(lamp.yaw_rad)))
             areas.append(spec.area_m2 / _SEGMENTS)
             heights.append(y - spec.drop_m)
     return np.array(middles), np.array(areas), np.array(heights)

@@ -10,6 +10,7 @@ from garage2usd.config import GarageConfig
 from garage2usd.layout.egress.compartments import compartments_of
 from garage2usd.layout.egress.cores import Core, core_candidates, obstacle_cores
 from garage2usd.layout.placement import box_inside
+from garage2usd.native import elementary
 from garage2usd.profiles import Length
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneSquares, Square
@@ -139,8 +140,7 @@ def _snapped(places: _Places, centres: Points) -> list[int]:
 
 def _distances(points: Points, others: Points) -> Points:
     off = points[:, None] - others[None]
-    distances: Points = np.hypot(off[..., 0], off[..., 1])
-    return distances
+    return elementary.hypot(off[..., 0], off[..., 1])
 
 
 def _reach_m(clause: Length | None) -> float:

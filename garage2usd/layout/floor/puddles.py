@@ -7,6 +7,7 @@ from garage2usd.common.randomness import Step
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.placement import Placement, of_spec, placed, to_world
 from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.native import elementary
 from garage2usd.objects.drain import DrainSpec
 from garage2usd.objects.floor_stain import PuddleSpec
 from garage2usd.structure.grid import Cell
@@ -61,7 +62,9 @@ def puddles(
     def dryness(tile: Tile) -> float:
         """The least ones of all squares are a sample by weight."""
         is_low = tile.square in drain_on or _is_before_ramp(tile, grid)
-        return -math.log(max(1.0 - float(numbers[tile.square][0]), _LEAST_DRAW)) / (_LOW_WEIGHT if is_low else 1.0)
+        return -elementary.log(max(1.0 - float(numbers[tile.square][0]), _LEAST_DRAW)) / (
+            _LOW_WEIGHT if is_low else 1.0
+        )
 
     count = round(wet * len(lanes))
     wettest = {tile.square for tile in sorted(lanes, key=dryness)[:count]}

@@ -1,6 +1,5 @@
 """Parked cars that are models of one's own, in the places of cars of the catalogue."""
 
-import math
 from dataclasses import replace
 
 from garage2usd.common.randomness import Step
@@ -9,6 +8,7 @@ from garage2usd.config.vehicles import PAINTS, CarBody
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.parking.parked_cars import ParkedCars
 from garage2usd.layout.placement import PlacedStall, Placement, rounded
+from garage2usd.native import elementary
 from garage2usd.objects.car import CarSpec, car_spec
 
 __all__ = ["with_own_cars"]
@@ -54,10 +54,10 @@ def with_own_cars(
 def _in_place_of(car: Placement, spec: CarSpec, model: OwnCar, stall: PlacedStall) -> Placement | None:
     """The car as a model, moved so that it is within its stall; None where the stall is too small."""
     turn = car.yaw_rad - stall.yaw_rad
-    is_reversed = math.cos(turn) < 0
+    is_reversed = elementary.cos(turn) < 0
     # the place around the stall's middle, the mouth at +Z
     dx, dz = car.position_m[0] - stall.centre_m[0], car.position_m[2] - stall.centre_m[1]
-    cos, sin = math.cos(stall.yaw_rad), math.sin(stall.yaw_rad)
+    cos, sin = elementary.cos(stall.yaw_rad), elementary.sin(stall.yaw_rad)
     x, z = dx * cos - dz * sin, dx * sin + dz * cos
     half_x, half_z = model.half_extents_m(turn)
     side = stall.width_m / 2 - _CLEARANCE_M - half_x

@@ -20,6 +20,7 @@ from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.parking.fleet import Fleet
 from garage2usd.layout.parking.stalls import WHEEL_STOP_FROM_REAR_M
 from garage2usd.layout.placement import PlacedStall, Placement, StallUse
+from garage2usd.native import elementary
 from garage2usd.objects.car import CarSpec
 from garage2usd.objects.wheel_stop import WHEEL_STOP_HEIGHT_M, WHEEL_STOP_WIDTH_M
 from garage2usd.structure.lane_graph import Square
@@ -269,7 +270,7 @@ def _car(
     # width' <= width + length |sin yaw| and length' <= length + width |sin yaw|
     side_room, end_room = stall.width_m - 2 * _END_CLEARANCE_M - body.overall_width_m, room_m - body.length_m
     sin = max(min((side_room + _GAP_M) / body.length_m, end_room / body.overall_width_m), 0.0)
-    most = min(math.radians(parking.max_yaw_deg), math.asin(min(sin, 1.0)))
+    most = min(math.radians(parking.max_yaw_deg), elementary.arcsin(min(sin, 1.0)))
     yaw = _cut_normal(yaw_share, math.radians(parking.yaw_spread_deg), -most, most)
     turned, angle, dust, lamps = state
     steer_deg = _STEER_DEG[int(angle * len(_STEER_DEG))] if turned < parking.turned_wheels else 0.0
@@ -295,7 +296,7 @@ def _rows(stalls: Iterable[PlacedStall]) -> list[list[PlacedStall]]:
     for stall in stalls:
         of_side.setdefault((stall.square, stall.edge), []).append(stall)
     for group in of_side.values():
-        cos, sin = math.cos(group[0].yaw_rad), -math.sin(group[0].yaw_rad)
+        cos, sin = elementary.cos(group[0].yaw_rad), -elementary.sin(group[0].yaw_rad)
         along = sorted(group, key=lambda stall: stall.centre_m[0] * cos + stall.centre_m[1] * sin)
         row = [along[0]]
         for stall in along[1:]:
@@ -350,7 +351,7 @@ def _slant(car: _Car, share: float, towards: int) -> float:
     """The yaw of a car that stands aslant, as far as the length of its stall leaves room for."""
     room_m = max(car.room_m - car.body.length_m, 0.0) / car.body.overall_width_m
     low, high = map(math.radians, _SLANT_DEG)
-    return math.copysign(min(low + share * (high - low), math.asin(min(room_m, 1.0))), towards)
+    return math.copysign(min(low + share * (high - low), elementary.arcsin(min(room_m, 1.0))), towards)
 
 
 def _occupancy(stalls: tuple[PlacedStall, ...], parking: ParkingConfig) -> dict[str, bool]:

@@ -79,7 +79,6 @@ def with_turning_stalls(
     """
     if not ends:
         return stalls
-    from scipy.spatial import KDTree  # noqa: PLC0415 - few garages have such ends, all wait for imports
 
     def is_straight_on(stall: PlacedStall) -> bool:
         return grid.tiles[stall.access_square].drivable[stall.edge]
@@ -88,15 +87,17 @@ def with_turning_stalls(
     opening_on: dict[Square, list[int]] = {}
     for index, stall in enumerate(stalls):
         opening_on.setdefault(stall.access_square, []).append(index)
-    places = KDTree([stall.centre_m for stall in stalls])
+    places_m = np.array([stall.centre_m for stall in stalls])
     for end in ends:
         tile = grid.tiles[end.tip]
-        _, nearest = places.query((tile.x_m, tile.z_m), k=min(len(stalls), _NEAR_STALLS))
+        # rounded, so that of two as near the first is taken on every machine
+        apart_m2 = ((places_m - (tile.x_m, tile.z_m)) ** 2).sum(axis=1).round(6)
+        nearest = np.argsort(apart_m2, kind="stable")[:_NEAR_STALLS]
         own = (index for square in end.squares for index in opening_on.get(square, ()))
         back = {square: squares_back for squares_back, square in enumerate(end.squares)}
         # a stable sort: the nearest first among those that open onto the same lane
         for index in sorted(
-            dict.fromkeys((*np.atleast_1d(nearest).tolist(), *own)),
+            dict.fromkeys((*nearest.tolist(), *own)),
             key=lambda index: (
                 stalls[index].access_square not in back,
                 is_straight_on(stalls[index]),
