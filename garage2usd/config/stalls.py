@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 
 from garage2usd.common.settings import Settings
 from garage2usd.config.site import SquareIndex
-from garage2usd.garage import StallKind
+from garage2usd.garage.kinds import StallKind
 
 __all__ = ["GivenRun", "SizeClass", "StallsConfig"]
 

@@ -2,53 +2,21 @@
 
 import math
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from functools import cached_property
 from typing import NamedTuple
 
 import shapely
 
+from garage2usd.garage.kinds import StallKind, StallUse
 from garage2usd.garage.lanes import Point
 from garage2usd.native import elementary
 
-__all__ = ["Fault", "Stall", "StallKind", "StallUse"]
+__all__ = ["Fault", "Stall"]
 
 _SQUARE_DEG = 1.0
 """Tolerance in degrees for a stall whose sides are perpendicular to its mouth."""
 _LEAST_SKEW = 1e-4
 _YAW_DIGITS = 5
-
-
-class StallUse(StrEnum):
-    """Use of a stall."""
-
-    STANDARD = "standard"
-    TURNING = "turning"
-    """Turning bay, kept free at the end of a long dead-end aisle."""
-    EV = "ev"
-    """Stall with a charger for electric cars."""
-    ACCESSIBLE = "accessible"
-    """Stall for people with a disability, beside an access aisle."""
-    ACCESS_AISLE = "access_aisle"
-    """Hatched access aisle for wheelchairs, kept free beside accessible stalls."""
-    UNREACHABLE = "unreachable"
-    """Hatched stall, kept free because cars cannot drive into it and out of it."""
-
-    @property
-    def takes_cars(self) -> bool:
-        """True if cars park in a stall of this use."""
-        return self not in {StallUse.TURNING, StallUse.ACCESS_AISLE, StallUse.UNREACHABLE}
-
-
-class StallKind(StrEnum):
-    """Orientation of a stall relative to its lane."""
-
-    PERPENDICULAR = "perpendicular"
-    """Perpendicular to the lane, and at least as long as wide."""
-    PARALLEL = "parallel"
-    """Parallel to the lane: square to its mouth, and wider than long."""
-    ANGLED = "angled"
-    """At an angle to the lane: its sides are not square to its mouth."""
 
 
 class Fault(NamedTuple):

@@ -1,4 +1,4 @@
-"""Whether cars get through: the clear width of lanes and doors."""
+"""Clear width of lanes and vehicle doors, checked against a minimum."""
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.layout.tiles import Tile, TileGrid
@@ -6,17 +6,17 @@ from garage2usd.layout.tiles import Tile, TileGrid
 __all__ = ["check_carriageways", "check_clear_width"]
 
 _LEAST_M = 2.5
-"""Clear width that a lane and an open door leave at least: a van over its mirrors, and 0.2 m on both sides."""
+"""Least clear width of a lane and an open door: a van including mirrors, and 0.2 m on both sides."""
 _ROUNDING_M = 1e-6
 
 
 def check_carriageways(grid: TileGrid) -> None:
-    """Refuse lanes and portals on which the carriageway is too narrow.
+    """Check the width of the carriageway on all lane and portal squares.
 
     Raises
     ------
     ConfigError
-        If one leaves less than 2.5 m along a way that cars take over it.
+        If the clear width of a carriageway is less than 2.5 m.
     """
     for tile in grid:
         up, down, left, right = tile.drivable
@@ -29,21 +29,21 @@ def check_carriageways(grid: TileGrid) -> None:
 
 
 def check_clear_width(tile: Tile, clear_m: float, *, along_x: bool) -> None:
-    """Refuse a square that leaves cars too little width.
+    """Check the clear width of a square.
 
     Parameters
     ----------
     tile
-        The square.
+        Square of the garage.
     clear_m
-        What it leaves.
+        Clear width, metres.
     along_x
-        Whether that is measured along X.
+        True if the width is measured along X, False along Z.
 
     Raises
     ------
     ConfigError
-        If it is less than 2.5 m.
+        If the width is less than 2.5 m.
     """
     if clear_m >= _LEAST_M - _ROUNDING_M:
         return

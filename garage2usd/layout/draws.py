@@ -1,4 +1,4 @@
-"""Random numbers for what stands on squares, which in a large garage share them."""
+"""Random numbers for each square, shared between squares of a large garage."""
 
 from collections.abc import Iterable
 
@@ -12,17 +12,17 @@ __all__ = ["SquareDraws"]
 
 
 class SquareDraws:
-    """Random numbers for each square of a garage.
+    """Random numbers for each square of a garage, by random step.
 
     Parameters
     ----------
     squares
         All squares, in reading order.
     seed
-        The garage's seed.
+        Seed of the garage.
     arrangements
-        How many different draws the squares share, the same for every step, so that equal squares with the same one
-        hold equal things; None where each square has draws of its own.
+        Number of different arrangements that the squares share, for all steps: equal squares with the same arrangement
+        have equal objects. None for independent numbers of each square.
     """
 
     def __init__(self, squares: Iterable[Square], *, seed: int, arrangements: int | None = None) -> None:
@@ -35,12 +35,13 @@ class SquareDraws:
             self._count = arrangements
 
     def of_step(self, step: Step, *shape: int) -> dict[Square, NDArray[np.float64]]:
-        """Uniform numbers from 0 to 1 of a shape for each square; the same for each call with the same step."""
-        return self._shared(generator(self._seed, step).random((self._count, *shape)))
+        """Return an array of uniform numbers from 0 to 1 for each square, deterministic by step."""
+        return self._by_square(generator(self._seed, step).random((self._count, *shape)))
 
     def of_part(self, step: Step, name: str, *shape: int) -> dict[Square, NDArray[np.float64]]:
-        """The same for a part of a step that has a name."""
-        return self._shared(named_generator(self._seed, step, name).random((self._count, *shape)))
+        """Return an array of uniform numbers from 0 to 1 for each square, deterministic by step and name."""
+        return self._by_square(named_generator(self._seed, step, name).random((self._count, *shape)))
 
-    def _shared(self, numbers: NDArray[np.float64]) -> dict[Square, NDArray[np.float64]]:
+    def _by_square(self, numbers: NDArray[np.float64]) -> dict[Square, NDArray[np.float64]]:
+        """Distribute the rows of an array to the squares."""
         return {square: numbers[row] for square, row in self._rows.items()}

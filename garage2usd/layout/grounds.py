@@ -1,4 +1,4 @@
-"""Outlines as polygons, made all at once: one by one they take most of the time of what asks for them."""
+"""Vectorized conversion of floor outlines to shapely polygons and convex hulls."""
 
 from collections.abc import Sequence
 
@@ -13,7 +13,7 @@ Grounds = NDArray[np.object_]
 
 
 def grounds_of(outlines: Sequence[ArrayLike] | NDArray[np.float64]) -> Grounds:
-    """The polygons of outlines, each of shape (corners, 2) with at least three corners."""
+    """Convert outlines, each of shape (corners, 2) with at least three corners, to polygons."""
     if not len(outlines):
         return np.empty(0, dtype=object)
     corners = [np.asarray(outline, dtype=np.float64) for outline in outlines]
@@ -22,7 +22,10 @@ def grounds_of(outlines: Sequence[ArrayLike] | NDArray[np.float64]) -> Grounds:
 
 
 def grounds_of_corners(corners: NDArray[np.float64], owner: NDArray[np.int64]) -> Grounds:
-    """The polygons of corners, shape (n, 2), each of the polygon with a number, which ascend from 0 on without gaps."""
+    """Convert corners, shape (n, 2), to polygons.
+
+    `owner` is the index of each corner's polygon: ascending from 0, without gaps, shape (n,).
+    """
     if not len(corners):
         return np.empty(0, dtype=object)
     grounds: Grounds = shapely.polygons(shapely.linearrings(corners, indices=owner))
@@ -30,7 +33,10 @@ def grounds_of_corners(corners: NDArray[np.float64], owner: NDArray[np.int64]) -
 
 
 def hulls_of(outlines: Sequence[ArrayLike]) -> Grounds:
-    """The convex hulls of some points each, of shape (points, 2) with at least one point: polygons, lines or points."""
+    """Compute the convex hulls of point sets, each of shape (points, 2) with at least one point.
+
+    Hulls are polygons, lines or points.
+    """
     if not len(outlines):
         return np.empty(0, dtype=object)
     points = [np.asarray(outline, dtype=np.float64) for outline in outlines]
@@ -38,10 +44,13 @@ def hulls_of(outlines: Sequence[ArrayLike]) -> Grounds:
 
 
 def hulls_around(points: NDArray[np.float64], counts: NDArray[np.int64]) -> Grounds:
-    """The same for points one after the other, shape (n, 2); `counts` says how many, one or more, each hull holds."""
+    """Compute the convex hulls of concatenated point sets, shape (n, 2).
+
+    `counts` is the number of points of each set, at least 1, shape (hulls,).
+    """
     if not len(counts):
         return np.empty(0, dtype=object)
-    # as lines, which have at least two: several times as fast as to make each point a shape of its own
+    # lines, with at least two points each, are several times as fast as multipoints
     starts = np.cumsum(counts) - counts
     line = np.repeat(np.arange(len(counts)), counts + 1)
     hulls: Grounds = shapely.convex_hull(

@@ -1,4 +1,4 @@
-"""Signs in the words of a country."""
+"""Country of the signs: texts and colours of exit signs, hydrant cabinets and portals."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
@@ -15,13 +15,13 @@ __all__ = ["country_of", "with_signs_of"]
 
 
 def country_of(signs: SignsLook, profile: Profile) -> Country:
-    """Whose signs a garage has."""
+    """Return the country of a garage's signs, by its look and profile."""
     is_known = signs.of is SignsOf.PROFILE and profile.country in set(Country)
     return Country(profile.country) if is_known else Country.NONE
 
 
 def with_signs_of(country: Country, parts: Iterable[Iterable[Placement]]) -> Iterator[Iterable[Placement]]:
-    """The same objects with the words, colours and numbers of a country."""
+    """Set the country of all signs among the objects, for its texts, colours and numbers."""
     for part in parts:
         yield (
             replace(each, spec=replace(each.spec, country=country))

@@ -1,4 +1,4 @@
-"""All objects of a garage in columns, so that a million of them stay light and quick to go through."""
+"""Column tables of the objects of a garage, compact and fast for a million objects."""
 
 from abc import abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
@@ -17,11 +17,11 @@ _ROWS = {kind.name: row for row, kind in enumerate(KINDS)}
 
 
 class Table(Sequence[_Entry]):
-    """A sequence whose entries are kept in columns and made when they are asked for."""
+    """Sequence with column storage; entries are created on access."""
 
     @abstractmethod
     def at(self, rows: NDArray[np.intp]) -> list[_Entry]:
-        """The entries in some rows."""
+        """Return the entries in some rows."""
 
     @overload
     def __getitem__(self, index: int) -> _Entry: ...
@@ -30,42 +30,42 @@ class Table(Sequence[_Entry]):
     def __getitem__(self, index: slice) -> list[_Entry]: ...
 
     def __getitem__(self, index: int | slice) -> _Entry | list[_Entry]:
-        """One entry, or those of a slice."""
+        """Return one entry, or the list of entries of a slice."""
         if isinstance(index, slice):
             return self.at(np.arange(len(self))[index])
         return self.at(np.array([range(len(self))[index]]))[0]
 
     def __iter__(self) -> Iterator[_Entry]:
-        """All entries in order."""
+        """Iterate over all entries in order."""
         return iter(self.at(np.arange(len(self))))
 
 
 class ObjectTable(Table[Placement]):
-    """The objects of a garage: a sequence of placements, and its columns as arrays.
+    """Objects of a garage as a sequence of `Placement`, stored as one array for each column.
 
     Attributes
     ----------
     specs
-        The different shapes.
+        Distinct shapes.
     names
-        The different names, as ASCII; shape (names,).
+        Distinct names, as ASCII; shape (names,).
     kind, spec, name
         Index of each object's kind in `garage2usd.objects.KINDS`, of its shape in `specs` and of its name in `names`;
         shape (n,).
     position_m
-        (x, y, z) of each; float64, shape (n, 3).
+        (x, y, z) of each object; float64, shape (n, 3).
     yaw_rad
-        Turn of each about +Y; float64, shape (n,).
+        Rotation of each object about +Y; float64, shape (n,).
     square
-        (row, col) of the tile of each, (-1, -1) for what belongs to the building; signed, shape (n, 2).
+        (row, col) of each object's tile, (-1, -1) for objects of the whole building; signed, shape (n, 2).
     ordinal
-        Number on its square of the stall that each belongs to, 0 for what belongs to none; signed, shape (n,).
+        Number of each object's stall on its square, 0 for objects without a stall; signed, shape (n,).
     """
 
     def __init__(self, parts: Iterable[Iterable[Placement]]) -> None:
-        """Take the columns out of placements, part by part, so that only one part's are there at a time.
+        """Collect the columns of placements part by part; only one part is in memory at a time.
 
-        What lies on squares comes first, square by square, and within one in the order of the parts.
+        Objects on squares come first, in the order of squares and of parts within a square.
         """
         specs: dict[Spec, int] = {}
         names: dict[str, int] = {}
@@ -79,11 +79,11 @@ class ObjectTable(Table[Placement]):
         self.specs, self.names = tuple(specs), np.array(list(names), dtype=np.bytes_)
 
     def __len__(self) -> int:
-        """Number of objects."""
+        """Return the number of objects."""
         return len(self.kind)
 
     def at(self, rows: NDArray[np.intp]) -> list[Placement]:
-        """The placements in some rows."""
+        """Return the placements in some rows."""
         columns = (self.name, self.spec, self.position_m, self.yaw_rad, self.square, self.ordinal)
         return [
             Placement(
@@ -100,12 +100,12 @@ class ObjectTable(Table[Placement]):
         ]
 
     def rows_of(self, *kinds: str) -> NDArray[np.intp]:
-        """Numbers of the rows that hold objects of some kinds, by their names.
+        """Return the row indices of all objects of some kinds, by the names of the kinds.
 
         Raises
         ------
         KeyError
-            If there is no such kind.
+            If a kind is unknown.
         """
         is_wanted = np.zeros(len(KINDS), np.bool_)
         is_wanted[[_ROWS[kind] for kind in kinds]] = True
@@ -113,14 +113,17 @@ class ObjectTable(Table[Placement]):
 
 
 def compact(numbers: NDArray[np.integer[Any]]) -> NDArray[np.signedinteger[Any]]:
-    """Numbers in the smallest signed type that holds them."""
+    """Convert non-negative numbers, or -1, to the smallest sufficient signed integer type."""
     return numbers.astype(np.min_scalar_type(-1 - int(numbers.max(initial=0))))
 
 
 def _columns(
     placements: Iterable[Placement], specs: dict[Spec, int], names: dict[str, int]
 ) -> tuple[NDArray[Any], ...]:
-    """Shape, name, position, turn, square and ordinal of placements as arrays; new shapes and names get a number."""
+    """Return shape, name, position, yaw, square and ordinal of placements as arrays.
+
+    New shapes are added to `specs` and new names to `names`, with their index.
+    """
     placements = list(placements)
     return (
         np.array([specs.setdefault(place.spec, len(specs)) for place in placements], dtype=np.int32),

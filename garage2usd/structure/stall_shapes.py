@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
-from garage2usd.garage import StallKind
+from garage2usd.garage.kinds import StallKind
 
 __all__ = ["PARALLEL_DEG", "PERPENDICULAR_DEG", "StallShape", "kind_of_angle", "slope_of_angle"]
 

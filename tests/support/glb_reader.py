@@ -327,6 +327,17 @@ def stalls_of(report):
         sin, cos = np.sin(stall["yaw_rad"]), np.cos(stall["yaw_rad"])
         across, along = np.array([cos, -sin]), np.array([sin, cos])
         corners = [stall["centre_m"] + a * half[0] * across + b * half[1] * along for a, b in CORNERS]
+        angle = stall.get("angle_rad", np.pi / 2)
+        if angle == 0:  # the mouth is on the left of the car
+            corners = [corners[3], corners[0], corners[1], corners[2]]
+        elif angle < np.pi / 2 - 1e-6:
+            # of which side the lane is on, the report tells by the square that the stall opens onto
+            (row, column), (to_row, to_column) = stall["square"], stall["access_square"]
+            lane = np.array([to_column - column, to_row - row])
+            slope = np.sign(lane @ across) / np.tan(angle)
+            rise = (half[1] + abs(slope) * half[0]) * along
+            ends = [stall["centre_m"] + a * half[0] * (across - slope * along) for a in (-1, 1)]
+            corners = [ends[0] + rise, ends[1] + rise, ends[1] - rise, ends[0] - rise]
         stalls[stall["name"]] = stall["number"], stall["use"], corners
     return stalls
 

@@ -1,1 +1,1 @@
-"""The ceiling: beams, lamps and their light, ducts and pipes, signs and mirrors."""
+"""Ceiling: beams, lamps and lighting, ducts, sprinkler pipes and cable trays, exit signs and mirrors."""

@@ -1,4 +1,4 @@
-"""What the ceiling consists of under its slab: the heights of the services, and the beams on the columns' lines."""
+"""Ceiling beams on the column lines, and the vertical layers of beams, cable trays, pipes and ducts."""
 
 import math
 from dataclasses import dataclass
@@ -42,25 +42,25 @@ _PIPE_LAYER_M = _GAP_M + 2 * PIPE_RADIUS_M
 _DUCT_LAYER_M = _GAP_M + DUCT_HEIGHT_M + 2 * _FLANGE_M + _DUCT_BAR_M
 _SIGN_TOP_M, _SIGN_BELOW_BEAM_M = 0.58, 0.18
 _CORNERS = {(0, 0): "DownRight", (0, 1): "DownLeft", (1, 0): "UpRight", (1, 1): "UpLeft"}
-"""Name of a corner as a tile has it, by the tile's place among the four around that corner."""
+"""Name of a corner as seen from a tile, by the tile's place among the four tiles around the corner."""
 
 
 @dataclass(frozen=True)
 class CeilingLevels:
-    """How far below the slab everything hangs; None for what finds no room over the clear height.
+    """Distances of beams, services and exit signs below the ceiling slab; None for services without room.
 
     Attributes
     ----------
     beam_depth_m
         Depth of the beams; 0 without any.
     tray_drop_m
-        Down to the bottom of the cable trays.
+        Distance from the slab to the bottom of the cable trays.
     pipe_drop_m
-        Down to the middle of the sprinkler pipes.
+        Distance from the slab to the middle of the sprinkler pipes.
     duct_top_m
-        Down to the top of the ducts.
+        Distance from the slab to the top of the ducts.
     sign_top_m
-        Down to the top of the exit signs.
+        Distance from the slab to the top of the exit signs.
     """
 
     beam_depth_m: float
@@ -71,15 +71,15 @@ class CeilingLevels:
 
     @property
     def lines_beside_tubes(self) -> bool:
-        """Whether pipes or ducts hang as high as tube lights do, under a ceiling without beams and trays."""
+        """Return True if pipes or ducts are at the height of tube lights, as without beams and cable trays."""
         tops = (self.pipe_drop_m, self.duct_top_m)
         return any(top_m is not None and top_m < _BELOW_TUBES_M for top_m in tops)
 
 
 def ceiling_levels(fittings: FittingsConfig) -> CeilingLevels:
-    """Share out the room between ceiling and clear height: beams on top, below them cable trays, pipes, ducts.
+    """Divide the height between clear height and ceiling into layers: beams, cable trays, pipes, ducts from the top.
 
-    Where there is not room for all, pipes come before ducts, ducts before trays, and trays before beams.
+    If the height is limited, the priority is pipes, ducts, cable trays, beams.
     """
     left = fittings.ceiling_height_m - fittings.clear_height_m
     has_pipes = fittings.sprinklers and left >= _PIPE_LAYER_M + _HEAD_M
@@ -104,12 +104,12 @@ def ceiling_levels(fittings: FittingsConfig) -> CeilingLevels:
 
 
 def beams(structure: Structure, bay: BayConfig, ceiling_m: float, depth_m: float) -> list[Placement]:
-    """Concrete beams under the borders of the squares, from column to column and from wall to wall.
+    """Place concrete beams under the borders of the squares, from column to column and from wall to wall.
 
     Notes
     -----
-    Every beam leaves half a column's side free at both ends. Where no column stands there, a node fills the gap, so
-    that equal squares have equal beams.
+    Every beam ends half a column width before the corner. A node fills the gap at corners without a column, so that
+    equal squares have equal beams.
     """
     size = bay.column_size_m
     x, z = structure.column_edges_m, structure.row_edges_m
@@ -119,6 +119,7 @@ def beams(structure: Structure, bay: BayConfig, ceiling_m: float, depth_m: float
     width = round(_BEAM_TO_COLUMN * size, 3)
 
     def beam(name: str, length_m: float, middle: Point, yaw_rad: float, square: Square) -> Placement:
+        """Return a beam of a length at its middle (x, z)."""
         spec = BeamSpec(round(length_m, 6), width, depth_m)
         return placed(name, spec, middle, height_m=ceiling_m, yaw_rad=yaw_rad, square=square)
 
@@ -129,11 +130,13 @@ def beams(structure: Structure, bay: BayConfig, ceiling_m: float, depth_m: float
     for row, col in np.argwhere(inside[:-1] & inside[1:]).tolist():
         middle = (float(x[col] + x[col + 1]) / 2, float(z[row + 1]))
         found.append(beam("BeamDown", float(x[col + 1] - x[col]) - size, middle, _QUARTER_TURN, (row, col)))
-    return found + _nodes(structure, size, width, ceiling_m, depth_m)
+    return found + _node_beams(structure, size, width, ceiling_m, depth_m)
 
 
-def _nodes(structure: Structure, size_m: float, width_m: float, ceiling_m: float, depth_m: float) -> list[Placement]:
-    """What joins the beams on the corners without columns: in the middle of lanes, and at walls."""
+def _node_beams(
+    structure: Structure, size_m: float, width_m: float, ceiling_m: float, depth_m: float
+) -> list[Placement]:
+    """Return the beam nodes at corners without columns: in the middle of lanes, and at walls."""
     cells = np.pad(structure.cells, 1, constant_values=Cell.OBSTACLE)
     rows, cols = structure.shape
     nodes: list[Placement] = []
@@ -153,9 +156,9 @@ def _nodes(structure: Structure, size_m: float, width_m: float, ceiling_m: float
 
 @lru_cache(maxsize=64)
 def _node_boxes(inside: tuple[bool, bool, bool, bool], size_m: float, width_m: float) -> tuple[Box, ...]:
-    """The rectangles (left, top, right, bottom) of a node, from which of the squares around it are inside.
+    """Return the rectangles (left, top, right, bottom) of a node, by the inside flags of the four squares around it.
 
-    An arm along X from end to end as far as it goes, and arms along Z up to it.
+    The arm along X is continuous; the arms along Z end at its sides.
     """
     up_left, up_right, down_left, down_right = inside
     half, end = width_m / 2, size_m / 2

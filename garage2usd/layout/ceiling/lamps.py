@@ -1,4 +1,4 @@
-"""What lamps hang in the places of tubes, which of them are dead, and how their colours differ."""
+"""Lamps in the places of tube lights: form, colour temperature, dead lamps and emergency lighting."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -15,16 +15,16 @@ from garage2usd.objects.lamp import LampSpec
 __all__ = ["TUBE", "installed_lamps", "ramp_lamps"]
 
 TUBE = LampSpec(length_m=1.5, width_m=0.12)
-"""The tube light, before it is known how bright it must be: where lamps hang does not depend on what they are."""
+"""Tube light without a luminance; the places of lamps are independent of their form."""
 _FORMS = {
     LampKind.TUBES: TUBE,
     LampKind.PANELS: LampSpec(length_m=0.595, width_m=0.595, drop_m=0.064, form=LampKind.PANELS),
     LampKind.ROUND: LampSpec(length_m=0.4, width_m=0.4, drop_m=0.105, form=LampKind.ROUND),
 }
 _EMERGENCY_OF = 8
-"""One of so many lamps has a battery."""
+"""One lamp in this many has a battery."""
 _STEPS = (-1.463, -0.599, 0.0, 0.599, 1.463)
-"""Middles of fifths of a normal distribution, times what makes their standard deviation 1."""
+"""Medians of the quintiles of a normal distribution, scaled to a standard deviation of 1."""
 _LEAST_K = 1700.0
 _DEAD, _TEMPERATURE = range(2)
 
@@ -32,29 +32,29 @@ _DEAD, _TEMPERATURE = range(2)
 def installed_lamps(
     tubes: Sequence[Placement], lights: LightsLook, draws: SquareDraws, *, seed: int
 ) -> tuple[Placement, ...]:
-    """What hangs in the places of the tubes over squares.
+    """Replace the tube lights over squares by the lamps of the look.
 
     Parameters
     ----------
     tubes
-        In reading order, several on a square one after the other.
+        Tube lights in reading order, those of a square in sequence.
     lights
-        What lamps there are.
+        Form, colour and share of dead lamps.
     draws
-        Where squares share them, lamps in equal places of equal squares are equal, but for which of them are in use
-        when the mains have failed.
+        Random numbers of each square. Lamps in equal places of squares with equal numbers are equal, except for the
+        emergency lighting.
     seed
-        The garage's.
+        Seed of the garage.
     """
-    numbers = draws.of_part(Step.LOOK, "lights.lamps", 1 + max(map(_place, tubes), default=0), 2)
-    rows = [numbers[tube.square][_place(tube)] for tube in tubes if tube.square is not None]
+    numbers = draws.of_part(Step.LOOK, "lights.lamps", 1 + max(map(_index_on_square, tubes), default=0), 2)
+    rows = [numbers[tube.square][_index_on_square(tube)] for tube in tubes if tube.square is not None]
     return _lamps(tubes, lights, np.array(rows).reshape(-1, 2), named_generator(seed, Step.LOOK, "lights.emergency"))
 
 
 def ramp_lamps(
     tubes: Sequence[Placement], lights: LightsLook, luminance_nit: float, *, seed: int
 ) -> tuple[Placement, ...]:
-    """What hangs in the places of the tubes over ramps, as bright as those over squares; nothing if these are dark."""
+    """Replace the tube lights over ramps by lamps with the luminance of those over squares; empty if it is 0."""
     if not luminance_nit:
         return ()
     generator = named_generator(seed, Step.LOOK, "lights.ramps")
@@ -68,7 +68,7 @@ def ramp_lamps(
 def _lamps(
     tubes: Iterable[Placement], lights: LightsLook, numbers: NDArray[np.float64], emergency: np.random.Generator
 ) -> tuple[Placement, ...]:
-    """The lamps by a pair of numbers from 0 to 1 for each."""
+    """Return the lamps by two random numbers each: dead or not, and colour temperature."""
     is_dead = numbers[:, _DEAD] < lights.dead_share
     if lights.emergency_only:
         is_dead |= ~_with_battery(len(numbers), emergency)
@@ -84,13 +84,13 @@ def _lamps(
 
 
 def _with_battery(count: int, generator: np.random.Generator) -> NDArray[np.bool_]:
-    """One of each eight lamps that follow each other, by chance, and of what is left over; shape (count,)."""
+    """Choose one random lamp of every eight consecutive ones for battery supply; bool, shape (count,)."""
     starts = np.arange(0, count, _EMERGENCY_OF)
     chosen = np.zeros(count, dtype=bool)
     chosen[starts + generator.integers(np.minimum(_EMERGENCY_OF, count - starts))] = True
     return chosen
 
 
-def _place(tube: Placement) -> int:
-    """Which of the lamps on its square it is, from 0."""
+def _index_on_square(tube: Placement) -> int:
+    """Return the index of a lamp on its square, from 0."""
     return int(tube.name.rpartition("_")[2]) - 1

@@ -1,4 +1,4 @@
-"""Lines that hang along the aisles: ventilation ducts, sprinkler pipes, cable trays."""
+"""Services under the ceiling along the aisles: ventilation ducts, sprinkler pipes, cable trays."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -29,28 +29,28 @@ __all__ = ["LINES_REACH_M", "cable_trays", "ducts", "sprinklers"]
 
 _QUARTER_TURN = np.pi / 2
 _LEAST_SQUARE_M = 4.8
-"""Squares smaller than this have no room for all lines beside each other."""
+"""Least side of a square with room for all services beside each other."""
 _HEAD_PITCH_M = 3.3
 _HANGER_FROM_BEAM_M = 0.1
 _FREE_OF_LINES_M = 1.65
-"""Distance from the carriageway's edge beyond which no line of the other direction crosses."""
+"""Distance from the carriageway's edge beyond which no perpendicular service crosses."""
 _FREE_OF_DUCTS_M = 1.45
 _HANGER_FROM_JOINT_M = 0.4
 _TUBE_GAP_M = 0.12
 
 
 @dataclass(frozen=True)
-class _Line:
-    """A line along the aisles.
+class _Service:
+    """Cross-section of a service along the aisles.
 
     Attributes
     ----------
     name
-        Of its pieces.
+        Name of its pieces.
     side
-        Which side of an aisle along X it hangs over: 1 towards +Z, and towards -X along Z; -1 for the other sides.
+        Side of the aisle: 1 for +Z of an aisle along X and for -X of an aisle along Z; -1 for the other sides.
     from_edge_m
-        Its middle from the carriageway's edge.
+        Distance of its middle from the carriageway's edge.
     half_width_m
         Half its width.
     """
@@ -61,25 +61,25 @@ class _Line:
     half_width_m: float
 
 
-_DUCT = _Line("Duct", -1, 0.75, DUCT_WIDTH_M / 2)
-_PIPE = _Line("Sprinkler", 1, 0.5, PIPE_RADIUS_M)
-_TRAY = _Line("CableTray", 1, 1.2, TRAY_WIDTH_M / 2)
+_DUCT = _Service("Duct", -1, 0.75, DUCT_WIDTH_M / 2)
+_PIPE = _Service("Sprinkler", 1, 0.5, PIPE_RADIUS_M)
+_TRAY = _Service("CableTray", 1, 1.2, TRAY_WIDTH_M / 2)
 LINES_REACH_M = _DUCT.from_edge_m + _DUCT.half_width_m + 0.05
-"""How far from the carriageway's edge ducts with their flanges, and pipes, reach."""
+"""Distance from the carriageway's edge to the far side of ducts with flanges, and of pipes."""
 
 
 @dataclass(frozen=True)
-class _Piece:
-    """A straight piece of a line that starts at the border of a square.
+class _ServicePiece:
+    """Straight piece of a service that starts at the border of a square.
 
     Attributes
     ----------
     half_square_m
-        Half the extent along it of the square that it hangs over.
+        Half the extent of the square below, along the piece.
     step
-        1 where it goes from that border towards +X or +Z, -1 where it goes back.
+        Direction from that border: 1 towards +X or +Z, -1 towards -X or -Z.
     joins
-        Whether it ends at a line along a row; others end at the other border.
+        True if the piece ends at a perpendicular service of a row, False if it ends at the opposite border.
     """
 
     name: str
@@ -93,11 +93,11 @@ class _Piece:
 
 
 def ducts(grid: TileGrid, ceiling_m: float, levels: CeilingLevels, look: CeilingLook) -> list[Placement]:
-    """Ventilation ducts along the aisles, on the side where no pipe hangs."""
+    """Place ventilation ducts along the aisles, on the side without pipes."""
     if levels.duct_top_m is None:
         return []
     lines = []
-    for piece in _pieces(_DUCT, grid):
+    for piece in _service_pieces(_DUCT, grid):
         hangers = _hangers_at_m(piece, grid.setback_m)
         spec = DuctSpec(piece.length_m, DUCT_WIDTH_M, DUCT_HEIGHT_M, levels.duct_top_m, hangers)
         if look.round_ducts:
@@ -107,11 +107,11 @@ def ducts(grid: TileGrid, ceiling_m: float, levels: CeilingLevels, look: Ceiling
 
 
 def sprinklers(grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
-    """Sprinkler pipes along the aisles, on the side where no duct hangs, over ducts where they cross."""
+    """Place sprinkler pipes along the aisles, on the side without ducts; pipes cross above ducts."""
     if levels.pipe_drop_m is None:
         return []
     lines = []
-    for piece in _pieces(_PIPE, grid):
+    for piece in _service_pieces(_PIPE, grid):
         heads = () if piece.joins else _heads_at_m(piece.length_m, grid.setback_m)
         rods = _hangers_at_m(piece, grid.setback_m)
         spec = SprinklerSpec(piece.length_m, PIPE_RADIUS_M, levels.pipe_drop_m, rods, heads)
@@ -120,30 +120,32 @@ def sprinklers(grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[
 
 
 def cable_trays(grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
-    """Cable trays along the aisles, beside the pipes and over them and the ducts where they cross."""
+    """Place cable trays along the aisles, beside the pipes; trays cross above pipes and ducts."""
     if levels.tray_drop_m is None:
         return []
     lines = []
-    for piece in _pieces(_TRAY, grid):
+    for piece in _service_pieces(_TRAY, grid):
         rods = _hangers_at_m(piece, grid.setback_m)
         spec = CableTraySpec(piece.length_m, TRAY_WIDTH_M, TRAY_HEIGHT_M, levels.tray_drop_m, rods)
         lines.append(_place(piece, spec, ceiling_m))
     return lines
 
 
-def _place(piece: _Piece, spec: Spec, height_m: float) -> Placement:
+def _place(piece: _ServicePiece, spec: Spec, height_m: float) -> Placement:
+    """Place a piece of a service at a height over the floor."""
     yaw, square = _QUARTER_TURN if piece.along_x else 0.0, piece.tile.square
     return placed(piece.name, spec, piece.middle_m, height_m=round(height_m, 6), yaw_rad=yaw, square=square)
 
 
-def _pieces(line: _Line, grid: TileGrid) -> Iterator[_Piece]:
-    """A piece over each lane square: along X beside other lanes of its row, along Z elsewhere.
+def _service_pieces(line: _Service, grid: TileGrid) -> Iterator[_ServicePiece]:
+    """Yield the piece of a service over each lane square: along X if a lane is beside it in its row, else along Z.
 
-    A line along a column of squares leads on to those along the rows above and below it.
+    A service along a column of squares continues to those of the rows above and below.
     """
-    in_row = _in_runs(grid.structure.cells == Cell.LANE)
+    in_row = _beside_lane_in_row(grid.structure.cells == Cell.LANE)
 
     def from_middle_m(half_m: float) -> float:
+        """Return the distance of the service from the middle of an aisle."""
         return max(half_m - grid.setback_m - line.from_edge_m, 0.0)
 
     for tile in grid:
@@ -151,10 +153,10 @@ def _pieces(line: _Line, grid: TileGrid) -> Iterator[_Piece]:
             continue
         if in_row[tile.square]:
             z = tile.z_m + line.side * from_middle_m(tile.half_z_m)
-            yield _Piece(line.name, tile, (tile.x_m, z), round(tile.width_m, 6), True, tile.half_x_m, 1)
+            yield _ServicePiece(line.name, tile, (tile.x_m, z), round(tile.width_m, 6), True, tile.half_x_m, 1)
             continue
         x = tile.x_m - line.side * from_middle_m(tile.half_x_m)
-        yield _Piece(line.name, tile, (x, tile.z_m), round(tile.depth_m, 6), False, tile.half_z_m, 1)
+        yield _ServicePiece(line.name, tile, (x, tile.z_m), round(tile.depth_m, 6), False, tile.half_z_m, 1)
         for name, edge, step in (("Up", Edge.UP, -1), ("Down", Edge.DOWN, 1)):
             other = grid.neighbour(tile, edge)
             if other is None or not in_row[other.square] or not _has_room(other):
@@ -163,22 +165,23 @@ def _pieces(line: _Line, grid: TileGrid) -> Iterator[_Piece]:
             end = other.z_m + line.side * from_middle_m(other.half_z_m) - step * line.half_width_m
             middle = (x, (start + end) / 2)
             length = round(abs(end - start), 6)
-            yield _Piece(f"{line.name}{name}", tile, middle, length, False, other.half_z_m, step, joins=True)
+            yield _ServicePiece(f"{line.name}{name}", tile, middle, length, False, other.half_z_m, step, joins=True)
 
 
-def _in_runs(lane: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Lane squares with a lane beside them in their own row."""
+def _beside_lane_in_row(lane: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return a mask of the lane squares with an adjacent lane square in their row."""
     padded = np.pad(lane, ((0, 0), (1, 1)))
     run: NDArray[np.bool_] = lane & (padded[:, :-2] | padded[:, 2:])
     return run
 
 
 def _has_room(tile: Tile) -> bool:
+    """Return True if a square has room for all services beside each other."""
     return min(tile.width_m, tile.depth_m) >= _LEAST_SQUARE_M
 
 
-def _hangers_at_m(piece: _Piece, setback_m: float) -> tuple[float, ...]:
-    """Places of hangers along a piece: beside its beams, and where no line and no tube light crosses."""
+def _hangers_at_m(piece: _ServicePiece, setback_m: float) -> tuple[float, ...]:
+    """Return the places of hangers along a piece: beside beams, clear of crossing services and tube lights."""
     near, free = setback_m + _HANGER_FROM_BEAM_M, setback_m + _FREE_OF_LINES_M
     length = piece.length_m
     wanted = (near, free, length - _HANGER_FROM_JOINT_M) if piece.joins else (near, free, length - free, length - near)
@@ -188,7 +191,7 @@ def _hangers_at_m(piece: _Piece, setback_m: float) -> tuple[float, ...]:
 
 
 def _heads_at_m(length_m: float, setback_m: float) -> tuple[float, ...]:
-    """Places of heads along a pipe over a square, evenly but not over the ducts that cross it."""
+    """Return the places of sprinkler heads along a pipe over a square, evenly spaced and clear of crossing ducts."""
     count = max(1, round(length_m / _HEAD_PITCH_M))
     most = max(length_m / 2 - setback_m - _FREE_OF_DUCTS_M, 0.0)
     even = ((index + 0.5) * length_m / count - length_m / 2 for index in range(count))

@@ -1,1 +1,1 @@
-"""Egress on foot: stair cores, exits and fire compartments."""
+"""Egress of pedestrians: fire compartments, stair cores and their placement."""

@@ -1,1 +1,1 @@
-"""The floor: its panels, painted markings, drains and wear."""
+"""Floor of the garage: floor panels, painted markings, drains, puddles and stains."""

@@ -1,4 +1,4 @@
-"""Where drains lie: gullies beside the middle of lanes, channels along it and at doors."""
+"""Floor drains: gullies beside the centre line of lanes, channels along lanes and at vehicle doors."""
 
 from collections.abc import Iterable, Iterator
 
@@ -16,40 +16,40 @@ from garage2usd.structure.stalls import Edge
 __all__ = ["drains"]
 
 _LIFT_M = 0.0004
-"""Over the floor that goes on below: under all stains, and nothing that a tyre notices."""
-_APART = 3
-"""Squares from one gully to the next along a lane."""
+"""Height of drains over the continuous floor: below all stains, and negligible for tyres."""
+_GULLY_SPACING = 3
+"""Spacing of gullies along a lane, in squares."""
 _GULLY_ASIDE_M, _GULLY_ALONG_M = (0.4, -0.4, 0.8, -0.8), (0.0, 0.9, -0.9)
 _FROM_PAINT_M = 0.05
 _CHANNEL_ASIDE_M = 0.3
-"""From the middle of a lane, whose dashes it leaves alone."""
+"""Distance of a channel from a lane's centre line, clear of the dashes."""
 _FROM_DOOR_M = 0.35
 _QUARTER_TURN = 1.5707963267948966
 
 
 def drains(grid: TileGrid, floors: Iterable[Placement], wanted: Drains) -> Iterator[Placement]:
-    """The drains of all squares.
+    """Place the drains of all squares.
 
     Parameters
     ----------
     grid
-        The squares.
+        Squares of the garage in metres.
     floors
-        Their panels in the same order, whose markings gratings keep off.
+        Floor panels in the same order; gratings avoid their markings.
     wanted
-        Which ones there are.
+        Kind of drains.
     """
     for tile, panel in zip(grid, floors, strict=True):
-        if wanted is Drains.GRATINGS and tile.cell is Cell.LANE and sum(tile.square) % _APART == 0:
+        if wanted is Drains.GRATINGS and tile.cell is Cell.LANE and sum(tile.square) % _GULLY_SPACING == 0:
             yield from _gully(tile, panel)
         elif wanted is Drains.CHANNELS and tile.cell is Cell.LANE:
-            yield from _along_lane(tile, grid.setback_m)
+            yield from _lane_channel(tile, grid.setback_m)
         elif wanted is Drains.CHANNELS and tile.square in grid.doors:
-            yield _at_door(tile, grid.doors[tile.square], grid.setback_m)
+            yield _door_channel(tile, grid.doors[tile.square], grid.setback_m)
 
 
 def _gully(tile: Tile, panel: Placement) -> Iterator[Placement]:
-    """A grating at the first place beside the lane's middle that no paint covers; none where there is no such place."""
+    """Yield a gully at the first place without paint beside the lane's centre line, if any."""
     along_x, half = tile.axis_is_x is not False, GULLY_SIDE_M / 2 + _FROM_PAINT_M
     markings = panel.spec.markings if isinstance(panel.spec, PanelSpec) else ()
     paint = shapely.union_all([shapely.Polygon(marking.polygon) for marking in markings])
@@ -64,8 +64,8 @@ def _gully(tile: Tile, panel: Placement) -> Iterator[Placement]:
                 return
 
 
-def _along_lane(tile: Tile, setback_m: float) -> Iterator[Placement]:
-    """A channel from square to square where a lane goes straight on, and from a dead end's border on."""
+def _lane_channel(tile: Tile, setback_m: float) -> Iterator[Placement]:
+    """Yield the channel of a straight lane square or dead end, continuous with those of adjacent squares."""
     up, down, left, right = (tile.drivable[edge] for edge in Edge)
     along_x = tile.axis_is_x
     if along_x is None:
@@ -80,8 +80,8 @@ def _along_lane(tile: Tile, setback_m: float) -> Iterator[Placement]:
     yield _channel(tile, end - start, offset, along_x=along_x)
 
 
-def _at_door(tile: Tile, door: Edge, setback_m: float) -> Placement:
-    """A channel across a portal, which takes the water that comes down the ramp."""
+def _door_channel(tile: Tile, door: Edge, setback_m: float) -> Placement:
+    """Return the channel across a portal, for the water from the ramp."""
     half = tile.half_x_m, tile.half_z_m
     reach = (half[0] if door.along_x else half[1]) - setback_m
     depth = _FROM_DOOR_M, _FROM_DOOR_M + CHANNEL_WIDTH_M
@@ -90,6 +90,7 @@ def _at_door(tile: Tile, door: Edge, setback_m: float) -> Placement:
 
 
 def _channel(tile: Tile, length_m: float, offset: Point, *, along_x: bool) -> Placement:
+    """Return a channel of a length, `offset` (x, z) from the middle of its tile."""
     point, yaw = (tile.x_m + offset[0], tile.z_m + offset[1]), _QUARTER_TURN if along_x else 0.0
     spec = DrainSpec(CHANNEL_WIDTH_M, round(length_m, 6))
     return placed("Channel", spec, point, height_m=_LIFT_M, yaw_rad=yaw, square=tile.square)

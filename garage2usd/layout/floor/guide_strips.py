@@ -1,4 +1,4 @@
-"""What runs along the borders of aisles: a line or a coloured strip, from square to square and around corners."""
+"""Guide strips along the borders of aisles: lines or coloured strips, continuous across squares and around corners."""
 
 from functools import lru_cache
 from itertools import product
@@ -14,30 +14,30 @@ from garage2usd.objects.outline import Polygon
 from garage2usd.objects.panel import Marking, Paint, Surface
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["Around", "guide_strips", "strip_depth_m"]
+__all__ = ["ClosedSides", "guide_strips", "strip_depth_m"]
 
 _BEYOND_M = 6.0
-"""How far the ground of open squares around counts."""
+"""Extent of the ground of adjacent open squares, in metres."""
 _INNER_RADIUS_M = 0.3
 _LEAST_MM2 = 1e-6
 _ROUND_STEPS = 4
-"""Segments of a quarter of a circle."""
+"""Number of segments of a quarter circle."""
 _MOST_SIGN_M, _SIGN_SHARE = 0.8, 0.72
-"""Of a pictogram: its greatest size, and its size as a share of its strip."""
+"""Greatest size of a pictogram, and its size as a share of the strip width."""
 _LEAST_SIGN_M = 0.3
 _COLOURED = (Edge.UP, Edge.LEFT)
-"""The sides of aisles that have the strip where one has."""
+"""Sides of an aisle with the coloured strip, if the look has it on one side only."""
 
 
-class Around(NamedTuple):
-    """What closes a square of a lane or a portal.
+class ClosedSides(NamedTuple):
+    """Closed edges and corners of a lane or portal square.
 
     Attributes
     ----------
     edges
-        The edges that nobody drives across.
+        Edges that cars cannot cross.
     corners
-        The corners, each by its edges along X and along Z, between two open edges that closed ground fills.
+        Corners with closed ground between two open edges, each by its edges along X and along Z.
     """
 
     edges: frozenset[Edge]
@@ -45,7 +45,7 @@ class Around(NamedTuple):
 
 
 def strip_depth_m(look: MarkingsLook) -> float:
-    """From the border of a lane to the inner side of what runs along it; 0 where nothing does."""
+    """Return the distance from the border of a lane to the inner side of its guide strip; 0 without a strip."""
     if look.band is BandForm.NONE:
         return 0.0
     width = look.line_width_m + look.band_width_m if look.band is BandForm.BAND else 0.0
@@ -54,35 +54,35 @@ def strip_depth_m(look: MarkingsLook) -> float:
 
 @lru_cache(maxsize=1024)
 def guide_strips(
-    around: Around, half_x: float, half_z: float, look: MarkingsLook, *, has_pictogram: bool
+    closed: ClosedSides, half_x: float, half_z: float, look: MarkingsLook, *, has_pictogram: bool
 ) -> tuple[Marking, ...]:
-    """The strips of a square: parallel to its closed edges, around columns, and into the next square.
+    """Return the guide strips of a square: parallel to its closed edges, around columns, and into the next square.
 
     Parameters
     ----------
-    around
-        What closes the square.
+    closed
+        Closed edges and corners of the square.
     half_x, half_z
         Half its extent along X and Z, metres.
     look
-        What runs along the borders.
+        Settings of the markings.
     has_pictogram
-        Whether its straight coloured strips have a pictogram in their middle, or else chevrons.
+        True for a pictogram in the middle of straight coloured strips, False for chevrons.
     """
     if look.band is BandForm.NONE:
         return ()
     gap, line = look.band_gap_m, look.line_width_m
-    inside = _Inside(around, half_x, half_z, gap, strip_depth_m(look), is_round=look.band is BandForm.BAND)
+    inside = _LaneGround(closed, half_x, half_z, gap, strip_depth_m(look), is_round=look.band is BandForm.BAND)
     if look.band is BandForm.LINE:
         return _markings(inside.between(gap, gap + line), Surface.PAINT_EDGE)
     first, second = gap + line, gap + line + look.band_width_m
-    coloured = shapely.union_all(_coloured_ground(around, half_x, half_z, second + line + inside.radius_m, look))
+    coloured = shapely.union_all(_coloured_ground(closed, half_x, half_z, second + line + inside.radius_m, look))
     strip = shapely.intersection(inside.between(first, second), coloured)
     inner = shapely.intersection(inside.between(second, second + line), coloured)
     signs = [
         sign
-        for edge in sorted(around.edges.intersection(_coloured(look)))
-        for sign in _signs(edge, around, half_x, half_z, (first, second), look, has_pictogram=has_pictogram)
+        for edge in sorted(closed.edges.intersection(_coloured_edges(look)))
+        for sign in _symbols(edge, closed, half_x, half_z, (first, second), look, has_pictogram=has_pictogram)
     ]
     return (
         *(Marking(shape, Surface.PAINT_WHITE, Paint.LANE_ARROW) for shape in signs),
@@ -92,19 +92,19 @@ def guide_strips(
     )
 
 
-class _Inside:
-    """The ground of a square's lane, and what of it lies a distance from its borders at least."""
+class _LaneGround:
+    """Drivable ground of a lane square and its open neighbours, eroded for strips parallel to the border."""
 
     def __init__(
-        self, around: Around, half_x: float, half_z: float, gap_m: float, depth_m: float, *, is_round: bool
+        self, closed: ClosedSides, half_x: float, half_z: float, gap_m: float, depth_m: float, *, is_round: bool
     ) -> None:
         self._square = shapely.box(-half_x, -half_z, half_x, half_z)
-        open_edges = [edge for edge in Edge if edge not in around.edges]
-        grounds = [self._square, *(_beyond(half_x, half_z, edge) for edge in open_edges)]
+        open_edges = [edge for edge in Edge if edge not in closed.edges]
+        grounds = [self._square, *(_ground_beyond(half_x, half_z, edge) for edge in open_edges)]
         grounds += [
-            _beyond(half_x, half_z, *corner)
+            _ground_beyond(half_x, half_z, *corner)
             for corner in product((Edge.UP, Edge.DOWN), (Edge.LEFT, Edge.RIGHT))
-            if around.edges.isdisjoint(corner) and corner not in around.corners
+            if closed.edges.isdisjoint(corner) and corner not in closed.corners
         ]
         self._ground = shapely.union_all(grounds)
         self._join = "round" if is_round else "mitre"
@@ -113,19 +113,19 @@ class _Inside:
         self._deep_m = gap_m + self.radius_m
 
     def between(self, near_m: float, far_m: float) -> shapely.Geometry:
-        """What of the square lies between two distances from the border."""
-        ring = shapely.difference(self._from(near_m), self._from(far_m))
+        """Return the part of the square between two distances from the ground's border."""
+        ring = shapely.difference(self._eroded(near_m), self._eroded(far_m))
         return shapely.intersection(ring, self._square)
 
-    def _from(self, distance_m: float) -> shapely.Geometry:
-        """The ground from a distance on; its inner corners are arcs around the same point."""
+    def _eroded(self, distance_m: float) -> shapely.Geometry:
+        """Return the ground at least a distance from the border; its inner corners are concentric arcs."""
         deep = max(self._deep_m, distance_m)
         core = self._ground.buffer(-deep, quad_segs=_ROUND_STEPS, join_style=self._join)
         return core.buffer(deep - distance_m, quad_segs=_ROUND_STEPS, join_style=self._join)
 
 
-def _beyond(half_x: float, half_z: float, *edges: Edge) -> shapely.Polygon:
-    """Ground beyond one edge of a square, or beyond the corner of two."""
+def _ground_beyond(half_x: float, half_z: float, *edges: Edge) -> shapely.Polygon:
+    """Return the ground beyond one edge of a square, or beyond the corner of two edges."""
     left, top, right, bottom = -half_x, -half_z, half_x, half_z
     for edge in edges:
         if edge is Edge.UP:
@@ -139,25 +139,26 @@ def _beyond(half_x: float, half_z: float, *edges: Edge) -> shapely.Polygon:
     return shapely.box(left, top, right, bottom)
 
 
-def _coloured(look: MarkingsLook) -> tuple[Edge, ...]:
+def _coloured_edges(look: MarkingsLook) -> tuple[Edge, ...]:
+    """Return the sides of aisles with a coloured strip."""
     return tuple(Edge) if look.band_both_sides else _COLOURED
 
 
 def _coloured_ground(
-    around: Around, half_x: float, half_z: float, depth_m: float, look: MarkingsLook
+    closed: ClosedSides, half_x: float, half_z: float, depth_m: float, look: MarkingsLook
 ) -> list[shapely.Polygon]:
-    """What of a square lies along its closed edges with a coloured strip, and at corners between two of such."""
-    edges = _coloured(look)
-    along = {edge: _along(edge, half_x, half_z, depth_m) for edge in edges}
-    corners = [(first, second) for first, second in around.corners if first in along and second in along]
+    """Return the ground of coloured strips: along closed edges, and at corners between two coloured edges."""
+    edges = _coloured_edges(look)
+    along = {edge: _edge_strip(edge, half_x, half_z, depth_m) for edge in edges}
+    corners = [(first, second) for first, second in closed.corners if first in along and second in along]
     return [
-        *(along[edge] for edge in edges if edge in around.edges),
+        *(along[edge] for edge in edges if edge in closed.edges),
         *(shapely.intersection(along[first], along[second]) for first, second in sorted(corners)),
     ]
 
 
-def _along(edge: Edge, half_x: float, half_z: float, depth_m: float) -> shapely.Polygon:
-    """What of a square lies along one edge of it."""
+def _edge_strip(edge: Edge, half_x: float, half_z: float, depth_m: float) -> shapely.Polygon:
+    """Return the part of a square within `depth_m` of one edge."""
     left, top, right, bottom = -half_x, -half_z, half_x, half_z
     if edge is Edge.UP:
         bottom = min(depth_m - half_z, half_z)
@@ -170,9 +171,9 @@ def _along(edge: Edge, half_x: float, half_z: float, depth_m: float) -> shapely.
     return shapely.box(left, top, right, bottom)
 
 
-def _signs(
+def _symbols(
     edge: Edge,
-    around: Around,
+    closed: ClosedSides,
     half_x: float,
     half_z: float,
     strip_m: tuple[float, float],
@@ -180,9 +181,9 @@ def _signs(
     *,
     has_pictogram: bool,
 ) -> list[Polygon]:
-    """The pictogram or the chevrons on the strip along one edge, where that runs straight through the square."""
+    """Return the pictogram or chevrons on a strip; empty unless the strip runs straight through the square."""
     size = min(_SIGN_SHARE * look.band_width_m, _MOST_SIGN_M)
-    if size < _LEAST_SIGN_M or around.edges.intersection(edge.ends):
+    if size < _LEAST_SIGN_M or closed.edges.intersection(edge.ends):
         return []
     half, across = (half_x, half_z) if edge.along_x else (half_z, half_x)
     shapes = pictogram(look.pictogram, size) if has_pictogram else chevron(size)
@@ -190,7 +191,7 @@ def _signs(
     placed = []
     for along in (0.0,) if has_pictogram else (-half / 2, half / 2):
         for shape in shapes:
-            # drawn for somebody who walks along the strip with the border to the left
+            # upright for a pedestrian who walks along the strip with the border to the left
             turned = affinity.rotate(shapely.Polygon(shape), 90, origin=(0, 0))
             moved = affinity.translate(turned, along, across - depth)
             whole = affinity.rotate(moved, -edge_yaw_rad(edge), origin=(0, 0), use_radians=True)
@@ -199,7 +200,7 @@ def _signs(
 
 
 def _markings(area: shapely.Geometry, surface: Surface, paint: Paint | None = Paint.LANE_LINE) -> tuple[Marking, ...]:
-    """The polygons of an area, without holes."""
+    """Convert an area to markings: polygons without holes."""
     parts = [part for part in shapely.get_parts(area) if part.geom_type == "Polygon" and part.area > _LEAST_MM2]
     whole = []
     for part in parts:
@@ -214,4 +215,5 @@ def _markings(area: shapely.Geometry, surface: Surface, paint: Paint | None = Pa
 
 
 def _polygon(shape: shapely.Polygon) -> Polygon:
+    """Convert a shapely polygon to corners, rounded to the micrometre."""
     return tuple((round(x, 6), round(z, 6)) for x, z in shapely.get_coordinates(shape.exterior)[:-1].tolist())

@@ -1,4 +1,4 @@
-"""Painted lines, arrows and hatching, in the coordinates of one panel (origin in its middle)."""
+"""Painted lane lines, arrows, zebra crossings and hatching, in metres from the middle of one floor panel."""
 
 from functools import lru_cache
 
@@ -36,9 +36,9 @@ _STRIPE_WIDTH_M, _STRIPE_PERIOD_M = 0.15, 0.5
 
 @lru_cache(maxsize=4096)
 def edge_line(edge: Edge, half_x: float, half_z: float, setback: float, trims: tuple[float, float]) -> Marking:
-    """The yellow line along one edge of a lane square, `setback` from it.
+    """Return the yellow line along one edge of a lane square, `setback` inside the edge.
 
-    ``trims`` cuts its two ends (left and right, or top and bottom).
+    ``trims`` shortens the line at its two ends (left and right, or top and bottom). All lengths are in metres.
     """
     half, (low, high) = half_x if edge.along_x else half_z, trims
     box = box_inside(edge, (half_x, half_z), (low - half, half - high), (setback, setback + LINE_WIDTH_M))
@@ -47,12 +47,13 @@ def edge_line(edge: Edge, half_x: float, half_z: float, setback: float, trims: t
 
 @lru_cache(maxsize=4096)
 def corner_lines(vertical: Edge, horizontal: Edge, half_x: float, half_z: float, setback: float) -> tuple[Marking, ...]:
-    """The yellow angle around a column in one corner of a lane square whose two sides there are open."""
+    """Return the yellow L-shaped line around a column in a corner between two open edges of a lane square."""
     inner = setback + LINE_WIDTH_M
     sign_z = -1 if vertical is Edge.UP else 1
     sign_x = -1 if horizontal is Edge.LEFT else 1
 
     def piece(x0: float, x1: float, z0: float, z1: float) -> Marking:
+        """Return a rectangle of line by its distances from the corner's two edges."""
         xs = sorted((sign_x * (half_x - x0), sign_x * (half_x - x1)))
         zs = sorted((sign_z * (half_z - z0), sign_z * (half_z - z1)))
         return Marking(rectangle(xs[0], zs[0], xs[1], zs[1]), Surface.PAINT_YELLOW, Paint.LANE_LINE)
@@ -62,7 +63,7 @@ def corner_lines(vertical: Edge, horizontal: Edge, half_x: float, half_z: float,
 
 @lru_cache(maxsize=1024)
 def dashes(half_x: float, half_z: float, *, along_x: bool) -> tuple[Marking, ...]:
-    """The white centre line of a two-way lane square; its rhythm closes over the square."""
+    """Return the dashed white centre line of a two-way lane square; a whole number of dashes fits the square."""
     half_length, half_line = (half_x if along_x else half_z), LINE_WIDTH_M / 2
     count = max(1, round(2 * half_length / _DASH_PERIOD_M))
     period = 2 * half_length / count
@@ -78,7 +79,7 @@ def dashes(half_x: float, half_z: float, *, along_x: bool) -> tuple[Marking, ...
 
 
 def arrow(x: float, z: float, towards: Edge) -> Marking:
-    """A straight-on arrow of 2.4 m with its middle at (x, z)."""
+    """Return a straight-ahead lane arrow, 2.4 m long, centred at (x, z)."""
     outline = ((-0.08, 1.2), (0.08, 1.2), (0.08, -0.2), (0.3, -0.2), (0.0, -1.2), (-0.3, -0.2), (-0.08, -0.2))
     turns = {
         Edge.UP: lambda p: (p[0], p[1]),
@@ -91,7 +92,7 @@ def arrow(x: float, z: float, towards: Edge) -> Marking:
 
 
 def two_way_arrows(half_x: float, half_z: float, setback: float, *, along_x: bool) -> tuple[Marking, Marking]:
-    """An arrow on each half of a two-way lane square, for traffic that keeps to the right."""
+    """Return one arrow for each direction of a two-way lane square, for traffic on the right."""
     if along_x:
         offset = (half_z - setback) / 2
         return arrow(0, offset, Edge.RIGHT), arrow(0, -offset, Edge.LEFT)
@@ -101,7 +102,10 @@ def two_way_arrows(half_x: float, half_z: float, setback: float, *, along_x: boo
 
 @lru_cache(maxsize=256)
 def zebra(half_x: float, half_z: float, setback: float, *, along_x: bool, offset_m: float = 0.0) -> tuple[Marking, ...]:
-    """The bars of a crossing over a straight lane square, long along the lane, `offset_m` along it from the middle."""
+    """Return the zebra crossing of a straight lane square, `offset_m` along the lane from the square's middle.
+
+    The bars are parallel to the lane.
+    """
     most = max((half_x if along_x else half_z) - _ZEBRA_DEPTH_M / 2, 0.0)
     offset_m = round(min(max(offset_m, -most), most), 6)
     room = 2 * ((half_z if along_x else half_x) - setback - LINE_WIDTH_M - _ZEBRA_BAR_M / 2)
@@ -118,7 +122,7 @@ def zebra(half_x: float, half_z: float, setback: float, *, along_x: bool, offset
 
 @lru_cache(maxsize=256)
 def stripes(left: float, top: float, right: float, bottom: float) -> tuple[Marking, ...]:
-    """Yellow diagonal stripes over a narrow piece of floor that is kept free."""
+    """Return yellow diagonal stripes over a narrow keep-clear rectangle."""
     area = shapely.box(left, top, right, bottom)
     reach = (right - left) + (bottom - top)
     bars = []
@@ -138,7 +142,7 @@ def stripes(left: float, top: float, right: float, bottom: float) -> tuple[Marki
 def hatching(
     half_x: float, half_z: float, *, margin_m: float = _HATCH_MARGIN_M, surface: Surface = Surface.PAINT_YELLOW
 ) -> tuple[Marking, ...]:
-    """The painted frame and diagonal stripes where nobody may park, `margin_m` from the edges."""
+    """Return the frame and stripes of a no-parking area, `margin_m` inside the edges; empty if the area is small."""
     x, z = half_x - margin_m, half_z - margin_m
     if min(x, z) < _MIN_HATCHED_M / 2:
         return ()

@@ -11,7 +11,7 @@ from garage2usd.config.look import BandForm, MarkingsLook, Wear
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress.cores import Core
 from garage2usd.layout.floor.ghost_lines import GHOST_ROWS, ghosts_on_lane
-from garage2usd.layout.floor.guide_strips import Around, guide_strips, strip_depth_m
+from garage2usd.layout.floor.guide_strips import ClosedSides, guide_strips, strip_depth_m
 from garage2usd.layout.floor.markings import (
     LINE_WIDTH_M,
     arrow,
@@ -159,7 +159,7 @@ class _Panels:
             self._around(tile), tile.half_x_m, tile.half_z_m, self.look, has_pictogram=sum(tile.square) % 2 == 0
         )
 
-    def _around(self, tile: Tile) -> Around:
+    def _around(self, tile: Tile) -> ClosedSides:
         """What closes a square; a door does not."""
         is_open = {edge for edge in Edge if tile.drivable[edge] or self.grid.doors.get(tile.square) is edge}
         corners = set()
@@ -167,7 +167,7 @@ class _Panels:
             beyond = self.grid.neighbour(tile, *corner)
             if is_open.issuperset(corner) and (beyond is None or beyond.cell not in _DRIVEN):
                 corners.add(corner)
-        return Around(frozenset(Edge) - is_open, frozenset(corners))
+        return ClosedSides(frozenset(Edge) - is_open, frozenset(corners))
 
     def _portal(self, tile: Tile) -> Iterator[Marking]:
         """Arrows on a portal: into the garage on an entrance, out of it on an exit."""

@@ -1,4 +1,4 @@
-"""Pictograms of strips for those on foot and in cars, as polygons without holes, upright with their tops to -Z."""
+"""Floor pictograms for pedestrians and drivers, as polygons without holes with their tops towards -Z."""
 
 from functools import lru_cache
 from itertools import pairwise
@@ -12,12 +12,12 @@ from garage2usd.objects.outline import Polygon
 __all__ = ["chevron", "pictogram"]
 
 _STROKE, _FRAME = 0.09, 0.05
-"""Widths of strokes and of the frame, as shares of the size."""
+"""Widths of strokes and frame, as shares of the pictogram's size."""
 
 
 @lru_cache(maxsize=64)
 def chevron(size_m: float) -> tuple[Polygon, ...]:
-    """Two angles that point up, as wide as `size_m`."""
+    """Return two chevrons that point up (-Z), `size_m` wide."""
     half, rise, thick = size_m / 2, size_m * 0.3, size_m * 0.2
     return tuple(
         tuple(
@@ -32,13 +32,13 @@ def chevron(size_m: float) -> tuple[Polygon, ...]:
 
 @lru_cache(maxsize=64)
 def pictogram(of: Pictogram, size_m: float) -> tuple[Polygon, ...]:
-    """One in a square of `size_m`, around the origin; none for `Pictogram.NONE`."""
+    """Return the polygons of a pictogram in a square of `size_m` around the origin; empty for `Pictogram.NONE`."""
     if of is Pictogram.NONE:
         return ()
     shape = {Pictogram.WALKER: _walker, Pictogram.CAR: _car, Pictogram.LIFT: _lift}[of]()
     scaled = affinity.scale(shape, size_m, size_m, origin=(0, 0))
     pieces: list[Polygon] = []
-    # what has holes is cut at its middle
+    # parts with holes are cut through the middle of each hole
     for part in shapely.get_parts(scaled):
         cuts = [part]
         if part.interiors:
@@ -58,11 +58,12 @@ def pictogram(of: Pictogram, size_m: float) -> tuple[Polygon, ...]:
 
 
 def _strokes(*lines: tuple[tuple[float, float], ...], width: float = _STROKE) -> list[shapely.Geometry]:
+    """Return polylines as strokes of a width."""
     return [shapely.LineString(line).buffer(width / 2, cap_style="flat", join_style="mitre") for line in lines]
 
 
 def _person(x: float, height: float) -> list[shapely.Geometry]:
-    """Somebody who stands at `x`, seen from the front."""
+    """Return a standing person at `x`, in front view."""
     top = -height / 2
     return [
         shapely.Point(x, top + 0.11 * height).buffer(0.11 * height, quad_segs=3),
@@ -73,7 +74,7 @@ def _person(x: float, height: float) -> list[shapely.Geometry]:
 
 
 def _walker() -> shapely.Geometry:
-    """Somebody who walks."""
+    """Return a walking person."""
     limbs = _strokes(
         ((0.02, -0.26), (-0.02, 0.08)),
         ((-0.02, 0.02), (0.14, 0.22), (0.16, 0.48)),
@@ -86,7 +87,7 @@ def _walker() -> shapely.Geometry:
 
 
 def _car() -> shapely.Geometry:
-    """A car from its side."""
+    """Return a car in side view."""
     body = shapely.Polygon(
         [(-0.5, 0.16), (-0.5, -0.02), (-0.34, -0.06), (-0.2, -0.24), (0.16, -0.24), (0.32, -0.05), (0.5, 0.0),
          (0.5, 0.16)]
@@ -104,7 +105,7 @@ def _car() -> shapely.Geometry:
 
 
 def _lift() -> shapely.Geometry:
-    """Three people in a cabin below two arrows."""
+    """Return the symbol of a lift: three people in a cabin below two arrows."""
     cabin = shapely.difference(
         shapely.box(-0.46, -0.18, 0.46, 0.5), shapely.box(-0.46 + _FRAME, -0.18 + _FRAME, 0.46 - _FRAME, 0.5 - _FRAME)
     )

@@ -1,8 +1,8 @@
-"""Wear of the floors: oil, damp, cracks and patches, tyre marks, and the lanes darkened where wheels roll.
+"""Stains and wear of the floor: oil, damp, cracks, patches, tyre marks, and wheel tracks that darken the lanes.
 
-All of it lies inside its own square, so that equal squares with equal draws stay equal.
+A stain stays inside its square. Equal squares with equal random numbers therefore stay equal.
 """
-# Over 300 lines: every kind of stain takes its place from the same floor, so that none lies over another.
+# Over 300 lines: all kinds of stains share the free floor of a square, so that they do not overlap.
 
 import math
 from collections.abc import Iterable, Iterator
@@ -33,7 +33,7 @@ _WEAR_LIFT_M = 0.0008
 _CONCRETE_LIFT_M = 0.0012
 _TYRE_LIFT_M = 0.0016
 _OIL_LIFT_M = 0.002
-"""Heights over the floor, at which what may overlap lies apart."""
+"""Heights over the floor; stains that may overlap have different heights."""
 
 _SIZES_M = {
     StainMark.OIL: ((0.9, 0.9), (0.7, 0.7), (0.5, 0.5)),
@@ -53,16 +53,16 @@ _ON_LANES: tuple[tuple[StainMark, float, float], ...] = (
     (StainMark.OIL, 0.7, _OIL_LIFT_M),
     (StainMark.OIL, 0.4, _OIL_LIFT_M),
 )
-"""What may lie on a lane, on what share of the squares of a floor as worn as can be, and how high."""
+"""Possible stains of a lane square: mark, share of the squares at the greatest wear, height over the floor."""
 _LANE_SLOTS = len(_ON_LANES) + 2
-"""The draws of a lane: these, brake marks, the wear; then one for each turn into a stall."""
+"""Random numbers of a lane square: its stains, brake marks and wear; one for each turn into a stall follows."""
 _BRAKED_SHARE = 0.7
 _TURNED_SHARE = 0.35
 _LEAKED_SHARE = 0.85
 _DRIVEN_IN_SHARE = 0.5
 
 _HALF_GAUGE_M = 0.9
-"""From the middle of a pair of tyre marks to its outer border."""
+"""Distance from the middle of a pair of tyre marks to its outer border."""
 _BRAKE_LENGTHS_M = (2.4, 3.6)
 _TURN_LENGTH_M = 4.6
 _TURN_RAD = math.radians(68)
@@ -70,17 +70,17 @@ _STALL_MARK_M = 3.2
 _ENGINE_FROM_REAR_M = (1.0, 1.6)
 _ENGINE_ASIDE_M = 0.3
 _YAWS = 16
-_NUMBERS = 5
-"""Draws for each stain: whether it is there, its variant, its size or turn, and its place across and along."""
+_DRAWS = 5
+"""Random numbers of each stain: presence, variant, size or yaw, and place across and along."""
 _PATCH_FROM_PAINT_M = 0.05
 
 Box = tuple[float, float, float, float]
-"""Least x and z, greatest x and z, metres from the middle of a square."""
+"""Bounding box: least x and z, greatest x and z, metres from the middle of a square."""
 
 
 @dataclass
-class _Floor:
-    """The stains of one square, in its coordinates."""
+class _SquareStains:
+    """The stains of one square, in the coordinates of its tile."""
 
     tile: Tile
     drain: Box | None = None
@@ -88,7 +88,7 @@ class _Floor:
     boxes: list[tuple[float, Box]] = field(default_factory=list)
 
     def put(self, name: str, spec: StainSpec | TyreMarkSpec, place: Point, yaw_rad: float, lift_m: float) -> None:
-        """Lay a stain down, unless it would touch another one at its height, or is one of the concrete on a drain."""
+        """Add a stain, unless it overlaps another one of the same height, or is damage of the concrete on a drain."""
         box = _box(spec, place, yaw_rad)
         if any(lift_m == height and _overlap(box, other) for height, other in self.boxes):
             return
@@ -108,24 +108,24 @@ def floor_stains(
     dirt: Dirt = Dirt.USUAL,
     drains: Iterable[Placement] = (),
 ) -> Iterator[Placement]:
-    """The stains of all squares.
+    """Place the stains of all squares.
 
     Parameters
     ----------
     grid
-        The squares.
+        Squares of the garage in metres.
     floors
-        Their panels in the same order, whose markings patches keep off.
+        Floor panels in the same order; patches avoid their markings.
     stalls
         All stalls, in the order of their squares.
     fittings
-        How worn the floor is.
+        Settings with the rate of floor stains.
     draws
-        Random numbers for each square.
+        Random numbers of each square.
     dirt
-        How dark wheels have made the lanes.
+        Darkness of the wheel tracks on lanes.
     drains
-        All drains, which no crack, patch or damp lies over.
+        All drains; cracks, patches and damp avoid them.
     """
     rate = fittings.floor_stain_rate
     if not rate:
@@ -134,11 +134,11 @@ def floor_stains(
     for stall in stalls:
         stalls_on.setdefault(stall.square, []).append(stall)
     most = max((len(row) for row in stalls_on.values()), default=0)
-    numbers = draws.of_step(Step.FLOOR_STAINS, max(_LANE_SLOTS + most, 2 * most), _NUMBERS)
+    numbers = draws.of_step(Step.FLOOR_STAINS, max(_LANE_SLOTS + most, 2 * most), _DRAWS)
     drain_on = {drain.square: (drain, spec) for drain, spec in of_spec(drains, DrainSpec)}
     for tile, panel in zip(grid, floors, strict=True):
-        floor = _Floor(tile)
-        floor = _Floor(tile, _drain_box(tile, *drain_on[tile.square]) if tile.square in drain_on else None)
+        floor = _SquareStains(tile)
+        floor = _SquareStains(tile, _drain_box(tile, *drain_on[tile.square]) if tile.square in drain_on else None)
         drawn = numbers[tile.square]
         if tile.cell is Cell.FREE:
             _stain_stalls(floor, stalls_on.get(tile.square, []), drawn, rate)
@@ -146,13 +146,13 @@ def floor_stains(
             _wear_lane(floor, drawn, dirt)
         if tile.cell is Cell.LANE:
             _stain_lane(floor, panel.spec, grid.setback_m, drawn, rate)
-            mouths = [stall for edge in Edge for stall in _opening_on(tile, edge, stalls_on)]
+            mouths = [stall for edge in Edge for stall in _stalls_opening_on(tile, edge, stalls_on)]
             _mark_turns(floor, mouths, grid.setback_m, drawn, rate)
         yield from floor.placed
 
 
-def _stain_stalls(floor: _Floor, stalls: list[PlacedStall], drawn: NDArray[np.float64], rate: float) -> None:
-    """Oil where engines stand, and the marks of wheels that rolled in."""
+def _stain_stalls(floor: _SquareStains, stalls: list[PlacedStall], drawn: NDArray[np.float64], rate: float) -> None:
+    """Add oil below the engines of parked cars, and tyre marks of cars that drove in."""
     for index, stall in enumerate(stalls):
         (there, variant, _, across, along), (driven, tyre, _, aside, end) = drawn[2 * index : 2 * index + 2].tolist()
         if not stall.use.takes_cars or stall.use is StallUse.EV:
@@ -162,28 +162,29 @@ def _stain_stalls(floor: _Floor, stalls: list[PlacedStall], drawn: NDArray[np.fl
         if driven < rate * _DRIVEN_IN_SHARE:
             room = max(stall.width_m / 2 - _HALF_GAUGE_M - 0.1, 0.0)
             tail = max(stall.length_m - _STALL_MARK_M - 1.2, 0.0)
-            place = _on_tile(floor.tile, stall, ((2 * aside - 1) * room, rear + 1.1 + end * tail))
+            place = _to_tile(floor.tile, stall, ((2 * aside - 1) * room, rear + 1.1 + end * tail))
             spec = TyreMarkSpec(int(tyre * 2), _STALL_MARK_M)
             floor.put(f"TyreMarks_{number}", spec, place, stall.yaw_rad, _TYRE_LIFT_M)
         if there < rate * _LEAKED_SHARE:
             first, last = _ENGINE_FROM_REAR_M
             local = (2 * across - 1) * _ENGINE_ASIDE_M, rear + first + (last - first) * along
-            spec_of_oil = _stain(StainMark.OIL, variant)
-            floor.put(f"Oil_{number}", spec_of_oil, _on_tile(floor.tile, stall, local), _yaw(variant), _OIL_LIFT_M)
+            oil = _stain(StainMark.OIL, variant)
+            floor.put(f"Oil_{number}", oil, _to_tile(floor.tile, stall, local), _drawn_yaw(variant), _OIL_LIFT_M)
 
 
-def _on_tile(tile: Tile, stall: PlacedStall, local: Point) -> Point:
+def _to_tile(tile: Tile, stall: PlacedStall, local: Point) -> Point:
+    """Convert a point from the coordinates of a stall to those of a tile."""
     x, z = stall.to_world(local)
     return x - tile.x_m, z - tile.z_m
 
 
-def _wear_lane(floor: _Floor, drawn: NDArray[np.float64], dirt: Dirt) -> None:
-    """The whole square darkened along the ways that cars take over it."""
+def _wear_lane(floor: _SquareStains, drawn: NDArray[np.float64], dirt: Dirt) -> None:
+    """Darken a lane square along the wheel tracks of cars."""
     tile = floor.tile
     ways = [edge for edge in Edge if tile.drivable[edge]]
-    if not ways:  # a lane by itself, which no car reaches
+    if not ways:  # an isolated lane square
         return
-    mark, towards = _way(ways)
+    mark, towards = _wear_pattern(ways)
     yaw = edge_yaw_rad(towards)
     sides = tile.width_m, tile.depth_m
     width, depth = sides if towards.along_x else sides[::-1]
@@ -197,11 +198,11 @@ def _wear_lane(floor: _Floor, drawn: NDArray[np.float64], dirt: Dirt) -> None:
 
 
 _RIGHT_OF = {Edge.DOWN: Edge.RIGHT, Edge.RIGHT: Edge.UP, Edge.UP: Edge.LEFT, Edge.LEFT: Edge.DOWN}
-"""The edge that lies on +X where the first one lies on +Z."""
+"""Edge on a wear pattern's +X side, by the edge on its +Z side."""
 
 
-def _way(ways: list[Edge]) -> tuple[StainMark, Edge]:
-    """The mark for the edges that cars cross, and the edge that its +Z side lies on."""
+def _wear_pattern(ways: list[Edge]) -> tuple[StainMark, Edge]:
+    """Return the wear pattern for a lane square's open edges, and the edge on the pattern's +Z side."""
     missing = [edge for edge in Edge if edge not in ways]
     if not missing:
         return StainMark.WEAR_CROSS, Edge.DOWN
@@ -211,33 +212,35 @@ def _way(ways: list[Edge]) -> tuple[StainMark, Edge]:
     return (StainMark.WEAR_BEND, bends[0]) if bends else (StainMark.WEAR_STRAIGHT, ways[0])
 
 
-def _stain_lane(floor: _Floor, panel: Spec, setback_m: float, drawn: NDArray[np.float64], rate: float) -> None:
+def _stain_lane(floor: _SquareStains, panel: Spec, setback_m: float, drawn: NDArray[np.float64], rate: float) -> None:
+    """Add damp, cracks, patches, oil and brake marks to a lane square."""
     tile = floor.tile
     for slot, ((mark, share, lift_m), numbers) in enumerate(zip(_ON_LANES, drawn.tolist(), strict=False), 1):
         there, variant, size, across, along = numbers
         if there >= rate * share:
             continue
         spec = _stain(mark, variant)
-        yaw = _yaw(size) if mark is not StainMark.PATCH else 0.0
-        place = _somewhere(tile, setback_m, _box(spec, (0.0, 0.0), yaw), across, along)
-        if place is None or (mark is StainMark.PATCH and _on_paint(panel, _box(spec, place, yaw))):
+        yaw = _drawn_yaw(size) if mark is not StainMark.PATCH else 0.0
+        place = _offset_within(tile, setback_m, _box(spec, (0.0, 0.0), yaw), across, along)
+        if place is None or (mark is StainMark.PATCH and _overlaps_paint(panel, _box(spec, place, yaw))):
             continue
         floor.put(f"{mark.value.capitalize()}_{slot}", spec, place, yaw, lift_m)
     there, variant, size, across, along = drawn[len(_ON_LANES)].tolist()
     if tile.axis_is_x is not None and there < rate * _BRAKED_SHARE:
-        yaw = edge_yaw_rad((Edge.LEFT if tile.axis_is_x else Edge.UP) if size < 1 / 2 else _far(tile))
+        yaw = edge_yaw_rad((Edge.LEFT if tile.axis_is_x else Edge.UP) if size < 1 / 2 else _positive_edge(tile))
         marks = TyreMarkSpec(int(variant * 2), _BRAKE_LENGTHS_M[int(size * 8) % 2])
-        place = _somewhere(tile, setback_m, _box(marks, (0.0, 0.0), yaw), across, along)
+        place = _offset_within(tile, setback_m, _box(marks, (0.0, 0.0), yaw), across, along)
         if place is not None:
             floor.put("BrakeMarks", marks, place, yaw, _TYRE_LIFT_M)
 
 
-def _far(tile: Tile) -> Edge:
+def _positive_edge(tile: Tile) -> Edge:
+    """Return the edge of a straight lane square on the positive side of its axis."""
     return Edge.RIGHT if tile.axis_is_x else Edge.DOWN
 
 
 def _drain_box(tile: Tile, drain: Placement, spec: DrainSpec) -> Box:
-    """What a drain, which lies along an axis, covers of its square."""
+    """Return the bounding box of an axis-aligned drain, in the coordinates of its tile."""
     x, z = drain.position_m[0] - tile.x_m, drain.position_m[2] - tile.z_m
     half_x, half_z = spec.width_m / 2, spec.length_m / 2
     if drain.yaw_rad:
@@ -245,32 +248,33 @@ def _drain_box(tile: Tile, drain: Placement, spec: DrainSpec) -> Box:
     return x - half_x, z - half_z, x + half_x, z + half_z
 
 
-def _opening_on(tile: Tile, edge: Edge, stalls_on: dict[Square, list[PlacedStall]]) -> Iterator[PlacedStall]:
-    """The stalls whose mouths lie on one edge of a lane."""
+def _stalls_opening_on(tile: Tile, edge: Edge, stalls_on: dict[Square, list[PlacedStall]]) -> Iterator[PlacedStall]:
+    """Return the stalls that open onto one edge of a lane square."""
     return (stall for stall in stalls_on.get(edge.beyond(tile.square), []) if stall.access_square == tile.square)
 
 
 def _mark_turns(
-    floor: _Floor, stalls: list[PlacedStall], setback_m: float, drawn: NDArray[np.float64], rate: float
+    floor: _SquareStains, stalls: list[PlacedStall], setback_m: float, drawn: NDArray[np.float64], rate: float
 ) -> None:
-    """The marks of tyres that turned from the lane into stalls, on the lane's side."""
+    """Add the curved tyre marks of cars that turned into stalls, on the lane square."""
     tile = floor.tile
     for index, (stall, numbers) in enumerate(zip(stalls, drawn[_LANE_SLOTS:].tolist(), strict=False)):
         there, variant, size, *_ = numbers
         if there >= rate * _TURNED_SHARE:
             continue
         turn = _TURN_RAD if size < 1 / 2 else -_TURN_RAD
-        place = _on_tile(tile, stall, (0.0, stall.length_m / 2 + 0.02))
+        place = _to_tile(tile, stall, (0.0, stall.length_m / 2 + 0.02))
         for signed in (turn, -turn):
             spec = TyreMarkSpec(int(variant * 2), _TURN_LENGTH_M, round(signed, 6))
             x0, z0, x1, z1 = _box(spec, place, stall.yaw_rad)
-            # the mouth's edge is where the mark ends; of the others it keeps as far as cars do
+            # the mark ends at the mouth's edge and keeps the cars' distance from the other edges
             if _lies_within(tile, (x0, z0, x1, z1), setback_m, stall.edge):
                 floor.put(f"TurnMarks_{index + 1}", spec, place, stall.yaw_rad, _TYRE_LIFT_M)
                 break
 
 
 def _lies_within(tile: Tile, box: Box, setback_m: float, mouth: Edge) -> bool:
+    """Return True if a box keeps the setback from all edges of a tile; at the edge of the mouth, no setback."""
     limits = {
         Edge.LEFT: tile.half_x_m + box[0],
         Edge.UP: tile.half_z_m + box[1],
@@ -281,20 +285,20 @@ def _lies_within(tile: Tile, box: Box, setback_m: float, mouth: Edge) -> bool:
 
 
 def _stain(mark: StainMark, variant: float) -> StainSpec:
-    """The stain that a draw chooses."""
+    """Return the stain of a mark by a random number from 0 to 1."""
     sizes = _SIZES_M[mark]
     kind = int(variant * _VARIANTS.get(mark, 1))
-    # a variant has one size, so that there are few prototypes
+    # one size for each variant limits the number of prototypes
     return StainSpec(mark, kind, *sizes[kind % len(sizes)])
 
 
-def _yaw(draw: float) -> float:
-    """A turn by one of sixteen angles, from the last digits of a draw."""
+def _drawn_yaw(draw: float) -> float:
+    """Return one of sixteen yaws by the last digits of a random number."""
     return int(draw * 1000 * _YAWS) % _YAWS * (math.tau / _YAWS) - math.pi
 
 
-def _somewhere(tile: Tile, setback_m: float, box: Box, across: float, along: float) -> Point | None:
-    """A place at which a box around the origin keeps off the borders of a square; None where it is too large."""
+def _offset_within(tile: Tile, setback_m: float, box: Box, across: float, along: float) -> Point | None:
+    """Return an offset that keeps a box inside the borders of a square; None if the box is too large."""
     x0, z0 = setback_m - tile.half_x_m - box[0], setback_m - tile.half_z_m - box[1]
     x1, z1 = tile.half_x_m - setback_m - box[2], tile.half_z_m - setback_m - box[3]
     if x0 > x1 or z0 > z1:
@@ -302,30 +306,33 @@ def _somewhere(tile: Tile, setback_m: float, box: Box, across: float, along: flo
     return x0 + (x1 - x0) * across, z0 + (z1 - z0) * along
 
 
-def _on_paint(panel: Spec, box: Box) -> bool:
-    return isinstance(panel, PanelSpec) and any(_overlap(box, paint) for paint in _painted(panel))
+def _overlaps_paint(panel: Spec, box: Box) -> bool:
+    """Return True if a box overlaps a marking of a panel."""
+    return isinstance(panel, PanelSpec) and any(_overlap(box, paint) for paint in _marking_boxes(panel))
 
 
 @lru_cache(maxsize=4096)
-def _painted(panel: PanelSpec) -> tuple[Box, ...]:
-    """A box around each marking of a panel."""
+def _marking_boxes(panel: PanelSpec) -> tuple[Box, ...]:
+    """Return the bounding boxes of a panel's markings, with a gap around each."""
     gap = _PATCH_FROM_PAINT_M
     corners = [np.array(marking.polygon) for marking in panel.markings]
     return tuple((*(shape.min(axis=0) - gap).tolist(), *(shape.max(axis=0) + gap).tolist()) for shape in corners)
 
 
 def _overlap(one: Box, other: Box) -> bool:
+    """Return True if two boxes overlap."""
     return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
 
 
 def _box(spec: StainSpec | TyreMarkSpec, place: Point, yaw_rad: float) -> Box:
+    """Return the bounding box of a stain at a place."""
     x0, z0, x1, z1 = _turned_box(spec, yaw_rad)
     return x0 + place[0], z0 + place[1], x1 + place[0], z1 + place[1]
 
 
 @lru_cache(maxsize=4096)
 def _turned_box(spec: StainSpec | TyreMarkSpec, yaw_rad: float) -> Box:
-    """The box around a turned stain."""
+    """Return the bounding box of a rotated stain around the origin."""
     if isinstance(spec, StainSpec):
         x, z = spec.width_m / 2, spec.depth_m / 2
         corners = [(-x, -z), (-x, z), (x, z), (x, -z)]

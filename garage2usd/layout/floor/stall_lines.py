@@ -1,4 +1,4 @@
-"""The painted lines of stalls: which of them a pattern has, in the coordinates of a stall (mouth at +Z)."""
+"""Painted stall lines by pattern, in the coordinates of a stall (mouth at +Z)."""
 
 import math
 from collections.abc import Iterator
@@ -11,30 +11,30 @@ from garage2usd.objects.panel import Marking, Paint, Surface
 __all__ = ["outer_spans", "stall_lines"]
 
 Span = tuple[float, float]
-"""From where to where along a stall, metres from its mouth."""
+"""Start and end along a stall, metres from its mouth."""
 
 _MARK_ALONG_M, _MARK_ACROSS_M = 0.9, 0.5
-"""How far the marks of corners reach along a stall and across it."""
+"""Lengths of corner marks along a stall and across it."""
 _BESIDE_M = 0.06
-"""From a stall's side to lines that are its own."""
+"""Distance from a stall's side to lines of its own."""
 _DOUBLE_GAP_M = 0.2
-"""Half of what lies between two parallel lines."""
+"""Half the distance between two parallel lines."""
 _DASH_M, _DASH_GAP_M = 0.6, 0.5
 _SHARED = {StallPattern.SIDES, StallPattern.CLOSED, StallPattern.DASHED, StallPattern.T_MARKS}
-"""Patterns whose side lines lie half on each neighbour."""
+"""Patterns with side lines shared by neighbours, half on each stall."""
 _PAINT, _WORN_PAINT = Surface.PAINT_STALL, Surface.PAINT_STALL_WORN
 _WHEELS_M = 0.5, 1.0
-"""From where to where beside the middle of a stall wheels cross its mouth."""
+"""Range of the wheel tracks across a mouth, metres from the middle of the stall."""
 _UNEVEN = {Wear.LIGHT, Wear.WORN}
-"""Wear that is worse where wheels roll; fresh paint and what is nearly gone is the same all over."""
+"""Degrees of wear with more wear in wheel tracks; fresh paint and faded paint are uniform."""
 
 
 @lru_cache(maxsize=1024)
 def stall_lines(width_m: float, length_m: float, look: MarkingsLook) -> tuple[Marking, ...]:
-    """The lines of one stall; of a side line that it shares with a neighbour its half."""
+    """Return the painted lines of one stall; of a shared side line, the half on this stall."""
     half_width, half_length, line = width_m / 2, length_m / 2, look.line_width_m
     lines = []
-    for left, right, near, far in _boxes(half_width, length_m, line, look.pattern):
+    for left, right, near, far in _line_boxes(half_width, length_m, line, look.pattern):
         is_driven_over = near == 0.0 and far == line and look.wear in _UNEVEN
         for start, end, surface in _worn_pieces(left, right) if is_driven_over else ((left, right, _PAINT),):
             shape = rectangle(round(start, 6), round(half_length - far, 6), round(end, 6), round(half_length - near, 6))
@@ -43,12 +43,12 @@ def stall_lines(width_m: float, length_m: float, look: MarkingsLook) -> tuple[Ma
 
 
 def outer_spans(length_m: float, look: MarkingsLook) -> tuple[Span, ...]:
-    """Where along a stall the outer half of its side line lies, which it has where no neighbour is."""
+    """Return the spans along a stall of the outer half of a side line, needed at sides without a neighbour."""
     return _side_spans(length_m, look.pattern) if look.pattern in _SHARED else ()
 
 
 def _worn_pieces(left: float, right: float) -> Iterator[tuple[float, float, Surface]]:
-    """A line across a stall's mouth in pieces, those more worn where wheels cross it."""
+    """Split a line across a stall's mouth into pieces, with worn paint in the wheel tracks."""
     low, high = _WHEELS_M
     for start, end, surface in (
         (-math.inf, -high, _PAINT),
@@ -62,6 +62,7 @@ def _worn_pieces(left: float, right: float) -> Iterator[tuple[float, float, Surf
 
 
 def _side_spans(length_m: float, pattern: StallPattern) -> tuple[Span, ...]:
+    """Return the painted spans of a shared side line."""
     if pattern is StallPattern.T_MARKS:
         return (0.0, _MARK_ALONG_M), (length_m - _MARK_ALONG_M, length_m)
     if pattern is StallPattern.DASHED:
@@ -70,7 +71,7 @@ def _side_spans(length_m: float, pattern: StallPattern) -> tuple[Span, ...]:
 
 
 def _dashes(length_m: float) -> Iterator[Span]:
-    """Dashes that begin and end with one."""
+    """Yield the dashes of a line; the first begins and the last ends at the ends of the line."""
     count = max(round((length_m + _DASH_GAP_M) / (_DASH_M + _DASH_GAP_M)), 2)
     gap_m = (length_m - count * _DASH_M) / (count - 1)
     for index in range(count):
@@ -78,23 +79,23 @@ def _dashes(length_m: float) -> Iterator[Span]:
         yield start, start + _DASH_M
 
 
-def _boxes(
+def _line_boxes(
     half_width: float, length_m: float, line: float, pattern: StallPattern
 ) -> Iterator[tuple[float, float, float, float]]:
-    """Left, right, near and far of each line, the last two from the mouth."""
+    """Yield each line of a pattern as left, right, near and far, the last two in metres from the mouth."""
     rear = length_m - line
     if pattern is StallPattern.NONE:
         return
     if pattern in _SHARED:
-        yield from _shared_boxes(half_width, length_m, line, pattern)
+        yield from _shared_line_boxes(half_width, length_m, line, pattern)
         return
     inset = _DOUBLE_GAP_M / 2 if pattern is StallPattern.DOUBLE else _BESIDE_M
     outer, inner = half_width - inset, half_width - inset - line
     if pattern is StallPattern.DOUBLE:
         for sign in (-1, 1):
-            yield *_in_order(sign * inner, sign * outer), 0.0, length_m
-            # the end of the loop that two neighbours make
-            yield *_in_order(sign * outer, sign * half_width), 0.0, line
+            yield *_ascending(sign * inner, sign * outer), 0.0, length_m
+            # the end of the loop shared by two neighbours
+            yield *_ascending(sign * outer, sign * half_width), 0.0, line
         yield -inner, inner, rear, length_m
         return
     ends = [(0.0, line, 0.0, _MARK_ALONG_M)]
@@ -102,14 +103,14 @@ def _boxes(
         ends.append((rear, length_m, length_m - _MARK_ALONG_M, length_m))
     for near, far, start, end in ends:
         for sign in (-1, 1):
-            yield *_in_order(sign * inner, sign * outer), start, end
-            yield *_in_order(sign * (outer - _MARK_ACROSS_M), sign * inner), near, far
+            yield *_ascending(sign * inner, sign * outer), start, end
+            yield *_ascending(sign * (outer - _MARK_ACROSS_M), sign * inner), near, far
 
 
-def _shared_boxes(
+def _shared_line_boxes(
     half_width: float, length_m: float, line: float, pattern: StallPattern
 ) -> Iterator[tuple[float, float, float, float]]:
-    """The same for patterns whose side lines lie half on each neighbour."""
+    """Yield the boxes of patterns with shared side lines, as `_line_boxes` does."""
     half = line / 2
     ends = [(length_m - line, length_m)] + [(0.0, line)] * (pattern is not StallPattern.SIDES)
     for near, far in ends:
@@ -126,8 +127,9 @@ def _shared_boxes(
     most = length_m - line if pattern in {StallPattern.SIDES, StallPattern.CLOSED} else length_m
     for start, end in _side_spans(length_m, pattern):
         for sign in (-1, 1):
-            yield *_in_order(sign * half_width, sign * (half_width - half)), max(start, least), min(end, most)
+            yield *_ascending(sign * half_width, sign * (half_width - half)), max(start, least), min(end, most)
 
 
-def _in_order(one: float, other: float) -> tuple[float, float]:
+def _ascending(one: float, other: float) -> tuple[float, float]:
+    """Return two numbers in ascending order."""
     return (one, other) if one < other else (other, one)

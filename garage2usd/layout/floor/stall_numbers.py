@@ -1,4 +1,4 @@
-"""The numbers of stalls, painted on the floor or on walls."""
+"""Painted stall numbers on the floor or on walls."""
 
 from collections.abc import Iterable
 
@@ -20,23 +20,26 @@ __all__ = ["stall_numbers"]
 
 _PIECE_CHARACTERS = 2
 _FROM_LINE_M = 0.225
-"""From a stall's mouth or wheel stop to the characters."""
+"""Distance from a stall's mouth or wheel stop to the characters."""
 _FROM_SIDES_M = 0.15
 _LEAST_ON_LANE_M = 0.2
 _HEIGHT_STEP_M = 0.01
 _ON_WALL_M, _WALL_LIFT_M = 1.55, 0.006
-"""Middle of a number on a wall over the floor, and how far it is from the wall."""
+"""Height of a wall number's middle over the floor, and its distance from the wall."""
 _WHEEL_STOP_FROM_REAR_M = 0.55
 _LANE_GAP_M, _BESIDE_STRIP_M = 0.2, 0.08
-"""From a stall's mouth to a number on the lane, and from such a number to what runs along the aisle."""
+"""Distance from a stall's mouth to a number on the lane, and from the number to the guide strip."""
 _FRAME_MARGIN = 0.3
-"""From the characters to a frame, as a share of their height."""
+"""Margin of a number's frame, as a share of the character height."""
 
 
 def stall_numbers(
     stalls: Iterable[PlacedStall], grid: TileGrid, look: LookConfig, fittings: FittingsConfig
 ) -> list[Placement]:
-    """The number of each stall, in pieces of two characters at most, so that few shapes make all numbers."""
+    """Place the painted number of each stall, in pieces of at most two characters.
+
+    Short pieces need few prototypes for all numbers.
+    """
     numbers = look.numbers
     if not fittings.stall_numbers or numbers.place is NumberPlace.NONE:
         return []
@@ -45,29 +48,30 @@ def stall_numbers(
     for stall in stalls:
         if not stall.number:
             continue
-        texts = _pieces(stall.number, numbers.form)
+        texts = _split(stall.number, numbers.form)
         count = sum(map(len, texts))
         height_m = _fitting_height_m(numbers.height_m, count, stall.width_m)
         wall_m = _wall_behind_m(stall, grid, outside) if numbers.place is NumberPlace.WALL else None
         if wall_m is not None:
             along = -wall_m
         else:
-            along, height_m = _along_m(stall, numbers.place, height_m, look.markings)
+            along, height_m = _on_floor_m(stall, numbers.place, height_m, look.markings)
         done = 0
         for piece, text in enumerate(reversed(texts), start=1):
             done += len(text)
             across = (count - 2 * done + len(text)) / 2 * GLYPH_PITCH * height_m
             spec: Spec = NumberSpec(text, height_m) if wall_m is None else WallNumberSpec(text, height_m)
-            placements.append(_placed(stall, spec, (across, along), piece, is_upright=wall_m is not None))
+            placements.append(_piece_placement(stall, spec, (across, along), piece, is_upright=wall_m is not None))
         if numbers.form is NumberForm.BOXED and wall_m is None:
             margin = 2 * _FRAME_MARGIN * height_m
             width = (GLYPH_WIDTH + GLYPH_PITCH * (count - 1)) * height_m + margin
             frame = NumberFrameSpec(round(width, 3), round(height_m + margin, 3))
-            placements.append(_placed(stall, frame, (0.0, along), len(texts) + 1, is_upright=False))
+            placements.append(_piece_placement(stall, frame, (0.0, along), len(texts) + 1, is_upright=False))
     return placements
 
 
-def _placed(stall: PlacedStall, spec: Spec, point: Point, piece: int, *, is_upright: bool) -> Placement:
+def _piece_placement(stall: PlacedStall, spec: Spec, point: Point, piece: int, *, is_upright: bool) -> Placement:
+    """Return a piece of a stall's number at a point in the stall's coordinates."""
     return placed(
         f"StallNumber_{stall.ordinal}_{piece}",
         spec,
@@ -79,8 +83,8 @@ def _placed(stall: PlacedStall, spec: Spec, point: Point, piece: int, *, is_upri
     )
 
 
-def _pieces(number: str, form: NumberForm) -> list[str]:
-    """The painted characters of a number, cut where its zone ends."""
+def _split(number: str, form: NumberForm) -> list[str]:
+    """Split a stall number into its painted pieces, first at the end of the zone."""
     zone, _, own = number.rpartition("-")
     parts = [zone, "-", own] if zone and form is NumberForm.FULL else [own]
     texts = []
@@ -92,13 +96,13 @@ def _pieces(number: str, form: NumberForm) -> list[str]:
 
 
 def _fitting_height_m(height_m: float, count: int, stall_width_m: float) -> float:
-    """The height of some characters, lower where they would be wider than a stall between its lines."""
+    """Return the character height, reduced if the number is wider than the stall between its lines."""
     most = (stall_width_m - 2 * _FROM_SIDES_M) / (GLYPH_WIDTH + GLYPH_PITCH * (count - 1))
     return height_m if height_m <= most else int(most / _HEIGHT_STEP_M) * _HEIGHT_STEP_M
 
 
-def _along_m(stall: PlacedStall, place: NumberPlace, height_m: float, markings: MarkingsLook) -> tuple[float, float]:
-    """Where the middle of a number on the floor lies along its stall, from its middle to the mouth, and its height."""
+def _on_floor_m(stall: PlacedStall, place: NumberPlace, height_m: float, markings: MarkingsLook) -> tuple[float, float]:
+    """Return a floor number's place along its stall, from the stall's middle towards the mouth, and its height."""
     half = stall.length_m / 2
     if place is NumberPlace.MIDDLE:
         return 0.0, height_m
@@ -116,7 +120,7 @@ def _along_m(stall: PlacedStall, place: NumberPlace, height_m: float, markings: 
 
 
 def _wall_behind_m(stall: PlacedStall, grid: TileGrid, outside: NDArray[np.bool_]) -> float | None:
-    """From the middle of a stall back to the outer wall on its square's rear edge; None without one there."""
+    """Return the distance from a stall's middle back to the outer wall behind it; None without an outer wall there."""
     row, col = stall.edge.opposite.beyond(stall.square)
     rows, cols = outside.shape
     if 0 <= row < rows and 0 <= col < cols and not outside[row, col]:

@@ -1,1 +1,1 @@
-"""Parking: stalls and their use, parked cars, and what stands beside them."""
+"""Parking: stalls, their use and numbers, parked cars, number plates, signs and clutter."""

@@ -1,4 +1,4 @@
-"""People and things on the ground that nobody drives or parks on, beside what they lean on or belong to."""
+"""Clutter on the floor: people, bags, bins, bicycles and pallets, outside carriageways, stalls and swept paths."""
 
 from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple, TypeVar
@@ -32,59 +32,62 @@ __all__ = ["clutter"]
 
 _QUARTER_TURN = np.pi / 2
 _TRIES = 600
-"""Points that are drawn for each object."""
-_APART_M = 0.03
-"""What is left around it."""
+"""Number of candidate points for each object."""
+_CLEARANCE_M = 0.03
+"""Clearance around an object."""
 _LINE_M = 0.01
-"""What is left beside stalls and carriageways."""
+"""Clearance to stalls and carriageways."""
 _LEAST_WIDTH_M = 0.16
-"""Narrower ground holds nothing."""
+"""Least width of usable ground."""
 _BEFORE_EQUIPMENT_M = 0.65
-"""What is left before what hangs on walls and columns, so that people get there."""
+"""Clearance in front of equipment on walls and columns, for access by people."""
 _DOOR_M = 1.2
-"""What is left around the middle of the door of a core, whose leaf of a metre reaches 1.12 m from there."""
+"""Clearance around the middle of a core's door; its leaf of one metre reaches 1.12 m from there."""
 
 
 _T = TypeVar("_T")
 _PALLETS = ((1, False), (3, False), (6, False), (1, True), (2, True))
 
 
-class _Sort(NamedTuple):
-    """What a setting of `garage2usd.config.ClutterConfig` counts: a shape drawn, and whether any turn will do."""
+class _ClutterKind(NamedTuple):
+    """Kind of clutter: its setting in `garage2usd.config.ClutterConfig`, a random shape, True for any yaw."""
 
     setting: str
     drawn: Callable[[np.random.Generator], Spec]
-    is_turned_freely: bool = False
+    has_any_yaw: bool = False
 
 
-def _motorbike(rng: np.random.Generator) -> MotorbikeSpec:
+def _random_motorbike(rng: np.random.Generator) -> MotorbikeSpec:
+    """Return a random motorbike or scooter."""
     return MotorbikeSpec(_one_of(rng, MOTORBIKE_COLOURS), is_scooter=bool(rng.integers(2)))
 
 
-def _person(rng: np.random.Generator) -> PersonSpec:
+def _random_person(rng: np.random.Generator) -> PersonSpec:
+    """Return a random person in a random pose."""
     return PersonSpec(int(rng.integers(len(PEOPLE))), _one_of(rng, tuple(POSES)))
 
 
 def _one_of(rng: np.random.Generator, choices: Sequence[_T]) -> _T:
+    """Return one of several choices, uniformly."""
     return choices[int(rng.integers(len(choices)))]
 
 
-_SORTS: tuple[_Sort, ...] = (
-    _Sort("pallets", lambda rng: PalletSpec(*_PALLETS[int(rng.integers(len(_PALLETS)))])),
-    _Sort("bins", lambda rng: BinSpec(_one_of(rng, BIN_COLOURS))),
-    _Sort("motorbikes", _motorbike),
-    _Sort("bicycles", lambda rng: BicycleSpec(_one_of(rng, BICYCLE_COLOURS))),
-    _Sort("trolleys", lambda rng: TrolleySpec((1, 1, 1, 3)[int(rng.integers(4))])),
-    _Sort("prams", lambda rng: PramSpec(_one_of(rng, PRAM_COLOURS))),
-    _Sort(
+_CLUTTER_KINDS: tuple[_ClutterKind, ...] = (
+    _ClutterKind("pallets", lambda rng: PalletSpec(*_PALLETS[int(rng.integers(len(_PALLETS)))])),
+    _ClutterKind("bins", lambda rng: BinSpec(_one_of(rng, BIN_COLOURS))),
+    _ClutterKind("motorbikes", _random_motorbike),
+    _ClutterKind("bicycles", lambda rng: BicycleSpec(_one_of(rng, BICYCLE_COLOURS))),
+    _ClutterKind("trolleys", lambda rng: TrolleySpec((1, 1, 1, 3)[int(rng.integers(4))])),
+    _ClutterKind("prams", lambda rng: PramSpec(_one_of(rng, PRAM_COLOURS))),
+    _ClutterKind(
         "people",
-        _person,
-        is_turned_freely=True,
+        _random_person,
+        has_any_yaw=True,
     ),
-    _Sort("bags", lambda rng: BagSpec(_one_of(rng, tuple(BagSort))), is_turned_freely=True),
-    _Sort("boxes", lambda rng: BoxSpec(*BOX_SIZES_M[int(rng.integers(len(BOX_SIZES_M)))])),
+    _ClutterKind("bags", lambda rng: BagSpec(_one_of(rng, tuple(BagSort))), has_any_yaw=True),
+    _ClutterKind("boxes", lambda rng: BoxSpec(*BOX_SIZES_M[int(rng.integers(len(BOX_SIZES_M)))])),
 )
-"""Large ones first, which find less room."""
+"""All kinds in descending size, since large objects fit in fewer places."""
 
 
 def clutter(
@@ -97,39 +100,39 @@ def clutter(
     *,
     kept_clear: shapely.Geometry,
 ) -> list[Placement]:
-    """People and things, as many as `config.clutter` asks for where there is room.
+    """Place people and things on free ground, up to the numbers of `config.clutter`.
 
     Parameters
     ----------
     grid, stalls, cores
-        The garage.
+        Squares in metres, stalls and cores of the garage.
     standing
-        All that a car could touch, the cars included.
+        All objects on the floor, including cars.
     hung
-        What hangs on walls and columns, which stays within reach.
+        Equipment on walls and columns; access to it is kept clear.
     config
-        How many there are of each sort, and the seed.
+        Number of objects of each kind, and the seed.
     kept_clear
-        The ground (x, z) that cars need on their ways into stalls and out.
+        Swept area (x, z) of cars on their ways into stalls and out.
 
     Notes
     -----
-    Each sort draws places from a generator of its own. A place is taken whose outline lies on the ground inside that
-    is kept clear for nobody: no carriageway, portal, stall or landing of a core, on no proven way, and where nothing
-    else stands.
+    Each kind draws places by rejection sampling from its own random generator. The outline of an object lies on free
+    ground: inside the building, and outside of carriageways, portals, stalls, landings of cores, swept areas and other
+    objects.
     """
-    counts = {sort.setting: config.clutter.per_hundred(sort.setting) * len(stalls) / 100 for sort in _SORTS}
+    counts = {kind.setting: config.clutter.per_hundred(kind.setting) * len(stalls) / 100 for kind in _CLUTTER_KINDS}
     if not any(counts.values()):
         return []
     free = _free_grounds(grid, stalls, cores, standing, hung, kept_clear)
     found: list[Placement] = []
-    for sort in _SORTS:
-        rng = named_generator(config.seed, Step.CLUTTER, sort.setting)
-        # the share of one more that is left is a chance
-        wanted = int(counts[sort.setting] + rng.random())
+    for kind in _CLUTTER_KINDS:
+        rng = named_generator(config.seed, Step.CLUTTER, kind.setting)
+        # the fraction of an object is a probability
+        wanted = int(counts[kind.setting] + rng.random())
         for number in range(1, wanted + 1):
-            spec = sort.drawn(rng)
-            place = _place(spec, free, rng, f"{pascal_case(spec.kind.name)}_{number}", is_free=sort.is_turned_freely)
+            spec = kind.drawn(rng)
+            place = _place(spec, free, rng, f"{pascal_case(spec.kind.name)}_{number}", has_any_yaw=kind.has_any_yaw)
             if place is not None:
                 found.append(place)
     return found
@@ -143,7 +146,7 @@ def _free_grounds(
     hung: Iterable[Placement],
     kept_clear: shapely.Geometry,
 ) -> list[shapely.Polygon]:
-    """The pieces of ground that nobody needs, in the order of their places."""
+    """Return the polygons of free ground, sorted by place."""
     cores = tuple(cores)
     driven = [carriageway(tile, grid.setback_m) for tile in grid if tile.cell is not Cell.FREE]
     parked = grounds_of([stall.corners_m() for stall in stalls])
@@ -154,7 +157,7 @@ def _free_grounds(
         *shapely.buffer([*driven, *parked], _LINE_M, join_style="mitre"),
         *grounds_of([core_and_landing(core) for core in cores]),
         *(shapely.Point(core.door_m).buffer(_DOOR_M) for core in cores),
-        *shapely.buffer(touched, _APART_M),
+        *shapely.buffer(touched, _CLEARANCE_M),
         *shapely.buffer(reached, _BEFORE_EQUIPMENT_M),
     ]
     free = ground_inside(grid.structure).difference(shapely.union_all(used))
@@ -162,15 +165,15 @@ def _free_grounds(
 
 
 def _wide_pieces(ground: shapely.Geometry) -> list[shapely.Polygon]:
-    """The pieces of ground that are wide enough for anything."""
+    """Return the polygons of a ground that are at least `_LEAST_WIDTH_M` wide."""
     pieces = shapely.get_parts(shapely.normalize(ground))
     return [piece for piece in pieces if not piece.buffer(-_LEAST_WIDTH_M / 2).is_empty]
 
 
 def _place(
-    spec: Spec, free: list[shapely.Polygon], rng: np.random.Generator, name: str, *, is_free: bool
+    spec: Spec, free: list[shapely.Polygon], rng: np.random.Generator, name: str, *, has_any_yaw: bool
 ) -> Placement | None:
-    """A place for a shape on one of the grounds, which is cut out of it there; None where none is found."""
+    """Place a shape on one of the free polygons and cut its outline out of them; None if no candidate point fits."""
     areas = np.array([ground.area for ground in free])
     if not areas.size:
         return None
@@ -181,11 +184,11 @@ def _place(
     points = bounds[:, :2] + draws[:, :2] * (bounds[:, 2:] - bounds[:, :2])
     for candidate in np.flatnonzero(shapely.contains_xy(grounds, points)).tolist():
         index, ground, turn = int(chosen[candidate]), grounds[candidate], float(draws[candidate, 2])
-        yaw = turn * 4 * _QUARTER_TURN if is_free else int(turn * 4) * _QUARTER_TURN
+        yaw = turn * 4 * _QUARTER_TURN if has_any_yaw else int(turn * 4) * _QUARTER_TURN
         point = float(points[candidate, 0]), float(points[candidate, 1])
         place = placed(name, spec, point, yaw_rad=round(float(np.remainder(yaw + np.pi, 2 * np.pi) - np.pi), 6))
         taken = shapely.union_all(grounds_of(place.outlines()))
         if shapely.contains_properly(ground, taken):
-            free[index : index + 1] = _wide_pieces(ground.difference(taken.buffer(_APART_M)))
+            free[index : index + 1] = _wide_pieces(ground.difference(taken.buffer(_CLEARANCE_M)))
             return place
     return None

@@ -1,4 +1,4 @@
-"""Which cars park: a body and a paint for each, by the shares of their market."""
+"""Fleet of parked cars: bodies and paints by their market shares."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -12,21 +12,21 @@ __all__ = ["Fleet"]
 
 
 class Fleet:
-    """The cars of a market, with the shares that a configuration has of its own.
+    """Market shares of car bodies and paints, overridden by the configuration.
 
     Parameters
     ----------
     parking
-        The configuration.
+        Settings of parking.
     country
-        ISO 3166 code of the profile's country, empty where it names none.
+        ISO 3166 code of the profile's country; empty for none.
 
     Attributes
     ----------
     segments, paints
-        Shares of the classes of bodies and of the paints, as parts of their sum.
+        Shares of vehicle segments and of paints, relative to their sum.
     reversed_share
-        Share of the cars that stand nose out.
+        Share of the cars parked nose out.
     """
 
     def __init__(self, parking: ParkingConfig, country: str) -> None:
@@ -35,32 +35,32 @@ class Fleet:
         self.paints = dict(parking.paints or market.paints.shares)
         self.reversed_share = market.reversed.share if parking.reversed_share is None else parking.reversed_share
 
-        self._paint_sums = _sums([self.paints.get(paint, 0.0) for paint in PAINTS])
+        self._paint_sums = _cumulative_sums([self.paints.get(paint, 0.0) for paint in PAINTS])
         self._body_sums: dict[tuple[CarBody, ...], list[float]] = {}
 
     def body_of(self, bodies: tuple[CarBody, ...], share: float) -> CarBody:
-        """The body at a share from 0 to 1 of some bodies, whose class has its share of those that are there."""
+        """Return the body at a quantile from 0 to 1 of some bodies, weighted by the shares of their segments."""
         if bodies not in self._body_sums:
-            self._body_sums[bodies] = _sums(body_weights(bodies, self.segments))
-        return bodies[_at(share, self._body_sums[bodies])]
+            self._body_sums[bodies] = _cumulative_sums(body_weights(bodies, self.segments))
+        return bodies[_index_at(share, self._body_sums[bodies])]
 
     def paint_of(self, share: float) -> str:
-        """The paint at a share from 0 to 1."""
-        return PAINTS[_at(share, self._paint_sums)]
+        """Return the paint at a quantile from 0 to 1."""
+        return PAINTS[_index_at(share, self._paint_sums)]
 
 
 def body_weights(bodies: Sequence[CarBody], segments: Mapping[str, float]) -> list[float]:
-    """The weight of each of some bodies: its class's share, evenly; all alike where none of their classes has any."""
+    """Return the weight of each body: an equal part of its segment's share; all 1 if all shares are 0."""
     counts = Counter(body.segment for body in bodies)
     weights = [segments.get(body.segment, 0.0) / counts[body.segment] for body in bodies]
     return weights if sum(weights) > 0 else [1.0] * len(bodies)
 
 
-def _sums(weights: Sequence[float]) -> list[float]:
-    """The sum of the weights up to each one of them."""
+def _cumulative_sums(weights: Sequence[float]) -> list[float]:
+    """Return the cumulative sums of some weights."""
     return list(accumulate(weights))
 
 
-def _at(share: float, sums: Sequence[float]) -> int:
-    """Number of the part at a share from 0 to 1 of the sum."""
+def _index_at(share: float, sums: Sequence[float]) -> int:
+    """Return the index of the weight at a quantile from 0 to 1, by cumulative sums."""
     return next(number for number, so_far in enumerate(sums) if share * sums[-1] < so_far)

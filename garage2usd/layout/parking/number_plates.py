@@ -1,4 +1,4 @@
-"""The number plates of parked cars, each car's with a text of its own."""
+"""Number plates of parked cars, with a unique text for each car."""
 
 import math
 from collections.abc import Iterable
@@ -24,34 +24,35 @@ _PATTERNS: dict[Country, _Pattern] = {
     Country.GB: (_LETTERS, _LETTERS, "0", "0", " ", _LETTERS, _LETTERS, _LETTERS),
     Country.US: (_LETTERS, _LETTERS, _DIGITS, " ", _DIGITS, _LETTERS, _LETTERS),
 }
-"""What stands at each place.
+"""Allowed characters at each position of a plate's text.
 
-That of no country is like those of many, and at the time of writing that of none. Those of countries look like theirs,
-and none of their offices issues them, so that nobody's own plate is meant: three letters among a Chinese number,
-letters for no German town, Britain's year 00, letters around the digits of the United States.
+The pattern without a country resembles many countries and matches none at the time of writing. The patterns of
+countries look real and are never issued, so that no plate belongs to a real car: three letters in a Chinese number,
+letters of no German district, year 00 in Britain, letters around the digits in the United States.
 """
-_NEXT = 1_299_709
-"""By how much the number of a text grows where it is taken already: a prime, so that all are gone through."""
+_COLLISION_STEP = 1_299_709
+"""Step to the next text if one is taken: a prime, so that all texts are tried."""
 
 
 def number_plates(
     stalls: Iterable[PlacedStall], cars: Iterable[Placement], draws: SquareDraws, country: Country = Country.NONE
 ) -> list[Placement]:
-    """The plates of each car.
+    """Place the number plates of each parked car.
 
     Parameters
     ----------
     stalls
-        All stalls in reading order. Each draws a text, whether a car stands in it or not, so that a car's text depends
-        on no other car.
+        All stalls in reading order. Occupied and empty stalls draw a text, so that a car's text is independent of other
+        cars.
     cars
         The parked cars.
     draws
-        Where squares share them, cars in equal places of equal squares have equal plates; all others differ.
+        Random numbers of each square. Cars in equal places of squares with equal numbers have equal plates; all other
+        plates differ.
     country
-        Whose plates they are.
+        Country of the plates.
     """
-    text_of = _texts(list(stalls), draws, _PATTERNS[country])
+    text_of = _plate_texts(list(stalls), draws, _PATTERNS[country])
     return [
         placed(
             f"NumberPlate_{car.ordinal}",
@@ -66,8 +67,8 @@ def number_plates(
     ]
 
 
-def _texts(stalls: list[PlacedStall], draws: SquareDraws, pattern: _Pattern) -> dict[str, str]:
-    """The text that the car in each stall has or would have, by the stall's name."""
+def _plate_texts(stalls: list[PlacedStall], draws: SquareDraws, pattern: _Pattern) -> dict[str, str]:
+    """Return the plate text of every stall, occupied or empty, by stall name."""
     shares = draws.of_step(Step.NUMBER_PLATES, max((stall.ordinal for stall in stalls), default=0))
     count = math.prod(map(len, pattern))
     text_of: dict[float, str] = {}
@@ -77,16 +78,16 @@ def _texts(stalls: list[PlacedStall], draws: SquareDraws, pattern: _Pattern) -> 
         share = float(shares[stall.square][stall.ordinal - 1])
         if share not in text_of:
             number = int(share * count)
-            while (text := _text(number, pattern)) in taken:
-                number = (number + _NEXT) % count
+            while (text := _plate_text(number, pattern)) in taken:
+                number = (number + _COLLISION_STEP) % count
             taken.add(text)
             text_of[share] = text
         texts[stall.name] = text_of[share]
     return texts
 
 
-def _text(number: int, pattern: _Pattern) -> str:
-    """The text of a number below how many the pattern has."""
+def _plate_text(number: int, pattern: _Pattern) -> str:
+    """Return the text of a number, as digits in the pattern's mixed radix."""
     characters = []
     for choices in reversed(pattern):
         number, place = divmod(number, len(choices))

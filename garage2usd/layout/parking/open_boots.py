@@ -1,4 +1,4 @@
-"""Parked cars whose boots are open: within their stalls, where no other car needs the ground on its way."""
+"""Open boots of parked cars: inside their stalls, clear of the swept paths of other cars."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import astuple
@@ -13,12 +13,18 @@ from garage2usd.objects.car import CarSpec, OpenCarSpec
 
 __all__ = ["opened", "stalls_of_open_boots"]
 
-_APART_M = 0.05
-"""What is left around an open boot."""
+_CLEARANCE_M = 0.05
+"""Clearance around an open boot."""
 
 
 def opened(car: Placement) -> Placement:
-    """The same car with its boot open; raises TypeError for one that is not of the catalogue."""
+    """Return a car with its boot open.
+
+    Raises
+    ------
+    TypeError
+        If the car is not from the catalogue.
+    """
     if type(car.spec) is not CarSpec:
         raise TypeError(f"no car of the catalogue: {car.name}")
     spec = OpenCarSpec(*astuple(car.spec))
@@ -33,19 +39,19 @@ def stalls_of_open_boots(
     per_hundred: float,
     seed: int,
 ) -> list[str]:
-    """Choose cars that open their boots.
+    """Choose the parked cars with open boots, and return their stalls.
 
     Parameters
     ----------
     placements, stalls
         All objects and stalls of the garage.
     swept
-        Ground that cars need on their ways into each stall and out, by the stall's name. A car that stands in a stall
-        need not keep its own clear.
+        Swept area of cars on their ways into each stall and out, by stall name. An open boot may overlap the swept area
+        of its own stall.
     per_hundred
-        How many there are for every hundred stalls, and the most.
+        Greatest number of open boots for every hundred stalls.
     seed
-        Of the garage.
+        Seed of the garage.
 
     Returns
     -------
@@ -68,7 +74,7 @@ def stalls_of_open_boots(
             break
         car = cars[number]
         boot = shapely.Polygon(opened(car).outlines()[-1])
-        met = {taken[found][0] for found in tree.query(boot.buffer(_APART_M), predicate="intersects").tolist()}
-        if car.stall is not None and met <= {car.stall} and grounds[car.stall].contains(boot):
+        touched = {taken[found][0] for found in tree.query(boot.buffer(_CLEARANCE_M), predicate="intersects").tolist()}
+        if car.stall is not None and touched <= {car.stall} and grounds[car.stall].contains(boot):
             chosen.append(car.stall)
     return sorted(chosen)

@@ -1,4 +1,4 @@
-"""Zones by letter and number, by which people find their car again."""
+"""Parking zones named by letter and number (``B2``), for wayfinding, and the stall numbers in them."""
 
 import string
 from collections import Counter
@@ -18,33 +18,33 @@ _MIN_SIDE = 4
 
 
 class Zone(NamedTuple):
-    """A block of squares: a letter for its columns, a number from 1 for its rows."""
+    """Parking zone, a block of squares: letter of its columns, number of its rows from 1."""
 
     letter: str
     number: int
 
     def __str__(self) -> str:
-        """Name of the zone: ``B2``."""
+        """Return the name of the zone: ``B2``."""
         return f"{self.letter}{self.number}"
 
 
 class Zones:
-    """The zones of a garage: blocks of 4 x 4 squares, larger where letters or numbers would run out."""
+    """Zones of a garage: blocks of 4 x 4 squares, larger if letters or numbers run out."""
 
     def __init__(self, structure: Structure) -> None:
         rows, columns = structure.shape
         self._side = max(_MIN_SIDE, -(-columns // len(_LETTERS)), -(-rows // _MAX_NUMBER))
 
     def of(self, square: Square) -> Zone:
-        """The zone that a square (row, col) lies in."""
+        """Return the zone of a square (row, col)."""
         row, col = square
         return Zone(_LETTERS[col // self._side], row // self._side + 1)
 
 
 def with_numbers(stalls: Iterable[PlacedStall], zones: Zones | None) -> tuple[PlacedStall, ...]:
-    """The same stalls with their numbers, counted through each zone, or through the garage if it has no zones.
+    """Number the stalls, for example ``B2-07`` by zone, or ``007`` in a garage without zones.
 
-    Stalls in which nobody parks get no number.
+    Stalls that take no cars have no number.
     """
     counts: Counter[Zone | None] = Counter()
     numbered = []

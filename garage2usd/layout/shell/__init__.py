@@ -1,1 +1,1 @@
-"""The building's shell: walls, columns, doors and ramps, and what hangs on them."""
+"""Shell of the building: walls, columns, vehicle doors, ramps, and equipment mounted on walls and columns."""

@@ -1,4 +1,4 @@
-"""What things on columns hang on where a column does not reach the side of its square."""
+"""Mounting boards behind equipment on columns with a section smaller than their square."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -14,23 +14,23 @@ from garage2usd.structure.stalls import Edge
 __all__ = ["with_boards"]
 
 _SIDES = (Edge.DOWN, Edge.RIGHT, Edge.UP, Edge.LEFT)
-"""Where the sides of a column look, as `Board` numbers them."""
+"""Edges that the sides of a column face, in the order of `Board.side`."""
 _BACK_M = 0.02
-"""How near to its back is what something hangs by."""
+"""Greatest distance of an equipment's back face from the wall plane."""
 _MARGIN_M = 0.03
-"""How much larger a board is on each side."""
+"""Margin of a board around the equipment, on each side."""
 _TOUCH_M = 1e-4
 
 
 def with_boards(pillars: Iterable[Placement], hung: Sequence[Placement]) -> list[Placement]:
-    """The columns, with a board behind each thing that hangs on a side of a square and not on the column within.
+    """Add a board to the columns behind each mounted object with a gap to the column.
 
     Parameters
     ----------
     pillars
         All columns.
     hung
-        What hangs on columns and walls.
+        Equipment on columns and walls.
     """
     found: list[Placement] = []
     for pillar in pillars:
@@ -43,7 +43,7 @@ def with_boards(pillars: Iterable[Placement], hung: Sequence[Placement]) -> list
 
 
 def _board(pillar: Placement, column: ColumnSpec, hung: Placement) -> Board | None:
-    """The board behind one thing, if that hangs on this column and a gap is behind it."""
+    """Return the board behind an object on the column; None for other objects and without a gap."""
     x, z = hung.position_m[0] - pillar.position_m[0], hung.position_m[2] - pillar.position_m[2]
     half = column.size_m / 2
     if max(abs(x), abs(z)) > half + _TOUCH_M:
@@ -52,14 +52,14 @@ def _board(pillar: Placement, column: ColumnSpec, hung: Placement) -> Board | No
     if not column.is_round and half - column.side_m(side) < _TOUCH_M:
         return None
     across = (x, -z, -x, z)[side]
-    left, right, low, high = _back(hung.spec)
+    left, right, low, high = _back_extent_m(hung.spec)
     left, right = max(across + left - _MARGIN_M, -half), min(across + right + _MARGIN_M, half)
     return Board(side, *(round(value, 4) for value in (left, right, low - _MARGIN_M, high + _MARGIN_M)))
 
 
 @lru_cache(maxsize=16)
-def _back(spec: Spec) -> tuple[float, float, float, float]:
-    """Left, right, low and high of what touches the wall behind something."""
+def _back_extent_m(spec: Spec) -> tuple[float, float, float, float]:
+    """Return left, right, low and high of an object's back face."""
     points = np.concatenate([part.points for part in spec.asset().parts])
     x, y, _ = points[points[:, 2] < _BACK_M].T
     return float(x.min()), float(x.max()), float(y.min()), float(y.max())

@@ -1,4 +1,4 @@
-"""The building's shell: walls along the contour, vehicle doors, obstacles and columns."""
+"""Outer walls along the contour, vehicle doors, wall posts and columns."""
 
 from dataclasses import replace
 from itertools import product
@@ -29,10 +29,10 @@ _DOOR_HEAD_M = 0.3
 def columns(
     grid: TileGrid, bay: BayConfig, fittings: FittingsConfig, look: ColumnsLook, beam_depth_m: float
 ) -> list[Placement]:
-    """A column on every inner corner of the squares, but none in the middle of lanes and none in a wall.
+    """Place a column on every inner corner of the squares, except in the middle of lanes and in walls.
 
-    Half a column reaches into each square around its corner; stalls and carriageways keep that much clear, whatever
-    the section within. A rectangular one is long along the stalls around it.
+    A quarter of a column is on each of the squares around its corner; stalls and carriageways keep half a column width
+    clear for any section. A rectangular column is long parallel to the adjacent stalls.
     """
     structure = grid.structure
     cells = np.pad(structure.cells, 1, constant_values=Cell.OBSTACLE)
@@ -60,28 +60,28 @@ def columns(
 
 
 def _stalls_along_x(grid: TileGrid, row: int, col: int) -> bool:
-    """Whether more of the stalls on the squares around a corner are long along X than along Z."""
+    """Return True if most stalls on the squares around a corner are long along X."""
     around = [(row + down, col + right) for down, right in product((-1, 0), (-1, 0))]
     edges = [place.row.edge for square in around for place in grid.stall_places.get(square, ())]
     return sum(1 if edge.along_x else -1 for edge in edges) < 0
 
 
 def ground_inside(structure: Structure) -> shapely.Geometry:
-    """The (x, z) ground of every square inside the contour, obstacles too."""
+    """Return the ground (x, z) inside the contour, including obstacles."""
     x, z = structure.column_edges_m, structure.row_edges_m
     squares = np.argwhere(~outside_squares(structure.cells)).tolist()
     return shapely.union_all([shapely.box(x[col], z[row], x[col + 1], z[row + 1]) for row, col in squares])
 
 
 def outer_walls(grid: TileGrid, fittings: FittingsConfig, look: WallsLook) -> list[Placement]:
-    """A wall outside every edge of the contour, a vehicle door behind each portal, posts in convex corners.
+    """Place a wall outside every edge of the contour, a vehicle door at each portal, and posts in convex corners.
 
-    In a reflex corner the wall along X gives way to the one along Z by its thickness.
+    In a reflex corner, the wall along X is shortened by the thickness of the wall along Z.
 
     Raises
     ------
     ConfigError
-        If a portal's square is too narrow for a door that cars get through.
+        If a portal's square is too narrow for a vehicle door.
     """
     thickness, height, structure = fittings.wall_thickness_m, fittings.ceiling_height_m, grid.structure
     outside = np.pad(outside_squares(structure.cells), 1, constant_values=True)
@@ -114,6 +114,7 @@ def _wall(
     *,
     has_door: bool,
 ) -> Placement:
+    """Return the wall outside one edge of a tile, with or without a vehicle door."""
     row, col = tile.square
     dr, dc = NEIGHBOUR_STEPS[edge]
     x, z = tile.x_m + dc * tile.half_x_m, tile.z_m + dr * tile.half_z_m
@@ -136,6 +137,6 @@ def _wall(
             door_height_m=round(max(fittings.clear_height_m + DOOR_FRAME_M, spec.height_m - 2 * _DOOR_HEAD_M), 6),
             is_entrance=tile.cell is Cell.ENTRANCE,
         )
-    # the inner face looks back over the edge into the square
+    # the inner face looks into the square
     name = f"{'Portal' if has_door else 'Wall'}_r{row:02d}_c{col:02d}_{edge.name.capitalize()}"
     return placed(name, spec, (x, z), yaw_rad=edge_yaw_rad(edge.opposite))

@@ -1,4 +1,4 @@
-"""Ramps from the ground outside to the portals, and the barrier gates in them."""
+"""Vehicle ramps from street level to the portals, with their lights, sky and barrier gates."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -27,14 +27,14 @@ _BARRIER_NEAR_M, _BARRIER_FAR_M = 0.9, 2.6
 _ELBOW_MAX_M = 2.75
 _ELBOW_BELOW_CEILING_M = 0.35
 _LIGHTS_AT = (0.25, 0.6)
-"""Places of the lights, as shares of the covered part's length."""
+"""Places of the ramp lights, as shares of the covered part's length."""
 _ARM_HALF_M, _ARM_GAP_M = 0.04, 0.01
 
 
 def with_ramps(
     walls: list[Placement], inside: shapely.Geometry, fittings: FittingsConfig, look: WallsLook
 ) -> list[Placement]:
-    """The outer walls with every door opened behind which a ramp finds room, and the ramps with their sky.
+    """Add a ramp and its sky behind each vehicle door with enough room, and open these doors.
 
     Parameters
     ----------
@@ -43,13 +43,13 @@ def with_ramps(
     inside
         The garage's squares, (x, z) in metres.
     fittings
-        Heights, and whether there are ramps.
+        Heights, and the switch of ramps.
     look
-        Of walls.
+        Look of the walls.
 
     Notes
     -----
-    A ramp needs its whole footprint free of the garage, of its walls and of the ramps before it.
+    The footprint of a ramp must be clear of the garage, its walls and the previous ramps.
     """
     if not fittings.ramps:
         return walls
@@ -74,10 +74,10 @@ def with_ramps(
 
 
 def _ramp(portal: PortalSpec, fittings: FittingsConfig, look: WallsLook) -> RampSpec:
-    """The ramp behind a door."""
+    """Return the ramp behind a vehicle door."""
     runs, heights = zip(*fittings.ramp_profile, strict=True)
     rise, transition = heights[-1], heights[2]
-    # the slab over the foot ends where the floor comes within the clear height of it
+    # the slab over the ramp's foot ends at the clear height over the ramp's floor
     room = max(portal.height_m - fittings.clear_height_m, transition / 2)
     cover_end = float(np.interp(room, heights[1:-1], runs[1:-1]))
     return RampSpec(
@@ -94,6 +94,7 @@ def _ramp(portal: PortalSpec, fittings: FittingsConfig, look: WallsLook) -> Ramp
 
 
 def _sky(ramp: RampSpec) -> SkySpec:
+    """Return the sky over the open part of a ramp."""
     end, ground = ramp.profile[-1]
     return SkySpec(
         width_m=round(ramp.width_m + 2 * ramp.wall_m, 6),
@@ -106,14 +107,14 @@ def _sky(ramp: RampSpec) -> SkySpec:
 
 
 def _ground(ramp: RampSpec, wall: Placement) -> shapely.Polygon:
-    """The (x, z) footprint of a ramp with its side walls, from the back of the door's wall on."""
+    """Return the footprint (x, z) of a ramp with its side walls, from the back of the door's wall."""
     half, near, far = ramp.width_m / 2 + ramp.wall_m, -ramp.profile[0][0], -ramp.profile[-1][0]
     corners = ((-half, near), (half, near), (half, far), (-half, far))
     return shapely.Polygon([wall.to_world(corner) for corner in corners])
 
 
 def ramp_lights(walls: Iterable[Placement], fittings: FittingsConfig) -> list[Placement]:
-    """Tubes across each ramp's covered part, where they hang over the clear height."""
+    """Place tube lights across each ramp's covered part, above the clear height only."""
     lights: list[Placement] = []
     for ramp, spec in of_spec(walls, RampSpec):
         runs, heights = zip(*spec.profile, strict=True)
@@ -128,9 +129,9 @@ def ramp_lights(walls: Iterable[Placement], fittings: FittingsConfig) -> list[Pl
 
 
 def barriers(walls: list[Placement], fittings: FittingsConfig) -> list[Placement]:
-    """A barrier gate inside each open door, beside the opening on the driver's left; every other one is raised.
+    """Place a barrier gate inside each open vehicle door, on the driver's left; every other gate is raised.
 
-    None is where an arm finds no room between the clear height and the lights.
+    A raised arm needs room between the clear height and the lights; all gates are lowered without the room.
     """
     if not fittings.barriers:
         return []

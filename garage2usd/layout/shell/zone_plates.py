@@ -1,4 +1,4 @@
-"""Plates with the names of zones, on the sides of columns and on walls."""
+"""Zone plates: signs with the names of parking zones on columns and walls."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
@@ -22,25 +22,25 @@ from garage2usd.structure.stalls import Edge
 __all__ = ["zone_plates"]
 
 _AROUND = (Edge.DOWN, Edge.RIGHT, Edge.UP, Edge.LEFT)
-"""Where the sides of a column look, as `ColumnPlatesSpec` has them."""
+"""Edges that the sides of a column face, in the order of `ColumnPlatesSpec`."""
 _FOOT_M = 1.70
-"""Height of lower edges: over what hangs on columns and walls."""
-_HALF = 0.225
-"""From the middle of a column's side to that of its halves, as a share of its width."""
+"""Height of the lower edges of plates: above the equipment on columns and walls."""
+_HALF_OFFSET = 0.225
+"""Distance from the middle of a column's side to the middle of its halves, as a share of its width."""
 _ON_WALL_M, _FROM_END_M = 0.26, 0.15
-"""Width of a plate on a wall, and from its middle to the wall's end: between two rows of stalls."""
+"""Width of a plate on a wall, and distance of its middle to the wall's end, between two rows of stalls."""
 _SEEN_FROM_M = 0.5
-"""A side is hidden where a block is nearer."""
+"""A side is hidden by a block within this distance."""
 _SIGHT_M = 12.0
-"""How far the stalls are that a plate is for: across a lane."""
-_AS_NEAR_M = 1.0
-"""Stalls before the other half of a side count where they are so much farther than the nearest ones at most."""
+"""Greatest distance from a plate to its stalls: across a lane."""
+_EQUAL_DISTANCE_M = 1.0
+"""Greatest difference in distance for the stalls before both halves of a side to count."""
 _STRAIGHT_M = 0.01
-"""Stalls whose middle is not farther to a side lie before both halves."""
+"""Greatest lateral offset of a stall that counts for both halves."""
 
 
-class _Side(NamedTuple):
-    """A side of a column or a place on a wall: its name, the middle of its foot, where it looks, and its width."""
+class _PlateSide(NamedTuple):
+    """Candidate place of a zone plate, on a side of a column or on a wall: name, floor point, yaw and width."""
 
     name: str
     middle: Point
@@ -48,13 +48,13 @@ class _Side(NamedTuple):
     width_m: float
 
 
-class _Half(NamedTuple):
-    """What lies before half of a side.
+class _NearestStall(NamedTuple):
+    """Nearest stall in front of one half of a column side.
 
     Attributes
     ----------
     beside, beside_m
-        Zone of the nearest stall, and how far its ground is; empty and infinitely far if none is in sight.
+        Zone of the nearest stall, and distance to its ground; empty and infinite without a stall in sight.
     """
 
     beside: str = ""
@@ -68,21 +68,20 @@ def zone_plates(
     stalls: Iterable[PlacedStall],
     zones: Zones,
 ) -> list[Placement]:
-    """Plates on columns and walls, such that the nearest one to each stall is that of its zone.
+    """Place zone plates on columns and walls, so that the nearest plate to each stall shows the stall's zone.
 
     Parameters
     ----------
     columns, walls, blocks, stalls
-        The garage; blocks are its obstacles and stair cores.
+        Parts of the garage; blocks are its obstacles and stair cores.
     zones
-        The zones of the stalls.
+        Parking zones of the stalls.
 
     Notes
     -----
-    Each side of a column shows the zone of the nearest stalls before it. A side that a block hides is bare, as is one
-    without a stall in sight, and one on the border of two zones, before which lie stalls of both; the sides around it
-    show one zone each. Stalls to which a plate of another zone is the nearest, as there is no column about, have one
-    on a wall.
+    Each side of a column shows the zone of the nearest stalls in front of it. A side has no plate if a block hides it,
+    if no stall is in sight, or if stalls of two zones are in front of it; the adjacent sides show one zone each. A
+    stall with the plate of another zone as the nearest gets a plate on a wall.
     """
     numbered = [stall for stall in stalls if stall.number]
     if not numbered:
@@ -92,26 +91,26 @@ def zone_plates(
     middles = np.array([stall.centre_m for stall in numbered])
     columns = list(columns)
     sides = list(_column_sides(columns))
-    seen = _seen(sides, blocks)
-    zone_on = dict(zip(seen, starmap(_zone_on, _halves_of(seen, grounds, middles, shown)), strict=True))
+    seen = _visible_sides(sides, blocks)
+    zone_on = dict(zip(seen, starmap(_zone_on, _nearest_stalls(seen, grounds, middles, shown)), strict=True))
     plates: list[Placement] = []
     for number, column in enumerate(columns):
         own = sides[number * len(_AROUND) : (number + 1) * len(_AROUND)]
-        plates += _on_column(column, tuple(zone_on.get(side, "") for side in own))
-    return plates + _plates_on_walls(_seen(_wall_sides(walls), blocks), grounds, middles, shown, plates)
+        plates += _column_plates(column, tuple(zone_on.get(side, "") for side in own))
+    return plates + _wall_plates(_visible_sides(_wall_sides(walls), blocks), grounds, middles, shown, plates)
 
 
-def _column_sides(columns: Iterable[Placement]) -> Iterator[_Side]:
-    """The four sides of each column."""
+def _column_sides(columns: Iterable[Placement]) -> Iterator[_PlateSide]:
+    """Yield the four sides of each column."""
     for column, spec in of_spec(columns, ColumnSpec):
         at = column.position_m[0], column.position_m[2]
         for edge in _AROUND:
             yaw = edge_yaw_rad(edge)
-            yield _Side(column.name, to_world((0.0, spec.size_m / 2), at, yaw), yaw, spec.size_m)
+            yield _PlateSide(column.name, to_world((0.0, spec.size_m / 2), at, yaw), yaw, spec.size_m)
 
 
-def _on_column(column: Placement, sides: tuple[str, ...]) -> list[Placement]:
-    """The plates on a column, turned so that columns with the same ones share a shape; none if it is bare."""
+def _column_plates(column: Placement, sides: tuple[str, ...]) -> list[Placement]:
+    """Return the plates of a column; columns with the same plates share a prototype by rotation."""
     if not any(sides) or not isinstance(column.spec, ColumnSpec):
         return []
     turned = [(*sides[turn:], *sides[:turn]) for turn in range(len(sides))]
@@ -125,17 +124,17 @@ def _on_column(column: Placement, sides: tuple[str, ...]) -> list[Placement]:
     return [placed(name, spec, (x, z), height_m=_FOOT_M, yaw_rad=edge_yaw_rad(_AROUND[turn]))]
 
 
-def _wall_sides(walls: Iterable[Placement]) -> Iterator[_Side]:
-    """Room for a plate at both ends of each wall, beside the stalls before it."""
+def _wall_sides(walls: Iterable[Placement]) -> Iterator[_PlateSide]:
+    """Yield the places at both ends of each wall, between two rows of stalls."""
     for wall, spec in of_spec(walls, WallSpec):
         most = spec.length_m / 2 - _FROM_END_M
         for number, across in enumerate((-most, most), start=1):
             name = f"{wall.name.replace('Wall', 'ZonePlate')}_{number}"
-            yield _Side(name, wall.to_world((across, 0.0)), wall.yaw_rad, _ON_WALL_M)
+            yield _PlateSide(name, wall.to_world((across, 0.0)), wall.yaw_rad, _ON_WALL_M)
 
 
-def _seen(sides: Iterable[_Side], blocks: Iterable[Placement]) -> list[_Side]:
-    """The sides that no block hides."""
+def _visible_sides(sides: Iterable[_PlateSide], blocks: Iterable[Placement]) -> list[_PlateSide]:
+    """Return the sides that no block hides."""
     sides = list(sides)
     if not sides:
         return []
@@ -145,54 +144,57 @@ def _seen(sides: Iterable[_Side], blocks: Iterable[Placement]) -> list[_Side]:
     return [side for number, side in enumerate(sides) if number not in hidden]
 
 
-def _zone_on(left: _Half, right: _Half) -> str:
-    """The zone on the plate of a side; empty where none is in sight, or stalls of two are about as near."""
-    near_m = min(left.beside_m, right.beside_m) + _AS_NEAR_M
+def _zone_on(left: _NearestStall, right: _NearestStall) -> str:
+    """Return the zone on the plate of a side; empty without a zone, or if two zones are about equally near."""
+    near_m = min(left.beside_m, right.beside_m) + _EQUAL_DISTANCE_M
     beside = {half.beside for half in (left, right) if half.beside and half.beside_m <= near_m}
     return beside.pop() if len(beside) == 1 else ""
 
 
-def _halves_of(
-    sides: Sequence[_Side], grounds: Grounds, middles: NDArray[np.float64], shown: Sequence[str]
-) -> list[tuple[_Half, _Half]]:
-    """What lies before the left and the right half of each side; of the stalls grounds, middles and zones."""
+def _nearest_stalls(
+    sides: Sequence[_PlateSide], grounds: Grounds, middles: NDArray[np.float64], shown: Sequence[str]
+) -> list[tuple[_NearestStall, _NearestStall]]:
+    """Find the nearest stall in front of the left and the right half of each side.
+
+    `grounds`, `middles` and `shown` are the polygons, middles (x, z) and zones of the stalls.
+    """
     if not sides:
         return []
     at = np.array([side.middle for side in sides])
     ahead = np.array([cos_sin(side.yaw_rad)[::-1] for side in sides])
     right = ahead[:, ::-1] * (1, -1)
-    off_m = np.array([[_HALF * side.width_m] for side in sides])
+    off_m = np.array([[_HALF_OFFSET * side.width_m] for side in sides])
     reach = np.stack([at - _SIGHT_M * right, at + _SIGHT_M * (right + ahead)])
     side, stall = shapely.STRtree(grounds).query(shapely.box(*reach.min(axis=0).T, *reach.max(axis=0).T))
     is_before = ((middles[stall] - at[side]) * ahead[side]).sum(axis=1) > 0
     side, stall = side[is_before], stall[is_before]
     to_right_m = ((middles[stall] - at[side]) * right[side]).sum(axis=1)
-    halves: list[list[_Half]] = []
+    halves: list[list[_NearestStall]] = []
     for turn in (-1, 1):
         place = at + turn * off_m * right
         far_m = shapely.distance(shapely.points(place[side]), grounds[stall]).round(6)
         order = np.lexsort((stall, distances_m(place[side], middles[stall]).round(6), far_m, side))
         order = order[far_m[order] <= _SIGHT_M]
-        found = [_Half()] * len(sides)
+        found = [_NearestStall()] * len(sides)
         for row in _first_of_each(order[turn * to_right_m[order] > -_STRAIGHT_M], side):
-            found[side[row]] = _Half(shown[stall[row]], float(far_m[row]))
+            found[side[row]] = _NearestStall(shown[stall[row]], float(far_m[row]))
         halves.append(found)
     return list(zip(*halves, strict=True))
 
 
 def _first_of_each(rows: NDArray[np.intp], owner: NDArray[np.intp]) -> list[int]:
-    """The first of the rows of each owner."""
+    """Return the first row of each owner."""
     return [int(row) for row in rows[np.unique(owner[rows], return_index=True)[1]]]
 
 
-def _plates_on_walls(
-    sides: Sequence[_Side],
+def _wall_plates(
+    sides: Sequence[_PlateSide],
     grounds: Grounds,
     middles: NDArray[np.float64],
     shown: Sequence[str],
     plates: Sequence[Placement],
 ) -> list[Placement]:
-    """A plate on a wall for each stall to which that of another zone is the nearest, if its zone lies at a wall."""
+    """Return the plates on walls for stalls with the plate of another zone as the nearest, if their zone has a wall."""
     if not sides:
         return []
     zones = np.array(shown)
