@@ -52,5 +52,5 @@ __getattr__ = on_first_use(__name__, _HOME)
 
 
 def __dir__() -> list[str]:
-    """The public names."""
+    """Return the public names of the package."""
     return __all__

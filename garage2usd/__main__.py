@@ -1,4 +1,4 @@
-"""``python -m garage2usd``."""
+"""Entry point of ``python -m garage2usd``."""
 
 from garage2usd.cli import run
 

@@ -1,4 +1,4 @@
-"""Contact sheets: pictures of many garages beside each other, inside and from above, drawn by Blender."""
+"""Contact sheets: Blender pictures of many garages in a grid, each from inside and from above."""
 
 import hashlib
 import json
@@ -44,7 +44,7 @@ _MOST_PX = 30_000
 
 
 class SheetGarage(NamedTuple):
-    """A garage of a sheet.
+    """A garage on a contact sheet.
 
     Attributes
     ----------
@@ -135,7 +135,7 @@ def draw_contact_sheet(
 
 
 def _key(garages: Sequence[SheetGarage], size_px: tuple[int, int], samples: int, device: Device) -> str:
-    """Which work it is."""
+    """Return the key that identifies unfinished work."""
     told = [VERSION, size_px, samples, device, [(garage.name, garage.config.digest()) for garage in garages]]
     return hashlib.sha256(json.dumps(told).encode()).hexdigest()
 
@@ -216,7 +216,7 @@ def _sheet_size(columns: int, rows: int, size_px: tuple[int, int]) -> tuple[int,
 
 
 def _sheet(cells: Sequence[Path], columns: int, size_px: tuple[int, int]) -> Image.Image:
-    """All cells row by row."""
+    """Join the pictures of all garages, row by row."""
     width, height = _cell_size(size_px)
     sheet = Image.new("RGB", _sheet_size(columns, -(-len(cells) // columns), size_px), _PAPER)
     for number, cell in enumerate(cells):

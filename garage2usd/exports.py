@@ -1,4 +1,4 @@
-"""A stage, or the garage that a report tells of, in the formats of programs that read no USD."""
+"""Export of a stage or a report to maps, scenarios, occupancy grids and glTF."""
 
 # Over 300 lines: every format is a few lines here, and what is asked for is checked, written and published as one.
 
@@ -41,7 +41,7 @@ Notice = Callable[[str], None]
 
 
 class _Source:
-    """A stage that is open, and what is read in it once for several formats."""
+    """An open stage; its garage, objects and roads are read once for all formats."""
 
     def __init__(self, stage: Path, name: str) -> None:
         self.name, self.stage = name, open_stage(stage)
@@ -58,22 +58,22 @@ class _Source:
 
     @cached_property
     def objects(self) -> list[PlacedObject]:
-        """Everything that it draws, in metres, Y up."""
+        """All drawn objects of the stage, in metres, Y up."""
         return placed_objects(self.stage, metres_y_up(self.stage))
 
     @cached_property
     def garage(self) -> BuiltGarage:
-        """Its lanes, stalls and objects."""
+        """The garage: lanes, stalls and objects."""
         return garage_of_stage(self.stage, source=self.name, objects=self.objects, is_judged=False)
 
     @cached_property
     def network(self) -> Network:
-        """Its roads."""
+        """The road network of the garage."""
         return network_of(self.garage)
 
 
 class _Asked(NamedTuple):
-    """A file that is asked for.
+    """A requested output file.
 
     Attributes
     ----------
@@ -94,7 +94,7 @@ class _Asked(NamedTuple):
 
     @property
     def format(self) -> str:
-        """What its name ends in, in small letters."""
+        """The file extension in lower case."""
         return _format_of(self.place)
 
     def files(self, folder: Path) -> tuple[Path, ...]:
@@ -314,7 +314,7 @@ def _with_maps(places: Sequence[Path]) -> Iterator[Path]:
 
 
 def _map_beside(place: Path, places: Sequence[Path]) -> Path | None:
-    """The map of the same stem in the same folder."""
+    """Return the path of the map with the same stem in the same folder."""
     return next((map_ for map_ in places if _format_of(map_) == _MAP and map_.with_suffix(place.suffix) == place), None)
 
 

@@ -1,4 +1,4 @@
-"""The road: configuration to site, plan, lane graph, layout, stage and files."""
+"""The pipeline from a configuration to site, plan, lane graph, layout, stage and files."""
 # Over 300 lines: the whole road is told in one place, as far as the garage and as far as its files.
 
 import time
@@ -42,7 +42,7 @@ _NAMES_BESIDE = ("plan.png", "learning.png", "best.png", "labels.json", "report.
 
 @dataclass(frozen=True, eq=False)
 class Garage:
-    """A garage with everything on the road to it.
+    """A generated garage with all intermediate results of the pipeline.
 
     Attributes
     ----------
@@ -279,7 +279,7 @@ def _graph(plan: Plan, config: GarageConfig) -> LaneSquares:
 
 
 def _plan(site: Structure, config: GarageConfig, *, tape: str | None, progress: Progress) -> Plan:
-    """The lanes that are given, played from a tape, or learnt."""
+    """Plan the lanes: take the given ones, replay a tape, or learn."""
     if (site.cells == Cell.LANE).any():
         if tape is not None:
             raise ConfigError("tape", tape, "no tape beside a structure that has lanes")
@@ -315,7 +315,7 @@ def _check_learnt(plan: Plan, *, learning_curve: bool, best_plans: int) -> None:
 
 
 def _pictures(garage: Garage, *, learning_curve: bool, best_plans: int) -> dict[str, Image.Image]:
-    """The pictures of a build by their name."""
+    """Draw the pictures of a build, keyed by name."""
     plan = garage.plan
     pictures = {"plan": to_image(draw_plan(garage.layout))}
     if learning_curve:

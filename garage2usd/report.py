@@ -1,4 +1,4 @@
-"""The report of a build written: what was made and what reproduces it (see `garage2usd.reading.report`)."""
+"""Writing of the JSON report of a build (its model is in `garage2usd.reading.report`)."""
 
 import math
 from collections import Counter
@@ -64,7 +64,7 @@ def make_report(
     learning: LearningFigures | None = None,
     unmet: Sequence[UnmetClause] | None = None,
 ) -> Report:
-    """The report of a garage; but for ``seconds`` the same configuration, seed and version give the same one.
+    """Make the report of a garage; it is reproducible, except for ``seconds``.
 
     Parameters
     ----------
@@ -158,7 +158,7 @@ def _mean_returns(plan: Plan) -> tuple[float, ...]:
 
 
 def learning_figures(plan: Plan, config: GarageConfig) -> LearningFigures | None:
-    """What learning alone found, and what polish added to it; None where nothing was learnt."""
+    """Return the scores of learning before and after polish; None if nothing was learnt."""
     if plan.learnt is None:
         return None
     found = dimensioned(plan.learnt.structure, config.bay)
