@@ -106,7 +106,7 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
         return self._observed(self._state), self._info(self._state)
 
     def step(self, action: np.int64 | int) -> tuple[Observed, float, bool, bool, dict[str, Any]]:
-        """Carry an action out.
+        """Carry out an action.
 
         Raises
         ------

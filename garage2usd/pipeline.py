@@ -290,7 +290,7 @@ def _plan(site: Structure, config: GarageConfig, *, tape: str | None, progress: 
 
 
 def _judged(garage: Garage) -> tuple[tuple[Finding, ...] | None, tuple[UnmetClause, ...] | None]:
-    """What a garage misses of its profile, and of which clauses, where that is found in a moment."""
+    """Check a garage against its profile; both results are None for garages with too many stalls."""
     if len(garage.layout.stalls) > _MOST_CHECKED_STALLS:
         return None, None
     findings, unmet = judged_layout(garage.layout, garage.config)

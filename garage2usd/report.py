@@ -158,7 +158,7 @@ def _mean_returns(plan: Plan) -> tuple[float, ...]:
 
 
 def learning_figures(plan: Plan, config: GarageConfig) -> LearningFigures | None:
-    """Return the scores of learning before and after polish; None if nothing was learnt."""
+    """Return the results of learning alone and the gain by polish; None if nothing was learnt."""
     if plan.learnt is None:
         return None
     found = dimensioned(plan.learnt.structure, config.bay)

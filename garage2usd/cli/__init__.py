@@ -1,4 +1,4 @@
-"""The command line: arguments, progress, exit codes. A module is a command."""
+"""The command line: arguments, progress bars and exit codes, with one module per command."""
 
 import atexit
 import gc

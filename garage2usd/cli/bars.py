@@ -1,4 +1,4 @@
-"""Progress: bars on a terminal, elsewhere a line every ten seconds."""
+"""Progress bars on a terminal; elsewhere a line of text every ten seconds."""
 
 import time
 from types import TracebackType
@@ -86,7 +86,7 @@ class Bars:
         click.echo(f"{step}: {counted}{100 * done // max(total, 1)} %{left}", file=self._stream)
 
     def _rate(self, item: int | None) -> str | None:
-        """How fast it goes, beside the time that is left."""
+        """Format the speed, which is shown beside the remaining time."""
         if self._unit is None or item is None or self._bar is None or not self._bar.time_per_iteration:
             return None
         return f"{1 / self._bar.time_per_iteration:.2g} {self._unit}/s"

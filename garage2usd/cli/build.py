@@ -1,4 +1,4 @@
-"""``garage2usd build``."""
+"""The command ``garage2usd build``."""
 
 import sys
 from collections import Counter

@@ -1,4 +1,4 @@
-"""``garage2usd check``."""
+"""The command ``garage2usd check``."""
 
 import json
 import sys

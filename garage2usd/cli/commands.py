@@ -1,4 +1,4 @@
-"""A group of commands that share their errors and exit codes."""
+"""The click group of all commands, with common error lines and exit codes."""
 
 import sys
 from typing import Any
@@ -14,7 +14,7 @@ _USAGE_FIELDS = {"frames", "output", "profile"}
 
 
 class Commands(click.Group):
-    """Turns the errors that garage2usd raises on purpose into one line and an exit code."""
+    """Print each `Garage2UsdError` as one line and end with its exit code."""
 
     def main(self, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401 - as click has it
         """Run a command; usage errors end in 2, all others in 1. A real bug shows its traceback."""

@@ -1,4 +1,4 @@
-"""``garage2usd dataset``."""
+"""The command ``garage2usd dataset``."""
 
 import sys
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""``garage2usd doctor``."""
+"""The command ``garage2usd doctor``."""
 
 import hashlib
 import sys

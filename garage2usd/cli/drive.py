@@ -1,4 +1,4 @@
-"""``garage2usd drive``."""
+"""The command ``garage2usd drive``."""
 
 import sys
 from collections import Counter

@@ -1,4 +1,4 @@
-"""``garage2usd export``."""
+"""The command ``garage2usd export``."""
 
 import sys
 from pathlib import Path

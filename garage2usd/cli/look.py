@@ -1,4 +1,4 @@
-"""``garage2usd look``."""
+"""The command ``garage2usd look``."""
 
 import sys
 from collections.abc import Iterator
@@ -120,7 +120,7 @@ def look(
 
 
 def _garages(path: Path | None, numbers: tuple[int, ...] | None) -> Iterator["SheetGarage"]:
-    """The garages that are asked for."""
+    """Return the requested garages."""
     from garage2usd.config import GarageConfig, load_config  # noqa: PLC0415 - keeps --help instant
 
     if path is not None and _is_recipe(path):
@@ -136,7 +136,7 @@ def _garages(path: Path | None, numbers: tuple[int, ...] | None) -> Iterator["Sh
 
 
 def _is_recipe(path: Path) -> bool:
-    """Whether a file is the recipe of a data set, and no configuration."""
+    """Return whether a file is the recipe of a data set rather than a configuration."""
     from garage2usd.common.documents import read_toml  # noqa: PLC0415 - keeps --help instant
 
     if path.suffix.lower() == ".json":

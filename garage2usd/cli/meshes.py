@@ -1,4 +1,4 @@
-"""``garage2usd meshes``."""
+"""The command ``garage2usd meshes``."""
 
 import sys
 from collections import Counter

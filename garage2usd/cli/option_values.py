@@ -1,4 +1,4 @@
-"""Values of options that click has no types for: sizes, places, and some of several words."""
+"""Types of command-line options that click lacks: image sizes, number ranges, points and lists of words."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""What several commands share, so that the same thing has the same name, help, completion and look."""
+"""Options and tables shared by several commands, with the same names, help and completion."""
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -71,7 +71,7 @@ def refuse_seed(seed: int | None) -> None:
 
 
 def _profiles(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """The shipped profiles that begin so, else whatever file the shell finds."""
+    """Complete the name of a shipped profile, or else a file name."""
     from garage2usd.profiles import PROFILE_NAMES  # noqa: PLC0415 - keeps --help instant
 
     names = [CompletionItem(name) for name in PROFILE_NAMES if name.startswith(incomplete)]

@@ -1,4 +1,4 @@
-"""``garage2usd plan``."""
+"""The command ``garage2usd plan``."""
 
 import sys
 from pathlib import Path

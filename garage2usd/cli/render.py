@@ -1,4 +1,4 @@
-"""``garage2usd render``."""
+"""The command ``garage2usd render``."""
 
 import sys
 from pathlib import Path
@@ -27,7 +27,7 @@ _SLOT_FORMATS = ("json", "coco", "panoptic", "dmpr-ps")
 
 
 def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """The shipped rigs that begin so, else whatever file the shell finds."""
+    """Complete the name of a shipped sensor rig, or else a file name."""
     from garage2usd.sensors.rig.rig import RIG_NAMES  # noqa: PLC0415 - keeps --help instant
 
     names = [CompletionItem(name) for name in RIG_NAMES if name.startswith(incomplete)]
@@ -248,7 +248,7 @@ def _record(
     also: tuple[str, ...],
     output: Path,
 ) -> None:
-    """Record a drive."""
+    """Record the sensors of a rig along a drive."""
     from garage2usd.recordings import CloudFormat, Sequence, record  # noqa: PLC0415 - keeps --help instant
 
     with Bars(sys.stderr) as progress:

@@ -1,4 +1,4 @@
-"""``garage2usd schema``."""
+"""The command ``garage2usd schema``."""
 
 import json
 

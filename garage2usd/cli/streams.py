@@ -1,4 +1,4 @@
-"""The standard streams of the program: they take any text, and one that is full is told in one line."""
+"""Standard output and error: they accept any text and report a full disk in one line."""
 
 import errno
 import io

@@ -1,4 +1,4 @@
-"""A process of its own for commands that read USD: a damaged stage can crash the library, not the command."""
+"""Child processes for commands that read USD, since a damaged stage can crash the USD library."""
 
 import signal
 import sys

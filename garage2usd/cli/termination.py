@@ -1,4 +1,4 @@
-"""The end that a signal asks for."""
+"""Termination by signals: unwinding and removal of temporary files."""
 
 import signal
 import sys

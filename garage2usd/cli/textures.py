@@ -1,4 +1,4 @@
-"""``garage2usd textures``."""
+"""The command ``garage2usd textures``."""
 
 from pathlib import Path
 

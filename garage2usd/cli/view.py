@@ -1,4 +1,4 @@
-"""``garage2usd view``."""
+"""The command ``garage2usd view``."""
 
 import threading
 import time
