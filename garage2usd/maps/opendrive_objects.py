@@ -96,13 +96,16 @@ class Signal(NamedTuple):
 
 
 def stalls_of(garage: BuiltGarage, places: RoadPlaces, network: Network) -> Iterator[MapObject]:
-    """Yield the stalls of a garage as OpenDRIVE objects; axis u leads from entry to rear, corners as in `Stall`."""
+    """Yield the stalls of a garage as OpenDRIVE objects, with their corners as in `Stall`.
+
+    Axis u leads from the tail to the nose of a car parked nose in.
+    """
     taken = garage.taken_stalls
     through = {number: road for road in network.roads if road.junction is None for number in road.nodes}
     meeting = {junction.node: junction.number for junction in network.junctions}
     for stall in garage.stalls:
         road, s_m, t_m = places.of_stall(stall)
-        ahead = map_point(stall.outwards)
+        ahead = map_point(stall.backwards)
         heading = math.atan2(-ahead[1], -ahead[0])
         away = map_points(stall.corners) - map_points(stall.centre)
         access = through.get(stall.access)

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from garage2usd.assets.glyphs import GLYPH_PITCH, GLYPH_WIDTH
 from garage2usd.config import FittingsConfig, LookConfig
 from garage2usd.config.look import BandForm, MarkingsLook, NumberForm, NumberPlace
+from garage2usd.garage import StallKind
 from garage2usd.layout.placement import PlacedStall, Placement, placed
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.objects.kind import Spec
@@ -109,7 +110,7 @@ def _on_floor_m(stall: PlacedStall, place: NumberPlace, height_m: float, marking
     if place is NumberPlace.REAR:
         stop = _WHEEL_STOP_FROM_REAR_M + WHEEL_STOP_WIDTH_M / 2
         return -half + stop + _FROM_LINE_M + height_m / 2, height_m
-    if place is NumberPlace.LANE:
+    if place is NumberPlace.LANE and stall.kind is StallKind.PERPENDICULAR:
         if markings.band is BandForm.NONE:
             return half + _LANE_GAP_M + height_m / 2, height_m
         room = markings.band_gap_m - 2 * _BESIDE_STRIP_M
@@ -120,7 +121,12 @@ def _on_floor_m(stall: PlacedStall, place: NumberPlace, height_m: float, marking
 
 
 def _wall_behind_m(stall: PlacedStall, grid: TileGrid, outside: NDArray[np.bool_]) -> float | None:
-    """Return the distance from a stall's middle back to the outer wall behind it; None without an outer wall there."""
+    """Return the distance from a stall's middle back to the outer wall behind it.
+
+    None without an outer wall there, and for stalls that are not perpendicular to it.
+    """
+    if stall.kind is not StallKind.PERPENDICULAR:
+        return None
     row, col = stall.edge.opposite.beyond(stall.square)
     rows, cols = outside.shape
     if 0 <= row < rows and 0 <= col < cols and not outside[row, col]:

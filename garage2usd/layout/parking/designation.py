@@ -10,7 +10,7 @@ import shapely
 from garage2usd.config import ParkingConfig
 from garage2usd.garage import StallKind
 from garage2usd.layout.nearness import Points
-from garage2usd.layout.placement import PlacedStall, Placement, StallUse, rounded
+from garage2usd.layout.placement import PlacedStall, Placement, StallUse, edge_yaw_rad, rounded
 from garage2usd.objects.charger import ChargerSpec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.panel import Marking, Paint, Surface
@@ -23,6 +23,7 @@ _ACCESSIBLE_SHARE = 0.02
 _ACCESSIBLE_FROM_STALLS = 25
 """Garages with at least this many stalls have an accessible one."""
 _CHARGER_FROM_REAR_M = 0.055
+_CHARGER_BEYOND_LINE_M = 0.055
 _SYMBOL_Z_M = 0.35
 _ROUNDING_M = 1e-6
 
@@ -160,9 +161,16 @@ def _wheelchair() -> list[tuple[Point, ...]]:
 
 
 def chargers(stalls: tuple[PlacedStall, ...]) -> list[Placement]:
-    """A charging post at the rear of each charging stall, behind where cars end."""
-    return [
-        stall.placement("Charger", ChargerSpec(), (0.0, -stall.length_m / 2 + _CHARGER_FROM_REAR_M))
-        for stall in stalls
-        if stall.use is StallUse.EV
-    ]
+    """A charging post at the rear of each charging stall, behind where cars end; beside them in parallel stalls."""
+    return [_charger(stall) for stall in stalls if stall.use is StallUse.EV]
+
+
+def _charger(stall: PlacedStall) -> Placement:
+    if stall.kind is not StallKind.PARALLEL:
+        return stall.placement("Charger", ChargerSpec(), (0.0, -stall.length_m / 2 + _CHARGER_FROM_REAR_M))
+    return stall.placement(
+        "Charger",
+        ChargerSpec(),
+        (stall.turn * (stall.width_m / 2 + _CHARGER_BEYOND_LINE_M), 0.0),
+        yaw_rad=edge_yaw_rad(stall.edge),
+    )

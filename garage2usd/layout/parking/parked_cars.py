@@ -5,6 +5,7 @@ import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import pairwise
 from statistics import NormalDist
 from typing import NamedTuple
 
@@ -117,6 +118,8 @@ class _Row:
         self.width_m = stalls[0].width_m
         self.numbers = [number for number, stall in enumerate(stalls) if stall.name in cars]
         self.cars = {number: cars[stalls[number].name] for number in self.numbers}
+        # far over a line a car of a slanted row would leave the row or stand on the wheel stop beside
+        self.takes_misparked = stalls[0].kind is StallKind.PERPENDICULAR
         self.is_tight = any(stall.name in tight for stall in stalls)
         self.limits = {number: self._limits(number) for number in self.numbers}
         self.reaching: dict[int, int] = {}
@@ -129,7 +132,7 @@ class _Row:
 
     def free_beside(self, number: int) -> list[int]:
         """Numbers of the stalls beside one that hold no car and that no car reaches into."""
-        beside = [other for other in (number - 1, number + 1) if self.is_lent(other)]
+        beside = [other for other in (number - 1, number + 1) if self.takes_misparked and self.is_lent(other)]
         return [other for other in beside if other not in self.cars and other not in self.reaching.values()]
 
     def _limits(self, number: int) -> tuple[float, float]:
@@ -218,7 +221,8 @@ def park_cars(
     -----
     A car is drawn among the bodies that fit, then its yaw, then its place across the stall from what neighbours and
     lines leave, by a normal distribution that is cut there. Every stall draws the same number of times, so that the
-    occupancy changes no other car. A car stands over a line, or far over, only towards a stall of the same row.
+    occupancy changes no other car. A car stands over a line only towards a stall of the same row, and far over only in
+    rows of perpendicular stalls.
     """
     parking = config.parking
     most = max((stall.ordinal for stall in stalls), default=0)
@@ -260,8 +264,8 @@ def _car(
 ) -> _Car | None:
     """The car of a stall by its draws and those of the state that it was left in; None where no body fits."""
     _, reverse, yaw_share, side_share, along_share, body_share, paint_share = drawn
-    # cars follow the traffic into angled and parallel stalls
-    is_reversed = reverse < fleet.reversed_share and stall.kind is StallKind.PERPENDICULAR
+    # beside a lane and aslant cars stand as traffic flows; that they are backed in nowhere there is an assumption
+    is_reversed = stall.kind is StallKind.PERPENDICULAR and reverse < fleet.reversed_share
     bodies = fitting(stall.width_m, stall.length_m, is_reversed=is_reversed)
     if not bodies:
         return None
@@ -290,17 +294,21 @@ def _car(
 
 
 def _rows(stalls: Iterable[PlacedStall]) -> list[list[PlacedStall]]:
-    """The stalls that lie beside each other on a square, each row from the left as one looks out of their mouths."""
+    """The stalls that lie beside each other on a square, each row from the left as one looks out of their mouths.
+
+    Angled stalls are as far apart across their sides as they are wide. Parallel ones lie one behind the other, each a
+    row of its own.
+    """
     rows: list[list[PlacedStall]] = []
     of_side: dict[tuple[object, object], list[PlacedStall]] = {}
     for stall in stalls:
         of_side.setdefault((stall.square, stall.edge), []).append(stall)
     for group in of_side.values():
         cos, sin = elementary.cos(group[0].yaw_rad), -elementary.sin(group[0].yaw_rad)
-        along = sorted(group, key=lambda stall: stall.centre_m[0] * cos + stall.centre_m[1] * sin)
-        row = [along[0]]
-        for stall in along[1:]:
-            if abs(math.dist(stall.centre_m, row[-1].centre_m) - stall.width_m) > _TOUCH_M:
+        ordered = sorted((stall.centre_m[0] * cos + stall.centre_m[1] * sin, stall.name, stall) for stall in group)
+        row = [ordered[0][2]]
+        for (before_m, _, _), (across_m, _, stall) in pairwise(ordered):
+            if abs(across_m - before_m - stall.width_m) > _TOUCH_M:
                 rows.append(row)
                 row = []
             row.append(stall)
