@@ -18,7 +18,7 @@ from garage2usd.config import PlanConfig, config_schema
 from garage2usd.config.plan import SarsaParameters
 from garage2usd.objects import CLASSES, CLASSES_VERSION, PieceClass
 from garage2usd.profiles import PROFILE_NAMES, Clause, Profile, load_profile
-from garage2usd.profiles.clauses import Amount, LengthRange, Steps
+from garage2usd.profiles.clauses import Amount, LengthRange, LengthsByAngle, Steps
 
 SECTIONS = {
     "SiteConfig",
@@ -210,6 +210,9 @@ def _required(clause: Clause) -> str:
     match clause:
         case Amount():
             return f"{clause.value:g}" if clause.reported_in == "count" else f"{clause.value:g} {_unit(clause)}"
+        case LengthsByAngle():
+            pairs = zip(clause.angles_deg, clause.values, strict=True)
+            return ", ".join(f"{value:g} {clause.unit} at {angle:g} degrees" for angle, value in pairs)
         case LengthRange():
             return f"{clause.least:g} to {clause.most:g} {clause.unit}"
         case Steps():

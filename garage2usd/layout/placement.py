@@ -170,7 +170,7 @@ class PlacedStall:
         return tuple(map(self.to_world, self.outline()))
 
     @property
-    def kind(self) -> StallKind:
+    def stall_kind(self) -> StallKind:
         """Its orientation to the lane."""
         return kind_of_angle(self.angle_deg)
 

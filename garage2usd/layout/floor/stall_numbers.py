@@ -110,7 +110,7 @@ def _on_floor_m(stall: PlacedStall, place: NumberPlace, height_m: float, marking
     if place is NumberPlace.REAR:
         stop = _WHEEL_STOP_FROM_REAR_M + WHEEL_STOP_WIDTH_M / 2
         return -half + stop + _FROM_LINE_M + height_m / 2, height_m
-    if place is NumberPlace.LANE and stall.kind is StallKind.PERPENDICULAR:
+    if place is NumberPlace.LANE and stall.stall_kind is StallKind.PERPENDICULAR:
         if markings.band is BandForm.NONE:
             return half + _LANE_GAP_M + height_m / 2, height_m
         room = markings.band_gap_m - 2 * _BESIDE_STRIP_M
@@ -125,7 +125,7 @@ def _wall_behind_m(stall: PlacedStall, grid: TileGrid, outside: NDArray[np.bool_
 
     None without an outer wall there, and for stalls that are not perpendicular to it.
     """
-    if stall.kind is not StallKind.PERPENDICULAR:
+    if stall.stall_kind is not StallKind.PERPENDICULAR:
         return None
     row, col = stall.edge.opposite.beyond(stall.square)
     rows, cols = outside.shape

@@ -132,7 +132,7 @@ def _is_standard_beside(index: int, other: int, stalls: tuple[PlacedStall, ...],
     # of three, the one in the middle may be left out
     is_next = abs(first.ordinal - second.ordinal) == 1
     is_beside = is_next and (first.square, first.edge) == (second.square, second.edge)
-    return is_beside and first.kind is not StallKind.PARALLEL
+    return is_beside and first.stall_kind is not StallKind.PARALLEL
 
 
 def use_symbol(use: StallUse) -> tuple[Marking, ...]:
@@ -166,7 +166,7 @@ def chargers(stalls: tuple[PlacedStall, ...]) -> list[Placement]:
 
 
 def _charger(stall: PlacedStall) -> Placement:
-    if stall.kind is not StallKind.PARALLEL:
+    if stall.stall_kind is not StallKind.PARALLEL:
         return stall.placement("Charger", ChargerSpec(), (0.0, -stall.length_m / 2 + _CHARGER_FROM_REAR_M))
     return stall.placement(
         "Charger",

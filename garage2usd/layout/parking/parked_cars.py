@@ -119,7 +119,7 @@ class _Row:
         self.numbers = [number for number, stall in enumerate(stalls) if stall.name in cars]
         self.cars = {number: cars[stalls[number].name] for number in self.numbers}
         # far over a line a car of a slanted row would leave the row or stand on the wheel stop beside
-        self.takes_misparked = stalls[0].kind is StallKind.PERPENDICULAR
+        self.takes_misparked = stalls[0].stall_kind is StallKind.PERPENDICULAR
         self.is_tight = any(stall.name in tight for stall in stalls)
         self.limits = {number: self._limits(number) for number in self.numbers}
         self.reaching: dict[int, int] = {}
@@ -265,7 +265,7 @@ def _car(
     """The car of a stall by its draws and those of the state that it was left in; None where no body fits."""
     _, reverse, yaw_share, side_share, along_share, body_share, paint_share = drawn
     # beside a lane and aslant cars stand as traffic flows; that they are backed in nowhere there is an assumption
-    is_reversed = stall.kind is StallKind.PERPENDICULAR and reverse < fleet.reversed_share
+    is_reversed = stall.stall_kind is StallKind.PERPENDICULAR and reverse < fleet.reversed_share
     bodies = fitting(stall.width_m, stall.length_m, is_reversed=is_reversed)
     if not bodies:
         return None

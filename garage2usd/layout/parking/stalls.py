@@ -170,7 +170,7 @@ def wheel_stops(stalls: tuple[PlacedStall, ...], fittings: FittingsConfig, profi
             (0.0, -stall.length_m / 2 + WHEEL_STOP_FROM_REAR_M),
         )
         for stall in stalls
-        if stall.use.takes_cars and stall.kind is not StallKind.PARALLEL
+        if stall.use.takes_cars and stall.stall_kind is not StallKind.PARALLEL
     ]
 
 

@@ -13,7 +13,7 @@ LARGE = {"site": {"width_cells": 20, "height_cells": 16}, "plan": {"episodes": 1
 MIXED = {"perpendicular": 0.6, "angled": 0.25, "parallel": 0.15}
 
 
-def shares_of(garage, of=lambda stall: str(stall.kind)):
+def shares_of(garage, of=lambda stall: str(stall.stall_kind)):
     names = [of(stall) for stall in garage.layout.stalls]
     return {name: names.count(name) / len(names) for name in sorted(set(names))}
 
