@@ -23,7 +23,7 @@ _SAME_M = 5e-4
 _GROUP_BITS = 7
 """Cells of the side `_SAME_M` are grouped for lookup, by two to the power of this number along each axis."""
 _DEGREE_DIGITS = 11
-"""Decimals of degrees: a micrometre. PROJ's last digits differ by processor."""
+"""Decimals of degrees: a micrometre. Further digits of PROJ differ by processor; the last one may too."""
 
 
 _Cell = tuple[int, int, int]
