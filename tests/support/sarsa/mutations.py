@@ -18,7 +18,17 @@ from support.sarsa.following import Case, Course, cases_of, check_states, compar
 from support.sarsa.mutants import MUTANTS, Mutant
 
 EXAMPLES = 200
-FILES = ("arrays.h", "elementary.h", "planning.h", "archive.c", "board.c", "digest.c", "elementary.c", "sarsa.c", "survey.c")
+FILES = (
+    "arrays.h",
+    "elementary.h",
+    "planning.h",
+    "archive.c",
+    "board.c",
+    "digest.c",
+    "elementary.c",
+    "sarsa.c",
+    "survey.c",
+)
 """What Sarsa over squares is made of."""
 FORK = multiprocessing.get_context("fork")
 
