@@ -16,7 +16,7 @@ SHAPES = {Collider.MESH: "MESH", Collider.BOX: "BOX", Collider.CONVEX_HULL: "CON
 # newton turns a box to fit its points, which on a square slab is off by up to 15 mm
 BOX_TOLERANCE_M = 0.02
 # newton keeps the 64 most important points of a hull
-HULL_POINTS, HULL_TOLERANCE_M = 64, 0.07
+HULL_POINTS, HULL_TOLERANCE_M = 64, 0.1
 
 
 @pytest.fixture(scope="module")
