@@ -155,7 +155,7 @@ def record(path: Path) -> None:
             garage = generate(config)
             told = f"seed {seed}: {len(garage.layout.stalls)} stalls"
             if seed == 1:
-                proofs = prove_stalls(garage.layout, garage.graph)
+                proofs = prove_stalls(garage.layout)
                 told += f", {sum(proof.is_proven for proof in proofs)} of {len(proofs)} driven to"
             print(told, flush=True)
 
