@@ -22,7 +22,6 @@ __all__ = [
     "cos_sin",
     "edge_yaw_rad",
     "of_spec",
-    "outline_of",
     "placed",
     "rounded",
     "stall_name",
@@ -181,18 +180,13 @@ class PlacedStall:
 
     def outline(self) -> Polygon:
         """The same corners from its middle: the mouth is at +Z, and beside a car in a parallel stall."""
-        return outline_of((self.width_m, self.length_m), self.angle_deg, self.turn)
-
-
-def outline_of(size_m: Point, angle_deg: float, turn: int) -> Polygon:
-    """Corners of a stall from its middle, by its width and length; see `PlacedStall`."""
-    x, z = size_m[0] / 2, size_m[1] / 2
-    if kind_of_angle(angle_deg) is StallKind.PARALLEL:
-        x, z = -x * turn, -z * turn
-        return (x, z), (x, -z), (-x, -z), (-x, z)
-    rise = turn * slope_of_angle(angle_deg) * x
-    z += abs(rise)
-    return (-x, z - rise), (x, z + rise), (x, rise - z), (-x, -rise - z)
+        x, z = self.width_m / 2, self.length_m / 2
+        if self.stall_kind is StallKind.PARALLEL:
+            x, z = -x * self.turn, -z * self.turn
+            return (x, z), (x, -z), (-x, -z), (-x, z)
+        rise = self.slope * x
+        z += abs(rise)
+        return (-x, z - rise), (x, z + rise), (x, rise - z), (-x, -rise - z)
 
 
 def stall_name(square: Square, ordinal: int) -> str:

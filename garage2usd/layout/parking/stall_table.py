@@ -6,20 +6,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config.stalls import SizeClass
-from garage2usd.layout.placement import PlacedStall, StallUse, outline_of, stall_name
+from garage2usd.layout.placement import PlacedStall, StallUse, stall_name
 from garage2usd.layout.table import Table
 from garage2usd.structure.grid import NEIGHBOUR_STEPS
 from garage2usd.structure.lane_graph import StallType
-from garage2usd.structure.stall_shapes import kind_of_angle
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["EDGES", "STALL_SIZES", "STALL_TYPES", "STALL_USES", "StallTable"]
+__all__ = ["STALL_USES", "StallTable"]
 
 EDGES, STALL_TYPES, STALL_USES = tuple(Edge), tuple(StallType), tuple(StallUse)
-"""The edges, types and uses by the number that a table holds for each."""
-_TYPE_NUMBERS = {stall_type: number for number, stall_type in enumerate(STALL_TYPES)}
 STALL_SIZES = tuple(size.value for size in SizeClass)
-"""The size classes likewise."""
+"""The edges, types, uses and size classes by the number that a table holds for each."""
+_TYPE_NUMBERS = {stall_type: number for number, stall_type in enumerate(STALL_TYPES)}
 _SIZE_NUMBERS = {size: number for number, size in enumerate(STALL_SIZES)}
 _USE_NUMBERS = {use: number for number, use in enumerate(STALL_USES)}
 
@@ -78,21 +76,6 @@ class StallTable(Table[PlacedStall]):
         """(row, col) of the lane square beyond each one's mouth; int32, shape (n, 2)."""
         beyond: NDArray[np.int32] = self.square + np.array(NEIGHBOUR_STEPS, dtype=np.int32)[self.edge]
         return beyond
-
-    def outlines_m(self) -> NDArray[np.float64]:
-        """Corners (x, z) of each, as `PlacedStall.corners_m` has them; float64, shape (n, 4, 2)."""
-        half = self.size_m / 2
-        shapes = np.column_stack([half, self.angle_deg, self.turn])
-        distinct, number_of = np.unique(shapes, axis=0, return_inverse=True)
-        outlines = [outline_of((2 * x, 2 * z), angle_deg, int(turn)) for x, z, angle_deg, turn in distinct.tolist()]
-        across, along = np.array(outlines).reshape(-1, 4, 2)[number_of.ravel()].transpose(2, 0, 1)
-        x, z = self.centre_m.T[:, :, None]
-        cos, sin = np.cos(self.yaw_rad)[:, None], np.sin(self.yaw_rad)[:, None]
-        return np.stack([x + across * cos + along * sin, z - across * sin + along * cos], axis=2)
-
-    def kinds(self) -> list[str]:
-        """Kind of each, one of `garage2usd.garage.StallKind`."""
-        return [kind_of_angle(angle_deg).value for angle_deg in self.angle_deg.tolist()]
 
     def names(self) -> list[str]:
         """Ids of all stalls."""
