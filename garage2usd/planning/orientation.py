@@ -19,7 +19,7 @@ from garage2usd.structure.directions import (
     lane_squares_graph,
     stretches_of,
 )
-from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.structure.grid import Cell, Structure, squares_beside
 from garage2usd.structure.stall_runs import capacity_of_runs
 from garage2usd.structure.stalls import square_capacity
 
@@ -115,7 +115,7 @@ class _Drives:
         self._steps = [
             (start, end, _length_m(structure, start, end))
             for start in self.squares
-            for end in _beside(start)
+            for end in squares_beside(start)
             if end in self.number_of and Cell.LANE in {cells[start], cells[end]}
             # into the garage by an entrance and out of it by an exit
             if cells[end] != Cell.ENTRANCE and cells[start] != Cell.EXIT
@@ -132,7 +132,9 @@ class _Drives:
         stalls = np.zeros(len(self.squares))
         for row, col in np.argwhere(capacity > 0).tolist():
             lanes = [
-                lane for lane in _beside((row, col)) if lane in self.number_of and structure.cells[lane] == Cell.LANE
+                lane
+                for lane in squares_beside((row, col))
+                if lane in self.number_of and structure.cells[lane] == Cell.LANE
             ]
             for lane in lanes:
                 stalls[self.number_of[lane]] += capacity[row, col] / len(lanes)
@@ -180,8 +182,7 @@ class _Orientation:
 
     def directions(self, share: float) -> LaneDirections:
         """Turn a share of the length of the stretches; the rest stays two-way."""
-        forward = self._annealed()
-        chosen = [path if ahead else path[::-1] for path, ahead in zip(self._stretches, forward, strict=True)]
+        chosen = self._paths(self._annealed())
         lengths = [len(path) - 1 for path in chosen]
         left, turned = share * sum(lengths), []
         for index in self._rng.permutation(len(chosen)).tolist():
@@ -216,10 +217,12 @@ class _Orientation:
         total = sum(map(abs, areas)) or 1.0
         return [self._side * area / total for area in areas]
 
+    def _paths(self, forward: list[bool]) -> list[tuple[Square, ...]]:
+        """Return the stretches in the order in which they are driven."""
+        return [path if ahead else path[::-1] for path, ahead in zip(self._stretches, forward, strict=True)]
+
     def _cost_m(self, forward: list[bool]) -> float:
-        directions = LaneDirections.of_stretches(
-            path if ahead else path[::-1] for path, ahead in zip(self._stretches, forward, strict=True)
-        )
+        directions = LaneDirections.of_stretches(self._paths(forward))
         turned = sum(turn if ahead else -turn for turn, ahead in zip(self._turns, forward, strict=True))
         return self._drives.mean_m(directions) - _CLOCKWISE_M * turned / 2
 
@@ -268,7 +271,3 @@ def _length_m(structure: Structure, start: Square, end: Square) -> float:
     axis = int(start[0] == end[0])
     sides = (structure.row_depths_mm, structure.column_widths_mm)[axis]
     return float(sides[start[axis]] + sides[end[axis]]) / (2 * _MM_PER_M)
-
-
-def _beside(square: Square) -> list[Square]:
-    return [(square[0] + down, square[1] + right) for down, right in NEIGHBOUR_STEPS]

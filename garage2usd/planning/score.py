@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.structure.grid import Cell, Structure, squares_beside
 from garage2usd.structure.stall_runs import StallRun, capacity_of_runs
 from garage2usd.structure.stalls import square_capacity
 
@@ -73,7 +73,7 @@ def evaluate(
     farthest = max(hops.values(), default=0)
     total = 0
     for row, col in np.argwhere(capacity > 0).tolist():
-        nearest = min((hops[lane] for lane in _beside((row, col)) if lane in hops), default=farthest)
+        nearest = min((hops[lane] for lane in squares_beside((row, col)) if lane in hops), default=farthest)
         total += int(capacity[row, col]) * (1 + nearest)
     stalls = int(capacity.sum())
     time = total / stalls if stalls else 0.0
@@ -86,7 +86,7 @@ def is_feasible(structure: Structure) -> bool:
     """Test whether the lanes form one network that does not pass through portals, and every portal touches it."""
     lanes = set(structure.where(Cell.LANE))
     portals = structure.where(Cell.ENTRANCE) + structure.where(Cell.EXIT)
-    touched = all(any(lane in lanes for lane in _beside(portal)) for portal in portals)
+    touched = all(any(lane in lanes for lane in squares_beside(portal)) for portal in portals)
     return bool(lanes) and touched and len(_flood([min(lanes)], lanes)) == len(lanes)
 
 
@@ -94,7 +94,7 @@ def _lane_hops(structure: Structure) -> dict[Square, int]:
     """Squares driven from the nearest entrance to each lane that it reaches over lanes."""
     lanes = set(structure.where(Cell.LANE))
     entrances = structure.where(Cell.ENTRANCE)
-    return _flood([lane for entrance in entrances for lane in _beside(entrance) if lane in lanes], lanes)
+    return _flood([lane for entrance in entrances for lane in squares_beside(entrance) if lane in lanes], lanes)
 
 
 def _flood(starts: list[Square], lanes: set[Square]) -> dict[Square, int]:
@@ -103,12 +103,8 @@ def _flood(starts: list[Square], lanes: set[Square]) -> dict[Square, int]:
     queue = deque(hops)
     while queue:
         square = queue.popleft()
-        for other in _beside(square):
+        for other in squares_beside(square):
             if other in lanes and other not in hops:
                 hops[other] = hops[square] + 1
                 queue.append(other)
     return hops
-
-
-def _beside(square: Square) -> list[Square]:
-    return [(square[0] + dr, square[1] + dc) for dr, dc in NEIGHBOUR_STEPS]

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from garage2usd.garage import DEAD_END_LIMIT_M
-from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.structure.grid import Cell, Structure, squares_beside
 
 __all__ = ["DEAD_END_LIMIT_MM", "DeadEnd", "dead_ends"]
 
@@ -47,7 +47,8 @@ def dead_ends(structure: Structure, limit_mm: int = DEAD_END_LIMIT_MM) -> tuple[
     """
     drivable = {(int(row), int(col)) for row, col in np.argwhere(structure.cells >= Cell.LANE)}
     beside = {
-        square: [other for other in _around(square) if other in drivable] for square in structure.where(Cell.LANE)
+        square: [other for other in squares_beside(square) if other in drivable]
+        for square in structure.where(Cell.LANE)
     }
     found = []
     for tip, neighbours in beside.items():
@@ -69,7 +70,3 @@ def _walk_back(tip: Square, beside: Mapping[Square, Sequence[Square]]) -> tuple[
         lanes.append(ahead[0])
         ahead = [other for other in beside[lanes[-1]] if other != lanes[-2]]
     return lanes, ahead[0] if ahead else None
-
-
-def _around(square: Square) -> list[Square]:
-    return [(square[0] + dr, square[1] + dc) for dr, dc in NEIGHBOUR_STEPS]

@@ -7,7 +7,7 @@ from itertools import pairwise
 import networkx as nx
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.structure.grid import Cell, Structure, squares_beside
 
 __all__ = ["BOTH_WAYS", "LaneDirections", "given_directions", "lane_squares_graph", "stretches_of"]
 
@@ -59,10 +59,8 @@ def lane_squares_graph(structure: Structure) -> "nx.Graph[Square]":
     lanes = structure.where(Cell.LANE)
     graph.add_nodes_from(lanes)
     inside = set(lanes)
-    for row, col in lanes:
-        for down, right in NEIGHBOUR_STEPS:
-            if (row + down, col + right) in inside:
-                graph.add_edge((row, col), (row + down, col + right))
+    for lane in lanes:
+        graph.add_edges_from((lane, other) for other in squares_beside(lane) if other in inside)
     return graph
 
 

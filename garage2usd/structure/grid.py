@@ -27,6 +27,7 @@ __all__ = [
     "edge_neighbour_count",
     "outside_squares",
     "sides_mm",
+    "squares_beside",
 ]
 
 CellArray = NDArray[np.int8]
@@ -89,6 +90,12 @@ def cells_from_text(text: str, *, field: str) -> CellArray:
 def cells_to_text(cells: CellArray) -> str:
     """Draw a structure matrix as text, one line per row; the inverse of `cells_from_text`."""
     return "\n".join("".join(_SYMBOL[Cell(value)] for value in row) for row in cells.tolist())
+
+
+def squares_beside(square: tuple[int, int]) -> list[tuple[int, int]]:
+    """Return the (row, col) of the four neighbours of a square: up, down, left, right, inside the matrix or not."""
+    row, col = square
+    return [(row + down, col + right) for down, right in NEIGHBOUR_STEPS]
 
 
 def edge_neighbour_count(mask: Mask) -> NDArray[np.int8]:
@@ -274,6 +281,12 @@ class Structure:
         """Floor area inside the contour, without obstacles."""
         areas = np.outer(self.row_depths_mm, self.column_widths_mm)
         return float(areas[self.cells != Cell.OBSTACLE].sum()) / _MM_PER_M**2
+
+    def cell_at(self, square: tuple[int, int]) -> Cell:
+        """Return the kind of the square at (row, col); an obstacle outside the matrix."""
+        row, col = square
+        rows, cols = self.shape
+        return Cell(self.cells[row, col]) if 0 <= row < rows and 0 <= col < cols else Cell.OBSTACLE
 
     def where(self, cell: Cell) -> list[tuple[int, int]]:
         """Return all squares of one kind as (row, col), in reading order."""

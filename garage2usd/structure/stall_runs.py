@@ -145,7 +145,7 @@ def _starts_m(
     """Yield each square of a run with the starts of its mouths from the edge's middle."""
     packing = _Packing(structure, bay, run)
     for number, square in enumerate(run.squares):
-        is_served = structure.cells[square] == Cell.FREE and _is_lane(structure, run.edge.beyond(square))
+        is_served = structure.cell_at(square) is Cell.FREE and structure.cell_at(run.edge.beyond(square)) is Cell.LANE
         is_deep = depth_needed_m(run.shape, bay) * _MM_PER_M <= packing.depth_mm(square) / runs_on[square]
         yield square, packing.starts_m(number) if is_served and is_deep else ()
 
@@ -211,11 +211,7 @@ class _Packing:
         """Return True if the two squares behind the end of a square are inside, so that a column stands there."""
         behind = self._run.edge.opposite.beyond(square)
         following = self._run.edge.ends[1].beyond(behind)
-        rows, cols = self._structure.shape
-        return all(
-            0 <= row < rows and 0 <= col < cols and self._structure.cells[row, col] != Cell.OBSTACLE
-            for row, col in (behind, following)
-        )
+        return Cell.OBSTACLE not in {self._structure.cell_at(behind), self._structure.cell_at(following)}
 
     def _offsets_mm(self, near_mm: int, far_mm: int) -> tuple[int, int]:
         """Least and greatest offset of a stall's sides along the run between two depths."""
@@ -235,9 +231,3 @@ def _beyond(place: int, taken: Sequence[tuple[int, int]]) -> int:
         if low < place < high:
             place = high
     return place
-
-
-def _is_lane(structure: Structure, square: Square) -> bool:
-    rows, cols = structure.shape
-    row, col = square
-    return 0 <= row < rows and 0 <= col < cols and structure.cells[row, col] == Cell.LANE
