@@ -10,6 +10,7 @@ from garage2usd.garage import StallKind, StallUse
 from garage2usd.native import elementary
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Box, Point, Polygon
+from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import Square, StallType
 from garage2usd.structure.stall_shapes import PERPENDICULAR_DEG, kind_of_angle, slope_of_angle
 from garage2usd.structure.stalls import Edge
@@ -23,6 +24,7 @@ __all__ = [
     "edge_yaw_rad",
     "of_spec",
     "placed",
+    "point_inside",
     "rounded",
     "stall_name",
     "to_world",
@@ -244,6 +246,16 @@ def box_inside(edge: Edge, half_m: Point, along_m: tuple[float, float], depth_m:
         Edge.LEFT: (near - x, start, far - x, end),
         Edge.RIGHT: (x - far, start, x - near, end),
     }[edge]
+
+
+def point_inside(structure: Structure, square: Square, edge: Edge, along_m: float, inside_m: float) -> Point:
+    """The (x, z) in the garage of a point by where it lies along an edge of a square, and how far inside it."""
+    row, col = square
+    x, z = structure.column_edges_m, structure.row_edges_m
+    left, top, right, bottom = float(x[col]), float(z[row]), float(x[col + 1]), float(z[row + 1])
+    half_m = (right - left) / 2, (bottom - top) / 2
+    off_x, off_z, *_ = box_inside(edge, half_m, (along_m, along_m), (inside_m, inside_m))
+    return (left + right) / 2 + off_x, (top + bottom) / 2 + off_z
 
 
 def edge_yaw_rad(edge: Edge) -> float:

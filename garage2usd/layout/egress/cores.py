@@ -11,7 +11,16 @@ import shapely
 from garage2usd.config import GarageConfig
 from garage2usd.config.look import NATURAL, WallsLook
 from garage2usd.garage import StallKind
-from garage2usd.layout.placement import Placement, box_inside, edge_yaw_rad, placed, rounded, stall_name, to_world
+from garage2usd.layout.placement import (
+    Placement,
+    box_inside,
+    edge_yaw_rad,
+    placed,
+    point_inside,
+    rounded,
+    stall_name,
+    to_world,
+)
 from garage2usd.layout.tiles import Tile
 from garage2usd.objects.obstacle import ObstacleSpec
 from garage2usd.objects.outline import Box, Point
@@ -149,8 +158,8 @@ def core_candidates(structure: Structure, graph: LaneSquares, config: GarageConf
     named = _named_rows(graph)
     leaning = _leaning_grounds(structure, named)
     for core in _candidates(structure, graph, named, config):
-        ground = core.ground
-        if not any(shapely.intersects(ground, stall) for name, stall in leaning.items() if name not in core.stalls):
+        others = [stall for name, stall in leaning.items() if name not in core.stalls]
+        if not others or not shapely.intersects(core.ground, others).any():
             yield core
 
 
@@ -186,21 +195,16 @@ def _candidates(structure: Structure, graph: LaneSquares, named: _NamedRows, con
 
 def _leaning_grounds(structure: Structure, named: _NamedRows) -> dict[str, shapely.Polygon]:
     """Ground (x, z) of each angled stall by its name."""
-    x, z = structure.column_edges_m, structure.row_edges_m
     grounds = {}
     for row, names in named.values():
         if not row.shape.slope:
             continue
-        left, top, right, bottom = (float(at) for at in (x[row.col], z[row.row], x[row.col + 1], z[row.row + 1]))
-        half, depth = ((right - left) / 2, (bottom - top) / 2), row.shape.depth_m
+        depth = row.shape.depth_m
         lean = row.lean * row.shape.slope * depth
         for name, start in zip(names, row.starts_m, strict=True):
             end = start + row.shape.pitch_m
             corners = ((start, 0.0), (end, 0.0), (end + lean, depth), (start + lean, depth))
-            boxes = (box_inside(row.edge, half, (along, along), (inside, inside)) for along, inside in corners)
-            grounds[name] = shapely.Polygon(
-                [((left + right) / 2 + box[0], (top + bottom) / 2 + box[1]) for box in boxes]
-            )
+            grounds[name] = shapely.Polygon([point_inside(structure, row.square, row.edge, *at) for at in corners])
     return grounds
 
 
@@ -277,20 +281,17 @@ def _room_m(structure: Structure, row: StallRow, config: GarageConfig) -> tuple[
     depth_m = min(bay.stall_length_m, across_m) - RECESS_M - _FROM_REAR_M
     if depth_m < _LEAST_DEPTH_M:
         return None
-    low, high = (
-        sign * (side_m / 2 - (bay.column_size_m / 2 + _FROM_COLUMN_M) * _is_inside(structure, edge.beyond(row.square)))
-        for sign, edge in zip((-1, 1), row.edge.ends, strict=True)
+    beside_column_m = bay.column_size_m / 2 + _FROM_COLUMN_M
+    kept_low_m, kept_high_m = (
+        0.0 if structure.cell_at(edge.beyond(row.square)) is Cell.OBSTACLE else beside_column_m
+        for edge in row.edge.ends
     )
-    return low, high, depth_m
+    return kept_low_m - side_m / 2, side_m / 2 - kept_high_m, depth_m
 
 
 def _core(structure: Structure, row: StallRow, place: tuple[float, float, float], stalls: tuple[str, ...]) -> Core:
     middle, width, depth = place
-    x, z = structure.column_edges_m, structure.row_edges_m
-    half_x, half_z = (float(e[i + 1] - e[i]) / 2 for e, i in ((x, row.col), (z, row.row)))
-    back = RECESS_M + depth / 2
-    off_x, off_z, *_ = box_inside(row.edge, (half_x, half_z), (middle, middle), (back, back))
-    centre = rounded((float(x[row.col]) + half_x + off_x, float(z[row.row]) + half_z + off_z))
+    centre = rounded(point_inside(structure, row.square, row.edge, middle, RECESS_M + depth / 2))
     return Core(row.square, row.edge, centre, round(width, 6), round(depth, 6), round(middle, 6), RECESS_M, stalls)
 
 
@@ -298,10 +299,3 @@ def _gap_to_stalls_m(stall_width_m: float, profile: Profile) -> float:
     """What a core leaves beside the next stall's line, so that a car in its middle keeps its distance."""
     wall_m = profile.wall_clearance.amount if profile.wall_clearance else _WALL_CLEARANCE_M
     return max(wall_m - (stall_width_m - profile.car_width_m) / 2, 0.0)
-
-
-def _is_inside(structure: Structure, square: Square) -> bool:
-    """Whether a square is part of the garage."""
-    row, col = square
-    rows, cols = structure.shape
-    return 0 <= row < rows and 0 <= col < cols and bool(structure.cells[row, col] != Cell.OBSTACLE)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from garage2usd.config import GarageConfig
 from garage2usd.layout.egress.compartments import compartments_of
 from garage2usd.layout.egress.cores import Core, core_candidates, obstacle_cores
-from garage2usd.layout.placement import box_inside
+from garage2usd.layout.placement import point_inside
 from garage2usd.native import elementary
 from garage2usd.profiles import Length
 from garage2usd.structure.grid import Structure
@@ -158,15 +158,10 @@ def _stalls_by_compartment(
 
 
 def _middles(structure: Structure, row: StallRow) -> list[tuple[float, float]]:
-    x, z = structure.column_edges_m, structure.row_edges_m
-    left, top, right, bottom = (float(v) for v in (x[row.col], z[row.row], x[row.col + 1], z[row.row + 1]))
-    half, deep = ((right - left) / 2, (bottom - top) / 2), row.shape.depth_m / 2
-    middles = []
-    for start in row.starts_m:
-        along = start + row.shape.pitch_m / 2
-        off_x, off_z, *_ = box_inside(row.edge, half, (along, along), (deep, deep))
-        middles.append(((left + right) / 2 + off_x, (top + bottom) / 2 + off_z))
-    return middles
+    return [
+        point_inside(structure, row.square, row.edge, start + row.shape.pitch_m / 2, row.shape.depth_m / 2)
+        for start in row.starts_m
+    ]
 
 
 def _places_by_compartment(
