@@ -21,39 +21,38 @@ BOOK = RuleBook()
 _TOUCH_M = 0.02
 _OVER_LINE_M = 0.1
 """Distance in metres that a parked car may overhang its line; swept-path proofs usually leave so much clearance."""
-_SIDES = {"width_m": "stall_width", "length_m": "stall_length"}
 _BELONGS = {*CAR_LABELS, "traffic_cone", "wheel_stop", "charger", "speed_bump", "column"}
 """Semantic classes allowed in a stall, or covered by another rule."""
 
 
 @BOOK.rule("stall-width", "stall_width", asks="a stall that cars park in is wide enough")
 def _width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(garage.parking_stalls, profile, "stall_width", "width_m", "narrow")
+    return _short(_sized(garage), profile.stall_width, "width_m", "narrow")
 
 
 @BOOK.rule("stall-length", "stall_length", asks="a stall that cars park in is long enough")
 def _length(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(garage.parking_stalls, profile, "stall_length", "length_m", "short")
+    return _short(_sized(garage), profile.stall_length, "length_m", "short")
 
 
 @BOOK.rule("parallel-stall-width", "parallel_stall_width", asks="a parallel stall is wide enough")
 def _parallel_width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(garage.parking_stalls, profile, "parallel_stall_width", "width_m", "narrow")
+    return _short(_sized(garage, parallel=True), profile.parallel_stall_width, "width_m", "narrow")
 
 
 @BOOK.rule("parallel-stall-length", "parallel_stall_length", asks="a parallel stall is long enough")
 def _parallel_length(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(garage.parking_stalls, profile, "parallel_stall_length", "length_m", "short")
+    return _short(_sized(garage, parallel=True), profile.parallel_stall_length, "length_m", "short")
 
 
 @BOOK.rule("compact-stall-width", "compact_stall_width", asks="a stall for compact cars is wide enough")
 def _compact_width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(garage.parking_stalls, profile, "compact_stall_width", "width_m", "narrow")
+    return _short(_sized(garage, compact=True), profile.compact_stall_width, "width_m", "narrow")
 
 
 @BOOK.rule("compact-stall-length", "compact_stall_length", asks="a stall for compact cars is long enough")
 def _compact_length(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(garage.parking_stalls, profile, "compact_stall_length", "length_m", "short")
+    return _short(_sized(garage, compact=True), profile.compact_stall_length, "length_m", "short")
 
 
 @BOOK.rule("compact-share", "compact_share", asks="no more stalls than a share are for compact cars")
@@ -65,21 +64,19 @@ def _compact_share(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
         yield Miss(compact[0].name, compact[0].centre, message, share, clause.amount)
 
 
-def _clause_prefix(stall: Stall) -> str | None:
-    """Return the beginning of the names of the clauses for the size of a stall; None if there are none for it."""
-    if stall.kind is StallKind.PARALLEL:
-        return None if stall.is_compact else "parallel_"
-    return "compact_" if stall.is_compact else ""
+def _sized(garage: BuiltGarage, *, parallel: bool = False, compact: bool = False) -> list[Stall]:
+    """Return the stalls that one pair of clauses for width and length is for; no pair is for compact parallel ones."""
+    return [
+        stall
+        for stall in garage.parking_stalls
+        if (stall.kind is StallKind.PARALLEL, stall.is_compact) == (parallel, compact)
+    ]
 
 
-def _short(stalls: Iterable[Stall], profile: Profile, clause_name: str, side: str, word: str) -> Iterator[Miss]:
-    clause: Length | None = getattr(profile, clause_name)
+def _short(stalls: Iterable[Stall], clause: Length | None, side: str, word: str) -> Iterator[Miss]:
     if clause is None:
         return
     for stall in stalls:
-        prefix = _clause_prefix(stall)
-        if prefix is None or prefix + _SIDES[side] != clause_name:
-            continue
         measured = getattr(stall, side)
         if measured < clause.amount - ROUNDING_M:
             yield Miss(stall.name, stall.centre, f"the stall is too {word}", measured, clause.amount)

@@ -5,7 +5,6 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import Literal
 
 import numpy as np
 
@@ -31,7 +30,6 @@ _STEP_MM = 10
 _STALLS_BETWEEN_COLUMNS, _PARALLEL_BETWEEN_COLUMNS = (2, 3), (1, 2)
 _PASSES = 4
 _ROUNDS = 2
-_LEANS: tuple[Literal["against traffic", "with traffic"], ...] = ("against traffic", "with traffic")
 _LEAST_GAIN = 1e-6
 _PARALLEL_LENGTH_M = 6.0
 """Length of parallel stalls where the profile has none."""
@@ -69,7 +67,7 @@ def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
         return plan
     bay, spacing = config.bay, config.standard.column_spacing
     longest_span_m = spacing.bounds[1] if spacing else math.inf
-    draw, structure = _Draw(plan, config), plan.structure
+    draw = _Draw(plan, config)
     for _ in range(_ROUNDS):
         structure = _Fitting(plan.structure, bay, draw.runs, longest_span_m).fitted()
         draw.even_out(structure)
@@ -106,7 +104,7 @@ def settings_of_runs(runs: Iterable[StallRun], directions: LaneDirections = BOTH
             kind=run.shape.kind,
             angle_deg=run.shape.angle_deg if run.shape.kind is StallKind.ANGLED else None,
             size=SizeClass(run.shape.size),
-            leans=_LEANS[run.lean == lean_of_traffic(run.first, run.edge, directions)],
+            leans="with traffic" if run.lean == lean_of_traffic(run.first, run.edge, directions) else "against traffic",
         )
         for run in runs
     )
@@ -186,19 +184,16 @@ class _Draw:
         return chosen
 
     def _count(self, structure: Structure, run: StallRun) -> int:
-        backs = [replace(run, edge=run.edge.opposite)] if run.squares in self._backed else []
-        rows = rows_of_runs(structure, self._bay, [run, *backs])
-        return sum(row.count for row in rows if row.edge is run.edge)
+        return _count(structure, self._bay, run, is_backed=run.squares in self._backed)
 
 
 def _checked_runs(plan: Plan, config: GarageConfig) -> list[StallRun]:
     """Return the given runs of settings, all of whose squares are free with a lane beyond their edge."""
-    cells, runs = plan.structure.cells, runs_of_settings(config.stalls.runs, config, plan.directions)
+    structure, runs = plan.structure, runs_of_settings(config.stalls.runs, config, plan.directions)
     for number, run in enumerate(runs):
         for square in run.squares:
-            beyond = run.edge.beyond(square)
-            is_inside = all(0 <= at < side for at, side in zip((*square, *beyond), cells.shape * 2, strict=True))
-            if not is_inside or (cells[square], cells[beyond]) != (Cell.FREE, Cell.LANE):
+            cells = structure.cell_at(square), structure.cell_at(run.edge.beyond(square))
+            if cells != (Cell.FREE, Cell.LANE):
                 where = f"{list(square)}, {run.edge.name.lower()}"
                 raise ConfigError(f"stalls.runs[{number}]", where, "free squares with a lane beyond that edge")
     return runs
@@ -285,9 +280,7 @@ class _Fitting:
         return [number for number, run in enumerate(self._runs) if any(square[axis] == line for square in run.squares)]
 
     def _count(self, run: StallRun) -> int:
-        backs = [replace(run, edge=run.edge.opposite)] if self._backs[run.first, run.edge.along_x] > 1 else []
-        rows = rows_of_runs(self._structure(), self._bay, [run, *backs])
-        return sum(row.count for row in rows if row.edge is run.edge)
+        return _count(self._structure(), self._bay, run, is_backed=self._backs[run.first, run.edge.along_x] > 1)
 
     def _needed_mm(self, axis: int, line: int) -> int:
         """Depth that the runs along a line need."""
@@ -338,6 +331,13 @@ class _Fitting:
     def _floor_per_stall(self, counts: Sequence[int]) -> float:
         stalls = sum(counts)
         return round(self._structure().floor_m2 / stalls, 9) if stalls else np.inf
+
+
+def _count(structure: Structure, bay: BayConfig, run: StallRun, *, is_backed: bool) -> int:
+    """Count the stalls of a run, whose squares another run shares if it is backed."""
+    backs = [replace(run, edge=run.edge.opposite)] if is_backed else []
+    rows = rows_of_runs(structure, bay, [run, *backs])
+    return sum(row.count for row in rows if row.edge is run.edge)
 
 
 def _rounded_mm(length_m: float) -> int:

@@ -1,5 +1,3 @@
-import dataclasses
-
 import pytest
 
 from garage2usd import ConfigError, GarageConfig, generate
@@ -145,6 +143,6 @@ def test_the_paper_s_matrices_are_those_of_the_plan_before_kinds():
     config = GarageConfig(site={"structure": "E===X\n.....\n....."}, stalls={"kinds": {"angled": 1}})
     garage = generate(config)
     assert (garage.plan.structure.cells == site).all()
-    plan = given_plan(dataclasses.replace(garage.site), bay=config.bay)
+    plan = given_plan(garage.site, bay=config.bay)
     assert (plan.structure.cells == garage.plan.structure.cells).all()
     build_lane_graph(garage.plan.structure, config.bay, garage.plan.runs)
