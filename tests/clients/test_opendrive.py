@@ -90,7 +90,10 @@ FAULTS = [
     Fault("level ramps", "opendrive", "a=height, b=(next_height", "a=0.0, b=0 * (next_height"),
     Fault("ways of portals turned round", "road_builder", "if is_turned or path", "if not is_turned or path"),
     Fault(
-        "headings off by pi", "reference_line", "math.atan2(end[1] - start[1]", "math.pi + math.atan2(end[1] - start[1]"
+        "headings off by pi",
+        "reference_line",
+        "elementary.arctan2(end[1] - start[1]",
+        "math.pi + elementary.arctan2(end[1] - start[1]",
     ),
     Fault("stalls on the other side of the road", "reference_line", "dy * cos - dx * sin", "dx * sin - dy * cos"),
     Fault("heading of objects in the map", "opendrive_objects", "heading - road.line.at(s_m)[2]", "heading"),

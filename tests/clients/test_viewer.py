@@ -79,7 +79,8 @@ def test_a_click_on_a_stall_shows_its_class_id_prim_and_stall(opened):
         assert facts["Use"] == str(stall.use).replace("_", " ")
         assert facts["Type"] == str(stall.stall_type).replace("_", " ")
         assert facts["Entry edge"] == stall.edge.name.lower()
-        assert facts["Stall size"] == f"{stall.width_m:.2f} \u00d7 {stall.length_m:.2f} m"
+        assert facts["Kind"] == "perpendicular"
+        assert facts["Mouth and side"] == f"{stall.width_m:.2f} \u00d7 {stall.length_m:.2f} m"
         assert facts["Car"] == ("parked" if taken else "none")
         clicked += 1
         if clicked == 4:
