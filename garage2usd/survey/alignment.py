@@ -1,0 +1,87 @@
+"""The frame of a surveyed garage: axes along most of its stalls, and the origin at a corner of its outline."""
+
+import math
+from collections import defaultdict
+from itertools import pairwise
+from typing import NamedTuple
+
+import shapely
+
+from garage2usd.garage import Point
+from garage2usd.survey.survey import Survey
+
+__all__ = ["Alignment", "aligned"]
+
+_QUARTER = math.pi / 2
+_BIN_RAD = math.radians(0.5)
+_MARGIN_M = 0.1
+"""Distance in metres between the parts of a survey without an outline and its walls."""
+_USUAL_LANE_M = 6.0
+_DIGITS = 6
+
+
+class Alignment(NamedTuple):
+    """How a survey was turned about its (0, 0), from x towards z, and then shifted."""
+
+    turn_rad: float
+    shift_m: Point
+
+
+def aligned(survey: Survey) -> tuple[Survey, Alignment]:
+    """Turn a survey so that most sides of its stalls lie along the axes, and shift its outline to (0, 0).
+
+    Returns
+    -------
+    tuple
+        The survey, which has an outline, and how it was moved.
+    """
+    turn_rad = -_main_direction_rad(survey)
+    turned = survey.moved(turn_rad, (0.0, 0.0)) if turn_rad else survey
+    left, top, right, bottom = _extent_m(turned)
+    shift_m = round(-left, _DIGITS), round(-top, _DIGITS)
+    moved = turned.moved(0.0, shift_m)
+    if moved.outline is None:
+        width_m, depth_m = round(right - left, 3), round(bottom - top, 3)
+        moved = Survey(
+            moved.stalls,
+            moved.lanes,
+            moved.columns,
+            moved.portals,
+            ((0.0, 0.0), (width_m, 0.0), (width_m, depth_m), (0.0, depth_m)),
+            moved.unread,
+            moved.origin_deg,
+        )
+    return moved, Alignment(turn_rad, shift_m)
+
+
+def _main_direction_rad(survey: Survey) -> float:
+    """Return the direction of most metres of the sides of stalls, within an eighth of a turn either way of an axis."""
+    lengths_m: defaultdict[int, float] = defaultdict(float)
+    moments: defaultdict[int, float] = defaultdict(float)
+    for stall in survey.stalls:
+        for (x, z), (next_x, next_z) in pairwise((*stall.corners, stall.corners[0])):
+            length_m = math.hypot(next_x - x, next_z - z)
+            angle = math.remainder(math.atan2(next_z - z, next_x - x), _QUARTER)
+            number = round(angle / _BIN_RAD)
+            lengths_m[number] += length_m
+            moments[number] += length_m * angle
+    if not lengths_m:
+        return 0.0
+    main = max(lengths_m, key=lambda number: (round(lengths_m[number], 3), -abs(number)))
+    near = [number for number in (main - 1, main, main + 1) if number in lengths_m]
+    return round(sum(moments[number] for number in near) / sum(lengths_m[number] for number in near), 9)
+
+
+def _extent_m(survey: Survey) -> tuple[float, float, float, float]:
+    """Return the least x and z and the greatest of the outline, or of all parts with a margin."""
+    if survey.outline is not None:
+        left, top, right, bottom = shapely.Polygon(survey.outline).bounds
+        return left, top, right, bottom
+    parts: list[shapely.Geometry] = list(survey.stall_polygons())
+    parts += [
+        shapely.LineString(lane.points).buffer((lane.width_m or _USUAL_LANE_M) / 2, cap_style="flat", join_style="mitre")
+        for lane in survey.lanes
+    ]
+    parts += [shapely.Point(column.centre).buffer(column.size_m / 2, cap_style="square") for column in survey.columns]
+    left, top, right, bottom = shapely.total_bounds(parts).tolist()
+    return left - _MARGIN_M, top - _MARGIN_M, right + _MARGIN_M, bottom + _MARGIN_M

@@ -1,0 +1,233 @@
+"""The lane graph of a survey: centre lines joined where they meet, with nodes a few metres apart."""
+
+import math
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+from itertools import combinations, pairwise
+from typing import NamedTuple
+
+import networkx as nx
+import shapely
+
+from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, LaneNode, Point
+from garage2usd.survey.survey import SurveyedLane
+
+__all__ = ["USUAL_LANE_M", "Gate", "lane_network"]
+
+USUAL_LANE_M = 6.0
+"""Width in metres of a lane whose width is unknown."""
+_GATE_HALF_M = 2.5
+"""Half the side in metres of the ground of a portal's node, which ends at the wall."""
+_SAME_M = 0.75
+"""Distance in metres up to which ends and crossings of centre lines are one node."""
+_GAP_M = 1.0
+"""Gap in metres beyond half a lane's width up to which the end of a centre line joins the next one."""
+_PITCH_M = 6.0
+"""Greatest distance in metres between nodes."""
+_STRAIGHT_M = 0.15
+"""Deviation in metres up to which a centre line is straight."""
+_TWO_ENDS, _CROSSROADS = 2, 4
+_DIGITS = 4
+
+
+class Gate(NamedTuple):
+    """A door in the outer wall.
+
+    Attributes
+    ----------
+    kind
+        Entrance or exit.
+    foot
+        (x, z) of the middle of its opening.
+    outwards
+        Unit vector (x, z) out of the garage.
+    """
+
+    kind: LaneKind
+    foot: Point
+    outwards: Point
+
+    @property
+    def node_m(self) -> Point:
+        """(x, z) of the node of the lane graph inside the door."""
+        (x, z), (out_x, out_z) = self.foot, self.outwards
+        return round(x - out_x * _GATE_HALF_M, _DIGITS), round(z - out_z * _GATE_HALF_M, _DIGITS)
+
+
+class _Line(NamedTuple):
+    line: shapely.LineString
+    width_m: float
+    one_way: bool
+
+
+def lane_network(lanes: Iterable[SurveyedLane], gates: Sequence[Gate]) -> LaneGraph:
+    """Build the lane graph of centre lines and doors.
+
+    Parameters
+    ----------
+    lanes
+        Centre lines of lanes.
+    gates
+        Doors; each joins the centre line ahead of it, else the nearest one.
+
+    Notes
+    -----
+    Ends of centre lines that stop short of another one are extended to it. Stretches that no junction joins to the
+    others remain in the graph: no stall is reached there.
+    """
+    lines = _joined([_line(lane) for lane in lanes])
+    lines += [_approach(gate, lines) for gate in gates]
+    cuts = _cuts(lines)
+    nodes, number_of = _merged([point for points in cuts for _, point in points])
+    arcs: dict[tuple[int, int], tuple[float, bool]] = {}
+    count = 0
+    for line, points in zip(lines, cuts, strict=True):
+        numbers = [number_of[count + index] for index in range(len(points))]
+        count += len(points)
+        for start, end in pairwise(numbers):
+            if start != end and (start, end) not in arcs and ((end, start) not in arcs or line.one_way):
+                arcs[start, end] = line.width_m, line.one_way
+    both = {arc for arc in arcs if arc[::-1] in arcs}
+    edges = [
+        (start, end, width_m, one_way and (start, end) not in both)
+        for (start, end), (width_m, one_way) in arcs.items()
+        if (start, end) not in both or start < end
+    ]
+    return _graph(nodes, edges, gates)
+
+
+def _line(lane: SurveyedLane) -> _Line:
+    line = shapely.LineString(lane.points).simplify(_STRAIGHT_M)
+    return _Line(line, lane.width_m or USUAL_LANE_M, lane.one_way)
+
+
+def _joined(lines: Sequence[_Line]) -> list[_Line]:
+    """Extend the ends of centre lines that stop short of another one."""
+    joined = []
+    for number, each in enumerate(lines):
+        points = list(each.line.coords)
+        others = [other for index, other in enumerate(lines) if index != number]
+        for place in (0, -1):
+            end = shapely.Point(points[place])
+            near = [other for other in others if other.line.distance(end) <= other.width_m / 2 + _GAP_M]
+            if not near or any(other.line.distance(end) <= _SAME_M for other in near):
+                continue
+            other = min(near, key=lambda found: found.line.distance(end))
+            foot = other.line.interpolate(other.line.project(end)).coords[0]
+            points.insert(0 if place == 0 else len(points), foot)
+        joined.append(each._replace(line=shapely.LineString(points)))
+    return joined
+
+
+def _approach(gate: Gate, lines: Sequence[_Line]) -> _Line:
+    """Return the line from a door's node to the lane ahead, or reversed for an exit."""
+    node, (out_x, out_z) = gate.node_m, gate.outwards
+    start = shapely.Point(node)
+    nearest_m = min(each.line.distance(start) for each in lines)
+    reach_m = 2 * nearest_m + _SAME_M
+    ray = shapely.LineString([node, (node[0] - out_x * reach_m, node[1] - out_z * reach_m)])
+    crossed = [
+        point for each in lines for point in shapely.get_parts(each.line.intersection(ray)) if point.geom_type == "Point"
+    ]
+    if crossed:
+        foot = min(crossed, key=start.distance)
+    else:
+        line = min((each.line for each in lines), key=start.distance)
+        foot = line.interpolate(line.project(start))
+    ends = [node, foot.coords[0]]
+    if gate.kind is LaneKind.EXIT:
+        ends.reverse()
+    return _Line(shapely.LineString(ends), 2 * _GATE_HALF_M, one_way=True)
+
+
+def _cuts(lines: Sequence[_Line]) -> list[list[tuple[float, Point]]]:
+    """Return the nodes of each line by their distance along it: ends, bends, crossings, and more in between."""
+    at: list[set[float]] = [
+        {0.0, each.line.length, *(each.line.project(shapely.Point(point)) for point in each.line.coords)}
+        for each in lines
+    ]
+    for (one, first), (other, second) in combinations(enumerate(lines), 2):
+        if first.line.distance(second.line) > _SAME_M:
+            continue
+        for point in _meetings(first.line, second.line):
+            at[one].add(first.line.project(point))
+            at[other].add(second.line.project(point))
+    return [_pitched(each.line, _apart(found)) for each, found in zip(lines, at, strict=True)]
+
+
+def _meetings(first: shapely.LineString, second: shapely.LineString) -> list[shapely.Point]:
+    """Return the points where two lines cross, and the ends of each that touch the other."""
+    crossed = [part for part in shapely.get_parts(first.intersection(second)) if part.geom_type == "Point"]
+    ends = [
+        shapely.Point(line.coords[place])
+        for line, other in ((first, second), (second, first))
+        for place in (0, -1)
+        if other.distance(shapely.Point(line.coords[place])) <= _SAME_M
+    ]
+    return crossed + ends
+
+
+def _apart(at: Iterable[float]) -> list[float]:
+    """Return distances along a line, without those close to the one before; the first and the last remain."""
+    ordered = sorted(at)
+    kept = [ordered[0]]
+    kept += [run for run in ordered[1:-1] if run - kept[-1] > _SAME_M and ordered[-1] - run > _SAME_M]
+    return [*kept, ordered[-1]]
+
+
+def _pitched(line: shapely.LineString, runs: Sequence[float]) -> list[tuple[float, Point]]:
+    """Return the points at distances along a line, with further ones so that no two are far apart."""
+    points = []
+    for start, end in pairwise(runs):
+        parts = max(1, math.ceil((end - start) / _PITCH_M - 1e-9))
+        points += [start + (end - start) * part / parts for part in range(parts)]
+    points.append(runs[-1])
+    return [(run, (round(point.x, _DIGITS), round(point.y, _DIGITS))) for run in points for point in [line.interpolate(run)]]
+
+
+def _merged(points: Sequence[Point]) -> tuple[list[Point], list[int]]:
+    """Return distinct points and the number of each given point among them; close ones are the first of them."""
+    tree = shapely.STRtree(shapely.points(points))
+    one, other = tree.query(shapely.points(points), predicate="dwithin", distance=_SAME_M)
+    near: defaultdict[int, list[int]] = defaultdict(list)
+    for index, neighbour in zip(one.tolist(), other.tolist(), strict=True):
+        near[index].append(neighbour)
+    number_of: dict[int, int] = {}
+    kept: list[Point] = []
+    for index, point in enumerate(points):
+        if index in number_of:
+            continue
+        for neighbour in near[index]:
+            number_of.setdefault(neighbour, len(kept))
+        kept.append(point)
+    return kept, [number_of[index] for index in range(len(points))]
+
+
+def _graph(nodes: Sequence[Point], edges: Sequence[tuple[int, int, float, bool]], gates: Sequence[Gate]) -> LaneGraph:
+    """Return the lane graph with the kind and width of each node; portals first, the others as they were found."""
+    gate_of = {min(range(len(nodes)), key=lambda number: math.dist(nodes[number], gate.node_m)): gate for gate in gates}
+    beside: nx.Graph[int] = nx.Graph((start, end) for start, end, _, _ in edges)
+    width_m: defaultdict[int, float] = defaultdict(float)
+    for start, end, width, _ in edges:
+        if start not in gate_of and end not in gate_of:
+            width_m[start], width_m[end] = max(width_m[start], width), max(width_m[end], width)
+    order = sorted(beside, key=lambda number: (number not in gate_of, number))
+    new = {number: index for index, number in enumerate(order)}
+    found = []
+    for index, number in enumerate(order):
+        gate, side_m = gate_of.get(number), round(width_m[number] or USUAL_LANE_M, _DIGITS)
+        if gate is not None:
+            side_m = 2 * _GATE_HALF_M
+        kind = gate.kind if gate is not None else _kind(beside.degree(number))
+        place = nodes[number] if gate is None else gate.node_m
+        found.append(LaneNode(kind.value, place, (side_m, side_m), f"[0, {index}]", sides_m=(side_m, side_m)))
+    return LaneGraph(
+        tuple(found),
+        tuple(LaneEdge(new[start], new[end], round(width, _DIGITS), one_way) for start, end, width, one_way in edges),
+    )
+
+
+def _kind(degree: int) -> LaneKind:
+    if degree >= _CROSSROADS:
+        return LaneKind.CROSSROADS
+    return LaneKind.T_JUNCTION if degree > _TWO_ENDS else LaneKind.STRAIGHT
