@@ -79,7 +79,9 @@ def _extent_m(survey: Survey) -> tuple[float, float, float, float]:
         return left, top, right, bottom
     parts: list[shapely.Geometry] = list(survey.stall_polygons())
     parts += [
-        shapely.LineString(lane.points).buffer((lane.width_m or _USUAL_LANE_M) / 2, cap_style="flat", join_style="mitre")
+        shapely.LineString(lane.points).buffer(
+            (lane.width_m or _USUAL_LANE_M) / 2, cap_style="flat", join_style="mitre"
+        )
         for lane in survey.lanes
     ]
     parts += [shapely.Point(column.centre).buffer(column.size_m / 2, cap_style="square") for column in survey.columns]

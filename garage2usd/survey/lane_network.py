@@ -127,7 +127,10 @@ def _approach(gate: Gate, lines: Sequence[_Line]) -> _Line:
     reach_m = 2 * nearest_m + _SAME_M
     ray = shapely.LineString([node, (node[0] - out_x * reach_m, node[1] - out_z * reach_m)])
     crossed = [
-        point for each in lines for point in shapely.get_parts(each.line.intersection(ray)) if point.geom_type == "Point"
+        point
+        for each in lines
+        for point in shapely.get_parts(each.line.intersection(ray))
+        if point.geom_type == "Point"
     ]
     if crossed:
         foot = min(crossed, key=start.distance)
@@ -182,7 +185,9 @@ def _pitched(line: shapely.LineString, runs: Sequence[float]) -> list[tuple[floa
         parts = max(1, math.ceil((end - start) / _PITCH_M - 1e-9))
         points += [start + (end - start) * part / parts for part in range(parts)]
     points.append(runs[-1])
-    return [(run, (round(point.x, _DIGITS), round(point.y, _DIGITS))) for run in points for point in [line.interpolate(run)]]
+    return [
+        (run, (round(point.x, _DIGITS), round(point.y, _DIGITS))) for run in points for point in [line.interpolate(run)]
+    ]
 
 
 def _merged(points: Sequence[Point]) -> tuple[list[Point], list[int]]:

@@ -95,7 +95,7 @@ def _partners(lanelets: Sequence[Lanelet]) -> list[tuple[int | None, str]]:
     for index in one_way:
         for side, ways in (("left", lanelets[index].left), ("right", lanelets[index].right)):
             beside.setdefault((side, tuple(sorted(ways))), []).append(index)
-    pairs = [(*pair, side) for (side, _), pair in beside.items() if len(pair) == 2]  # noqa: PLR2004
+    pairs = [(pair[0], pair[1], side) for (side, _), pair in beside.items() if len(pair) == 2]  # noqa: PLR2004
     grounds = [lanelets[index].ground for index in one_way]
     first, second = shapely.STRtree(grounds).query(grounds, predicate="intersects")
     for here, there in sorted(zip(first.tolist(), second.tolist(), strict=True)):

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fresnel
 
-from garage2usd.survey.words import number_of, positive_of, refuse
+from garage2usd.survey.words import number_of, refuse
 
 __all__ = ["Cubics", "RoadLine", "cubics_of", "road_line"]
 
@@ -157,12 +157,10 @@ def road_line(road: ET.Element, place: str) -> RoadLine:
 
 
 def _curve(element: ET.Element, length_m: float, place: str) -> Curve:
-    for shape in element:
-        read = _CURVES.get(shape.tag)
-        if read is not None:
-            return read(shape, length_m, f"{place}, {shape.tag}")
-    found = ", ".join(shape.tag for shape in element) or "nothing"
-    refuse(place, found, f"one of {', '.join(_CURVES)}")
+    shape = next((child for child in element if child.tag in _CURVES), None)
+    if shape is None:
+        refuse(place, ", ".join(child.tag for child in element) or "nothing", f"one of {', '.join(_CURVES)}")
+    return _CURVES[shape.tag](shape, length_m, f"{place}, {shape.tag}")
 
 
 def _line(_shape: ET.Element, _length_m: float, _place: str) -> Curve:
@@ -234,8 +232,8 @@ def _param_poly3(shape: ET.Element, length_m: float, place: str) -> Curve:
     if form not in {"arcLength", "normalized"}:
         refuse(f"{place}, pRange", form, "arcLength or normalized")
     range_m = length_m if form == "normalized" else 1.0
-    scaled = [[value / range_m**power for power, value in enumerate(axis)] for axis in (u, v)]
-    return _parametric(*scaled, length_m, by_length=False)
+    u, v = ([value / range_m**power for power, value in enumerate(axis)] for axis in (u, v))
+    return _parametric(u, v, length_m, by_length=False)
 
 
 def _parametric(u: Sequence[float], v: Sequence[float], length_m: float, *, by_length: bool) -> Curve:

@@ -5,6 +5,7 @@ import re
 import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
@@ -104,7 +105,8 @@ def _add_object(parts: SurveyParts, element: ET.Element, line: RoadLine, road: s
     title = element.get("name") or ""
     title = title if title and title.lower() not in {"parkingspace", "parking space"} else f"{road}, object {number}"
     access = "" if space is None else space.get("access", "")
-    for pose, name in zip(poses := list(_poses(element, line, place)), _names(title, len(poses)), strict=True):
+    poses = list(_poses(element, line, place))
+    for pose, name in zip(poses, _names(title, len(poses)), strict=True):
         corners, mouth = _outline(element, line, pose, place)
         if corners is None:
             parts.unread.append(Unplaced(name, "an object without outline, width and length"))
@@ -203,7 +205,7 @@ def _unmarked(element: ET.Element, ids: list[str]) -> int | None:
     marked: Counter[int] = Counter()
     for marking in element.findall("markings/marking"):
         ends = [reference.get("id", "") for reference in marking.findall("cornerReference")]
-        marked.update(sides[pair] for pair in map(frozenset, zip(ends, ends[1:], strict=False)) if pair in sides)
+        marked.update(sides[pair] for pair in map(frozenset, pairwise(ends)) if pair in sides)
     if len(ids) != 4 or len(marked) != 3:  # noqa: PLR2004 - three of four sides
         return None
     (mouth,) = set(range(4)) - set(marked)

@@ -154,7 +154,8 @@ def _each(root: ET.Element, tag: str, path: Path) -> Iterator[tuple[int, ET.Elem
 
 
 def _places_of(root: ET.Element, path: Path) -> tuple[dict[int, ET.Element], dict[int, Mapping[str, str]]]:
-    places, tags = {}, {}
+    places: dict[int, ET.Element] = {}
+    tags: dict[int, Mapping[str, str]] = {}
     for number, element in _each(root, "node", path):
         places[number] = element
         tags[number] = _tags(element)

@@ -27,6 +27,7 @@ STRAIGHT_M = 0.15
 """Distance from the line through its neighbours up to which a point of an outline is no corner."""
 _CORNERS = 4
 _DIGITS = 6
+_COLUMN_DIGITS = 2
 
 
 class SurveyParts:
@@ -141,12 +142,23 @@ class SurveyParts:
         return Survey(
             tuple(self.stalls),
             tuple(self.lanes),
-            tuple(self.columns),
+            tuple(_single(self.columns)),
             tuple(self.portals),
             outline,
             tuple(self.unread),
             origin_deg,
         )
+
+
+def _single(columns: Iterable[SurveyedColumn]) -> list[SurveyedColumn]:
+    """Return columns without those that stand on the middle of another one; the largest remains."""
+    largest: dict[Point, SurveyedColumn] = {}
+    for column in columns:
+        x, z = column.centre
+        place = round(x, _COLUMN_DIGITS) + 0.0, round(z, _COLUMN_DIGITS) + 0.0
+        if place not in largest or column.size_m > largest[place].size_m:
+            largest[place] = column
+    return list(largest.values())
 
 
 def corners_of(ring: Iterable[Sequence[float]]) -> tuple[Point, ...]:
