@@ -1,0 +1,44 @@
+"""Points of the earth in the metres of a survey: a transverse Mercator of true scale around their middle."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from garage2usd.common.extras import of_extra
+
+with of_extra("a survey in degrees"):
+    from pyproj import Transformer
+
+__all__ = ["ground_of"]
+
+Floats = NDArray[np.float64]
+
+_ORIGIN_DIGITS = 6
+"""Decimals of the origin in degrees: a tenth of a metre."""
+
+
+def ground_of(degrees: ArrayLike, around: ArrayLike | None = None) -> tuple[Floats, tuple[float, float]]:
+    """Project points of WGS 84 to the ground of a survey.
+
+    Parameters
+    ----------
+    degrees
+        Longitude and latitude of each point; shape (n, 2).
+    around
+        Points with the origin in their middle, likewise; None for all points.
+
+    Returns
+    -------
+    ground
+        (x, z) in metres, x east and z south; float64, shape (n, 2).
+    origin_deg
+        Latitude and longitude of (0, 0).
+    """
+    points = np.asarray(degrees, np.float64)
+    middles = points if around is None else np.asarray(around, np.float64)
+    middle = (middles.min(axis=0) + middles.max(axis=0)) / 2
+    longitude, latitude = (round(degree, _ORIGIN_DIGITS) + 0.0 for degree in middle.tolist())
+    projection = f"+proj=tmerc +lat_0={latitude!r} +lon_0={longitude!r} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m"
+    to_metres = Transformer.from_crs("EPSG:4326", projection, always_xy=True)
+    x, y = to_metres.transform(points[:, 0], points[:, 1])
+    ground: Floats = np.stack([x, -np.asarray(y)], axis=-1)
+    return ground, (latitude, longitude)

@@ -1,0 +1,215 @@
+"""Surveys as GeoJSON (RFC 7946): stalls and outlines as polygons, lanes as lines, columns and portals as points."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.common.documents import MAX_REPORT_BYTES, read_json
+from garage2usd.survey.parts import SurveyParts
+from garage2usd.survey.survey import PortalKind, Survey, Unplaced
+from garage2usd.survey.words import number_of, portal_kind_of, positive_of, refuse, size_of, use_of
+
+__all__ = ["read_geojson_survey"]
+
+Floats = NDArray[np.float64]
+
+_KIND_KEYS = ("kind", "type", "amenity", "service", "entrance")
+_KINDS = {
+    "stall": "stall",
+    "parking_space": "stall",
+    "parking_spot": "stall",
+    "lane": "lane",
+    "aisle": "lane",
+    "parking_aisle": "lane",
+    "column": "column",
+    "pillar": "column",
+    "outline": "outline",
+    "parking": "outline",
+}
+_SHAPES = {
+    "stall": ("Polygon", "MultiPolygon"),
+    "outline": ("Polygon", "MultiPolygon"),
+    "lane": ("LineString", "MultiLineString"),
+    "column": ("Point", "MultiPoint", "Polygon", "MultiPolygon"),
+    "portal": ("Point", "MultiPoint"),
+}
+_NESTING = {"Point": 0, "MultiPoint": 1, "LineString": 1, "MultiLineString": 2, "Polygon": 2, "MultiPolygon": 3}
+_COLUMN_M = 0.4
+_TRUE = {"yes", "true", "1", "-1", "reverse"}
+
+
+class _Shape(NamedTuple):
+    """A point, a line or the outer ring of a polygon: its feature, what it stands for, and positions as given."""
+
+    name: str
+    kind: str
+    properties: Mapping[str, Any]
+    place: str
+    positions: list[tuple[float, float]]
+    is_area: bool
+    portal: PortalKind
+
+
+def read_geojson_survey(path: Path) -> Survey:
+    """Read a survey from a GeoJSON object.
+
+    Parameters
+    ----------
+    path
+        A FeatureCollection or a Feature. Positions are longitude and latitude, or with the member
+        ``"coordinates": "metres"`` of the outermost object metres east and north. The first of the properties ``kind``,
+        ``type``, ``amenity``, ``service`` and ``entrance`` that has a known value tells what a feature is: ``stall`` or
+        ``parking_space``, ``lane`` or ``parking_aisle`` (with ``width``, ``oneway``), ``column`` (with ``size_m`` if it
+        is a point), ``entrance``, ``exit`` or ``portal``, and ``outline`` or ``parking``. Stalls may have ``use``,
+        ``size`` and ``number``.
+
+    Raises
+    ------
+    ConfigError
+        For what is no GeoJSON, with the feature.
+    MissingExtraError
+        For longitudes and latitudes, without the extra ``maps``.
+    """
+    document = read_json(path, field="SOURCE", max_bytes=MAX_REPORT_BYTES)
+    parts = SurveyParts()
+    shapes = list(_shapes_of(document, path, parts))
+    form = document.get("coordinates", "degrees")
+    if form not in {"metres", "degrees"}:
+        refuse(f"{path.name}: coordinates", form, "'metres', or 'degrees' for longitude and latitude")
+    origin_deg = None
+    positions = np.array([position for shape in shapes for position in shape.positions]).reshape(-1, 2)
+    ground: Floats = positions * (1.0, -1.0)
+    if form == "degrees" and shapes:
+        for shape in shapes:
+            _check_degrees(shape)
+        from garage2usd.survey.earth import ground_of  # noqa: PLC0415 - files in metres do without its extra
+
+        ground, origin_deg = ground_of(positions)
+    start = 0
+    for shape in shapes:
+        end = start + len(shape.positions)
+        _add(parts, shape, [(x, z) for x, z in ground[start:end].tolist()])
+        start = end
+    return parts.survey(origin_deg=origin_deg)
+
+
+def _shapes_of(document: object, path: Path, parts: SurveyParts) -> Iterator[_Shape]:
+    """Yield the shapes of all features that stand for something."""
+    if not isinstance(document, dict) or document.get("type") not in {"FeatureCollection", "Feature"}:
+        found = document.get("type", "nothing") if isinstance(document, dict) else document
+        refuse(f"{path.name}: type", found, "a GeoJSON object of the type FeatureCollection or Feature")
+    features = document.get("features", "nothing") if document["type"] == "FeatureCollection" else [document]
+    if not isinstance(features, list):
+        refuse(f"{path.name}: features", features, "a list of features")
+    for index, feature in enumerate(features):
+        place = f"{path.name}: features.{index}"
+        if not isinstance(feature, dict) or feature.get("type") != "Feature":
+            refuse(place, feature, "an object of the type Feature")
+        properties = feature.get("properties") or {}
+        if not isinstance(properties, dict):
+            refuse(f"{place}.properties", properties, "an object or null")
+        kind, portal = _kind_of(properties)
+        if kind is None:
+            continue
+        given = feature.get("id", properties.get("id", properties.get("name")))
+        name = f"feature {index}" if given is None or isinstance(given, dict | list) else str(given)
+        yield from _parts_of(feature.get("geometry"), _Shape(name, kind, properties, place, [], False, portal), parts)
+
+
+def _kind_of(properties: Mapping[str, Any]) -> tuple[str | None, PortalKind]:
+    for key in _KIND_KEYS:
+        word = str(properties.get(key, "")).lower()
+        if word in _KINDS:
+            return _KINDS[word], PortalKind.BOTH
+        portal = portal_kind_of(word)
+        if portal is not None:
+            return "portal", portal
+    return None, PortalKind.BOTH
+
+
+def _parts_of(geometry: object, shape: _Shape, parts: SurveyParts) -> Iterator[_Shape]:
+    """Yield a shape for each point, line or polygon of a geometry."""
+    place = f"{shape.place}.geometry"
+    if geometry is None:
+        parts.unread.append(Unplaced(shape.name, f"a {shape.kind} without geometry"))
+        return
+    if not isinstance(geometry, dict) or geometry.get("type") not in (*_NESTING, "GeometryCollection"):
+        found = geometry.get("type", "nothing") if isinstance(geometry, dict) else geometry
+        refuse(f"{place}.type", found, f"one of {', '.join(_NESTING)}, GeometryCollection")
+    form = geometry["type"]
+    if form not in _SHAPES[shape.kind]:
+        reason = f"a {shape.kind} as a {form}; it may be a {' or '.join(_SHAPES[shape.kind])}"
+        parts.unread.append(Unplaced(shape.name, reason))
+        return
+    coordinates = geometry.get("coordinates")
+    members = coordinates if form.startswith("Multi") else [coordinates]
+    if not isinstance(members, list):
+        refuse(f"{place}.coordinates", members, f"the positions of a {form}")
+    for number, member in enumerate(members):
+        rings = member
+        is_area = form.endswith("Polygon")
+        if is_area:
+            if not isinstance(rings, list) or not rings:
+                refuse(f"{place}.coordinates", rings, "a list of rings, the outer one first")
+            member, *holes = rings  # noqa: PLW2901 - the outer ring stands for the polygon
+            if holes:
+                parts.unread.append(Unplaced(shape.name, f"{len(holes)} holes of a {shape.kind}; these become floor"))
+        positions = [member] if form.endswith("Point") else member
+        if not isinstance(positions, list):
+            refuse(f"{place}.coordinates", positions, "a list of positions")
+        name = shape.name if len(members) == 1 else f"{shape.name}, part {number + 1}"
+        found = [_position(position, f"{place}.coordinates") for position in positions]
+        yield shape._replace(name=name, positions=found, is_area=is_area)
+
+
+def _position(position: object, place: str) -> tuple[float, float]:
+    if not isinstance(position, list) or len(position) < 2:  # noqa: PLR2004 - x and y, perhaps a height
+        refuse(place, position, "positions of two numbers or three")
+    x, y = (
+        number_of("true" if isinstance(value, str) else value, place, unit="degrees or metres")
+        for value in position[:2]
+    )
+    return x, y
+
+
+def _check_degrees(shape: _Shape) -> None:
+    for longitude, latitude in shape.positions:
+        if abs(longitude) > 180 or abs(latitude) > 90:  # noqa: PLR2004 - of the earth
+            allowed = (
+                "longitude from -180 to 180 and latitude from -90 to 90; "
+                'metres need the member "coordinates": "metres" of the outermost object'
+            )
+            refuse(f"{shape.place}.geometry.coordinates", (longitude, latitude), allowed)
+
+
+def _add(parts: SurveyParts, shape: _Shape, points: Sequence[tuple[float, float]]) -> None:
+    properties = shape.properties
+    if shape.kind == "stall":
+        said = [str(properties[key]) for key in ("use", "parking_space", "access") if key in properties]
+        if _is_true(properties.get("disabled")) or str(properties.get("disabled", "")) == "designated":
+            said.append("disabled")
+        number = next((properties[key] for key in ("number", "ref") if properties.get(key) is not None), "")
+        size = size_of(str(properties[key]) for key in ("size", "parking_space") if key in properties)
+        parts.add_stall(shape.name, points, use=use_of(said), size=size, number=str(number))
+    elif shape.kind == "lane":
+        key = next((key for key in ("width_m", "width") if properties.get(key) is not None), None)
+        width_m = None if key is None else positive_of(properties[key], f"{shape.place}.properties.{key}")
+        direction = str(properties.get("oneway", properties.get("one_way", "no"))).lower()
+        line = points[::-1] if direction in {"-1", "reverse"} else points
+        parts.add_lane(shape.name, line, width_m, one_way=direction in _TRUE)
+    elif shape.kind == "outline":
+        parts.add_outline(shape.name, points)
+    elif shape.kind == "portal":
+        parts.add_portal(points[0], shape.portal)
+    elif shape.is_area:
+        parts.add_column(shape.name, points)
+    else:
+        size_m = positive_of(properties.get("size_m", _COLUMN_M), f"{shape.place}.properties.size_m")
+        parts.add_square_column(points[0], size_m)
+
+
+def _is_true(value: object) -> bool:
+    return str(value).lower() in _TRUE

@@ -1,0 +1,221 @@
+"""Surveys as OpenDRIVE: parking spaces and columns beside roads, and the driving lanes of the roads."""
+
+import math
+import re
+import xml.etree.ElementTree as ET
+from collections import Counter
+from collections.abc import Iterator
+from itertools import pairwise
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.garage import Point, StallUse
+from garage2usd.survey.opendrive_lanes import lanes_of_road
+from garage2usd.survey.opendrive_lines import RoadLine, road_line
+from garage2usd.survey.parts import SurveyParts
+from garage2usd.survey.survey import Survey, Unplaced
+from garage2usd.survey.words import number_of, positive_of, refuse, use_of
+from garage2usd.survey.xml_file import read_xml
+
+__all__ = ["read_opendrive_survey"]
+
+Floats = NDArray[np.float64]
+
+_MOST_REPEATS = 10_000
+_ANGLE = 1e6
+_WHOLE = 1e-6
+_DEGREES = re.compile(r"\+(proj|lat_0|lon_0|x_0|y_0)=(\S+)")
+_COLUMN_WORDS = ("column", "pillar")
+
+
+class _Pose(NamedTuple):
+    """A place beside a road, and how far along and across an object was repeated from its own place."""
+
+    s_m: float
+    t_m: float
+    width_m: float | None
+    length_m: float | None
+    shift_s_m: float
+    shift_t_m: float
+
+
+def read_opendrive_survey(path: Path) -> Survey:
+    """Read a survey from an OpenDRIVE map.
+
+    Parameters
+    ----------
+    path
+        OpenDRIVE 1.4 to 1.8. Stalls are objects of the type ``parkingSpace``, with outlines, ``repeat`` or as boxes;
+        objects named ``column`` or ``pillar`` are columns. The driving lanes of a road are one lane, two-way if they
+        lead in both directions.
+
+    Raises
+    ------
+    ConfigError
+        For what is not OpenDRIVE, with the road and the object.
+    """
+    root = read_xml(path, "OpenDRIVE", "an OpenDRIVE map")
+    parts = SurveyParts()
+    for index, road in enumerate(root.findall("road")):
+        name = f"road {road.get('id', index)}"
+        place = f"{path.name}: {name}"
+        line = road_line(road, place)
+        for number, lane in enumerate(lanes_of_road(road, line, place)):
+            title = name if number == 0 else f"{name}, part {number + 1}"
+            parts.add_lane(title, (lane.points * (1.0, -1.0)).tolist(), lane.width_m, one_way=lane.one_way)
+        for element in road.findall("objects/object"):
+            _add_object(parts, element, line, name, place)
+    return parts.survey(origin_deg=_origin(root))
+
+
+def _origin(root: ET.Element) -> tuple[float, float] | None:
+    """Return latitude and longitude of (0, 0) of a transverse Mercator; None for other projections."""
+    facts = dict(_DEGREES.findall(root.findtext("header/geoReference", "")))
+    if facts.get("proj") != "tmerc" or any(_float_of(facts.get(key, "0")) != 0 for key in ("x_0", "y_0")):
+        return None
+    latitude, longitude = (_float_of(facts.get(key, "")) for key in ("lat_0", "lon_0"))
+    if not (abs(latitude) <= 90 and abs(longitude) <= 180):  # noqa: PLR2004 - of the earth
+        return None
+    return latitude, longitude
+
+
+def _float_of(text: str) -> float:
+    """Return the number that a text is, or NaN."""
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
+
+
+def _add_object(parts: SurveyParts, element: ET.Element, line: RoadLine, road: str, road_place: str) -> None:
+    """Add a parking space or a column, once for each repetition."""
+    facts = {data.get("code", ""): data.get("value", "") for data in element.findall("userData")}
+    words = f"{element.get('name', '')} {element.get('subtype', '')}".lower()
+    space = element.find("parkingSpace")
+    is_hatched = element.get("type") == "none" and facts.get("use", "") in set(StallUse)
+    is_stall = element.get("type") == "parkingSpace" or space is not None or is_hatched
+    is_column = not is_stall and any(word in words for word in _COLUMN_WORDS)
+    if not is_stall and not is_column:
+        return
+    number = element.get("id", "without id")
+    place = f"{road_place}, object {number}"
+    title = element.get("name") or ""
+    title = title if title and title.lower() not in {"parkingspace", "parking space"} else f"{road}, object {number}"
+    access = "" if space is None else space.get("access", "")
+    poses = list(_poses(element, line, place))
+    for pose, name in zip(poses, _names(title, len(poses)), strict=True):
+        corners, mouth = _outline(element, line, pose, place)
+        if corners is None:
+            parts.unread.append(Unplaced(name, "an object without outline, width and length"))
+        elif is_column:
+            parts.add_column(name, _ground(corners))
+        else:
+            mouth_at = None if mouth is None else _middle(corners, mouth)
+            use = use_of([facts.get("use", ""), access])
+            parts.add_stall(name, _ground(corners), mouth_at=mouth_at, use=use, number=facts.get("number", ""))
+    if not poses:
+        parts.unread.append(Unplaced(title, "an object that is repeated without distance, as one long body"))
+
+
+def _names(title: str, count: int) -> list[str]:
+    return [title] if count == 1 else [f"{title}, repetition {number + 1}" for number in range(count)]
+
+
+def _poses(element: ET.Element, line: RoadLine, place: str) -> Iterator[_Pose]:
+    """Yield the place of an object, or those of its repetitions instead."""
+    s_m = number_of(element.get("s"), f"{place}, s")
+    t_m = number_of(element.get("t", 0), f"{place}, t")
+    repeats = element.findall("repeat")
+    if not repeats:
+        yield _Pose(s_m, t_m, None, None, 0.0, 0.0)
+    for repeat in repeats:
+        here = f"{place}, repeat"
+        start_m, length_m, step_m = (
+            number_of(repeat.get(key), f"{here}, {key}") for key in ("s", "length", "distance")
+        )
+        if step_m < _WHOLE:
+            continue
+        count = math.floor(max(length_m, 0.0) / step_m + _WHOLE) + 1
+        if count > _MOST_REPEATS:
+            refuse(f"{here}, length", length_m, f"at most {_MOST_REPEATS} repetitions")
+        ends = {}
+        for key, usual in (("t", t_m), ("width", None), ("length", None)):
+            texts = [repeat.get(f"{key}Start"), repeat.get(f"{key}End")]
+            numbers = [None if text is None else number_of(text, f"{here}, {key}Start") for text in texts]
+            start = usual if numbers[0] is None else numbers[0]
+            ends[key] = start, start if numbers[1] is None else numbers[1]
+        for number in range(count):
+            run_m = number * step_m
+            if start_m + run_m > line.length_m + _WHOLE:
+                break
+            share = run_m / length_m if length_m > 0 else 0.0
+            at = {
+                key: None if low is None or high is None else low + share * (high - low)
+                for key, (low, high) in ends.items()
+            }
+            at_t_m = at["t"] or 0.0
+            yield _Pose(
+                start_m + run_m, at_t_m, at["width"] or None, at["length"] or None, start_m + run_m - s_m, at_t_m - t_m
+            )
+
+
+def _outline(element: ET.Element, line: RoadLine, pose: _Pose, place: str) -> tuple[Floats | None, int | None]:
+    """Return the corners (x, y) of an object and the number of the only side without a marking, if there is one."""
+    outlines = element.findall("outlines/outline") + element.findall("outline")
+    outer = [outline for outline in outlines if outline.get("outer", "true") != "false"]
+    if outer:
+        local, along = outer[0].findall("cornerLocal"), outer[0].findall("cornerRoad")
+        corners = local or along
+        names = ("u", "v") if local else ("s", "t")
+        values = np.array(
+            [[number_of(corner.get(key), f"{place}, corner {key}") for key in names] for corner in corners]
+        ).reshape(-1, 2)
+        ids = [corner.get("id", str(index)) for index, corner in enumerate(corners)]
+        mouth = _unmarked(element, ids)
+        if not local:
+            return line.beside(values[:, 0] + pose.shift_s_m, values[:, 1] + pose.shift_t_m), mouth
+        return _turned(element, line, pose, values, place), mouth
+    sides = []
+    for key, repeated in (("length", pose.length_m), ("width", pose.width_m)):
+        if repeated is None and element.get(key) is None:
+            return None, None
+        sides.append(positive_of(repeated if repeated is not None else element.get(key), f"{place}, {key}"))
+    box = np.array([(-1, 1), (-1, -1), (1, -1), (1, 1)]) * np.array(sides) / 2
+    return _turned(element, line, pose, box, place), None
+
+
+def _turned(element: ET.Element, line: RoadLine, pose: _Pose, local: Floats, place: str) -> Floats:
+    """Return the points (x, y) of points (u, v) of an object at a pose."""
+    s_m, t_m = np.array([pose.s_m]), np.array([pose.t_m])
+    (origin,) = line.beside(s_m, t_m)
+    _, (heading,) = line.at(s_m)
+    heading += number_of(element.get("hdg", 0), f"{place}, hdg", most=_ANGLE, unit="radians")
+    cos, sin = math.cos(heading), math.sin(heading)
+    u, v = local.T
+    points: Floats = np.stack([origin[0] + u * cos - v * sin, origin[1] + u * sin + v * cos], axis=1)
+    return points
+
+
+def _unmarked(element: ET.Element, ids: list[str]) -> int | None:
+    """Return the number of the only one of four sides without a marking: cars cross it."""
+    sides = {frozenset({ids[index], ids[(index + 1) % len(ids)]}): index for index in range(len(ids))}
+    marked: Counter[int] = Counter()
+    for marking in element.findall("markings/marking"):
+        ends = [reference.get("id", "") for reference in marking.findall("cornerReference")]
+        marked.update(sides[pair] for pair in map(frozenset, pairwise(ends)) if pair in sides)
+    if len(ids) != 4 or len(marked) != 3:  # noqa: PLR2004 - three of four sides
+        return None
+    (mouth,) = set(range(4)) - set(marked)
+    return mouth
+
+
+def _ground(corners: Floats) -> list[Point]:
+    return [(x, -y) for x, y in corners.tolist()]
+
+
+def _middle(corners: Floats, side: int) -> Point:
+    x, y = ((corners[side] + corners[(side + 1) % len(corners)]) / 2).tolist()
+    return x, -y

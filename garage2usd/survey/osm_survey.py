@@ -1,0 +1,238 @@
+"""Surveys as OSM XML: parking lots of OpenStreetMap, and garages as Lanelet2 maps with Autoware's tags."""
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+import shapely
+
+from garage2usd.garage import Point, StallUse
+from garage2usd.survey.lanelets import lanes_of_lanelets
+from garage2usd.survey.osm_elements import OsmElements, read_osm, ring_of
+from garage2usd.survey.parts import SurveyParts
+from garage2usd.survey.survey import PortalKind, Survey, Unplaced
+from garage2usd.survey.words import positive_of, refuse, size_of, use_of
+
+__all__ = ["read_osm_survey"]
+
+_STALL_AMENITIES = {"parking_space"}
+_STALL_SUBTYPES = {"parking", "parking_spot", "parking_space"}
+_HATCHED = "hatched_road_markings"
+_GATES = {"entrance", "gate", "lift_gate", "swing_gate", "sliding_gate", "toll_booth"}
+_YES = {"yes", "true", "1", "designated"}
+_ONE_WAY = {"yes": 1, "true": 1, "1": 1, "-1": -1, "reverse": -1}
+_SPACE_M = 0.05
+"""Distance from a stall's outline up to which the ends of Autoware's line for the same stall lie on it."""
+
+
+def read_osm_survey(path: Path) -> Survey:
+    """Read a survey from OpenStreetMap's data or a Lanelet2 map.
+
+    Parameters
+    ----------
+    path
+        OSM XML. Stalls are closed ways and multipolygons with ``amenity=parking_space`` or one of the subtypes
+        ``parking``, ``parking_spot`` and ``parking_space``, and Autoware's ways ``type=parking_space`` of two points
+        with a ``width``. Lanes are lanelets for vehicles, and ways ``service=parking_aisle``, and within the outline
+        any ``highway=service``. The outline is the one of ``amenity=parking`` with the most stalls. Columns are areas
+        of the subtype ``Columns``. Entrances are nodes ``amenity=parking_entrance`` or gates, and service roads that
+        cross the outline. If the stalls have tags ``level``, the level with the most stalls is read.
+
+    Raises
+    ------
+    ConfigError
+        For what is not OSM XML, with the element.
+    MissingExtraError
+        For nodes without ``local_x`` and ``local_y``, without the extra ``maps``.
+    """
+    osm = read_osm(path)
+    parts = SurveyParts()
+    level = _level(osm)
+    _add_stalls(parts, osm, level, path)
+    for lane in lanes_of_lanelets(osm):
+        if isinstance(lane, Unplaced):
+            parts.unread.append(lane)
+        elif _is_on(lane.tags, level):
+            parts.add_lane(lane.name, lane.points, lane.width_m, one_way=lane.one_way)
+        else:
+            parts.unread.append(Unplaced(lane.name, f"a lane on level {lane.tags['level']} instead of {level}"))
+    for name, tags, ring in _areas(osm):
+        if ring is None or not _is_on(tags, level):
+            continue
+        points = osm.line(ring)
+        if tags.get("subtype", "").lower() in {"column", "columns", "pillar"}:
+            parts.add_column(name, points)
+        elif tags.get("amenity") == "parking" or tags.get("building") == "parking":
+            parts.add_outline(name, points)
+    outline = parts.outline()
+    _add_ways(parts, osm, outline, path)
+    for node in osm.nodes.values():
+        is_entrance = node.tags.get("amenity") == "parking_entrance" or (
+            node.tags.get("barrier") in _GATES and _is_near(node.position, outline)
+        )
+        if is_entrance and _is_on(node.tags, level):
+            parts.add_portal(node.position)
+    return parts.survey(origin_deg=osm.origin_deg)
+
+
+def _is_stall(tags: Mapping[str, str]) -> bool:
+    is_area = tags.get("type") in {"multipolygon", "area"} or tags.get("area") == "yes"
+    return (
+        tags.get("amenity") in _STALL_AMENITIES
+        or (is_area and tags.get("subtype") in _STALL_SUBTYPES)
+        or (tags.get("type") == _HATCHED and "use" in tags)
+    )
+
+
+def _areas(osm: OsmElements) -> Iterator[tuple[str, Mapping[str, str], tuple[int, ...] | None]]:
+    """Yield relations and ways that may enclose ground, as name, tags and ring of nodes; None if they are not closed.
+
+    A way whose relation is yielded with the same meaning is left out.
+    """
+    of_relations = set()
+    for relation in osm.relations.values():
+        if relation.tags.get("type") == "multipolygon":
+            outer = relation.ways("outer", "")
+            if _is_stall(relation.tags):
+                of_relations.update(outer)
+            lines = [osm.ways[way].nodes for way in outer if way in osm.ways]
+            is_whole = len(lines) == len(outer)
+            yield relation.name, relation.tags, ring_of(lines) if is_whole else None
+    for number, way in osm.ways.items():
+        if number in of_relations and _is_stall(way.tags):
+            continue
+        if way.is_closed or way.tags.get("area") == "yes" or way.tags.get("type") in {"area", _HATCHED}:
+            ring = way.nodes[:-1] if way.is_closed else way.nodes
+            yield way.name, way.tags, ring if len(ring) > 2 else None  # noqa: PLR2004 - a triangle
+        elif _is_stall(way.tags):
+            yield way.name, way.tags, None
+
+
+def _level(osm: OsmElements) -> str | None:
+    """Return the level with the most stalls, the first in the file of equal ones; None if no stall has one."""
+    levels = Counter(tags["level"] for _, tags, _ in _areas(osm) if _is_stall(tags) and "level" in tags)
+    return levels.most_common(1)[0][0] if levels else None
+
+
+def _is_on(tags: Mapping[str, str], level: str | None) -> bool:
+    return level is None or tags.get("level", level) == level
+
+
+def _add_stalls(parts: SurveyParts, osm: OsmElements, level: str | None, path: Path) -> None:
+    for name, tags, ring in _areas(osm):
+        if not _is_stall(tags):
+            continue
+        title = tags.get("name") or name
+        if not _is_on(tags, level):
+            parts.unread.append(Unplaced(title, f"a stall on level {tags['level']} instead of {level}"))
+        elif ring is None:
+            parts.unread.append(Unplaced(title, "a stall whose ways do not close a ring"))
+        else:
+            use = _use(tags)
+            size = size_of(tags[key] for key in ("parking_space", "parking_type", "size") if key in tags)
+            number = tags.get("ref", "")
+            parts.add_stall(title, osm.line(ring), mouth_at=_mouth(osm, name, ring), use=use, size=size, number=number)
+    _add_spaces(parts, osm, path)
+
+
+def _add_spaces(parts: SurveyParts, osm: OsmElements, path: Path) -> None:
+    """Add Autoware's parking spaces, lines along the middle of a stall, except those of stalls that are known."""
+    known = shapely.STRtree(parts.stall_polygons())
+    for number, way in osm.ways.items():
+        if way.tags.get("type") != "parking_space":
+            continue
+        name = way.tags.get("name") or way.name
+        line = osm.line(way.nodes)
+        if len(line) != 2 or line[0] == line[1]:  # noqa: PLR2004 - from one end to the other
+            parts.unread.append(Unplaced(name, f"a parking space of {len(way.nodes)} points instead of 2 apart"))
+            continue
+        middle = shapely.LineString(line).interpolate(0.5, normalized=True)
+        around = known.query(middle, predicate="within")
+        if len(around) and _lies_in(line, known.geometries[int(around[0])]):
+            continue
+        if "width" not in way.tags:
+            refuse(f"{path.name}: way {number}, width", "nothing", "the width of a parking space in metres")
+        half = positive_of(_metres(way.tags["width"]), f"{path.name}: way {number}, width") / 2
+        (x, z), (end_x, end_z) = line
+        length_m = ((end_x - x) ** 2 + (end_z - z) ** 2) ** 0.5
+        off_x, off_z = -(end_z - z) / length_m * half, (end_x - x) / length_m * half
+        ring = [
+            (x - off_x, z - off_z),
+            (x + off_x, z + off_z),
+            (end_x + off_x, end_z + off_z),
+            (end_x - off_x, end_z - off_z),
+        ]
+        parts.add_stall(name, ring, use=_use(way.tags), number=way.tags.get("ref", ""))
+
+
+def _lies_in(line: Sequence[Point], stall: shapely.Polygon) -> bool:
+    return bool(stall.buffer(_SPACE_M).contains(shapely.LineString(line)))
+
+
+def _mouth(osm: OsmElements, name: str, ring: tuple[int, ...]) -> Point | None:
+    """Return the middle of the only side of a stall's relation that is virtual, so that cars cross it."""
+    kind, _, number = name.partition(" ")
+    if kind != "relation":
+        return None
+    ways = [osm.ways[way] for way in osm.relations[int(number)].ways("outer", "") if way in osm.ways]
+    virtual = [way for way in ways if way.tags.get("type") == "virtual"]
+    if len(virtual) != 1 or len(ways) != len(ring):
+        return None
+    (x, z), (end_x, end_z) = osm.line(virtual[0].nodes)[:2]
+    return (x + end_x) / 2, (z + end_z) / 2
+
+
+def _use(tags: Mapping[str, str]) -> StallUse:
+    said = [tags[key] for key in ("use", "parking_space", "parking_type", "capacity") if key in tags]
+    marks = {"disabled": "disabled", "capacity:disabled": "disabled", "capacity:charging": "ev", "charging": "ev"}
+    marks["wheelchair"] = "disabled"
+    for key, word in marks.items():
+        value = tags.get(key, "no").lower()
+        if value in _YES - ({"yes", "true"} if key == "wheelchair" else set()) or (value.isdigit() and int(value) > 0):
+            said.append(word)
+    if tags.get("access:disabled") in _YES or tags.get("access") == "disabled":
+        said.append("disabled")
+    return use_of(said)
+
+
+def _add_ways(parts: SurveyParts, osm: OsmElements, outline: tuple[Point, ...] | None, path: Path) -> None:
+    """Add parking aisles, and the parts of other service roads that lie within the outline, with portals on it."""
+    ground = None if outline is None else shapely.Polygon(outline)
+    for number, way in osm.ways.items():
+        if way.tags.get("highway") != "service":
+            continue
+        place = f"{path.name}: way {number}"
+        width_m = positive_of(_metres(way.tags["width"]), f"{place}, width") if "width" in way.tags else None
+        direction = _ONE_WAY.get(way.tags.get("oneway", "no").lower(), 0)
+        line = osm.line(way.nodes)[:: -1 if direction < 0 else 1]
+        if len(line) < 2:  # noqa: PLR2004 - a line
+            parts.unread.append(Unplaced(way.name, "a lane without length"))
+            continue
+        is_aisle = way.tags.get("service") == "parking_aisle"
+        if ground is None or not ground.crosses(shapely.LineString(line)):
+            if is_aisle or (ground is not None and ground.covers(shapely.LineString(line))):
+                parts.add_lane(way.name, line, width_m, one_way=direction != 0)
+            else:
+                parts.unread.append(Unplaced(way.name, "a service road that is no parking aisle within the outline"))
+            continue
+        within = shapely.intersection(shapely.LineString(line), ground)
+        for part in shapely.get_parts(within):
+            if part.geom_type != "LineString":
+                continue
+            points = list(part.coords)
+            parts.add_lane(way.name, points, width_m, one_way=direction != 0)
+            for end, other, kind in ((0, 0, PortalKind.ENTRANCE), (-1, -1, PortalKind.EXIT)):
+                is_end = shapely.Point(points[end]).distance(shapely.Point(line[other])) < _SPACE_M
+                if not is_end and shapely.Point(points[end]).distance(ground.exterior) < _SPACE_M:
+                    parts.add_portal(points[end], kind if direction else PortalKind.BOTH)
+
+
+def _is_near(position: Point, outline: tuple[Point, ...] | None) -> bool:
+    if outline is None:
+        return False
+    return bool(shapely.Polygon(outline).exterior.distance(shapely.Point(position)) < 1.0)
+
+
+def _metres(text: str) -> str:
+    """Return the number of a width like `5.5 m`."""
+    return text.strip().removesuffix("m").strip()

@@ -1,0 +1,228 @@
+"""Parts of a survey as a reader finds them: stalls checked for four corners, unique names, one outline of many."""
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from garage2usd.config.stalls import SizeClass
+from garage2usd.garage import Point, StallUse
+from garage2usd.survey.survey import (
+    PortalKind,
+    Survey,
+    SurveyedColumn,
+    SurveyedLane,
+    SurveyedPortal,
+    SurveyedStall,
+    Unplaced,
+)
+
+__all__ = ["STRAIGHT_M", "SurveyParts", "corners_of", "side_at"]
+
+Floats = NDArray[np.float64]
+
+STRAIGHT_M = 0.15
+"""Distance from the line through its neighbours up to which a point of an outline is no corner."""
+_CORNERS = 4
+_DIGITS = 6
+_COLUMN_DIGITS = 2
+
+
+class SurveyParts:
+    """Parts of a survey under construction, by (x, z) in metres.
+
+    Attributes
+    ----------
+    stalls, lanes, columns, portals, unread
+        As in `Survey`.
+    """
+
+    def __init__(self) -> None:
+        self.stalls: list[SurveyedStall] = []
+        self.lanes: list[SurveyedLane] = []
+        self.columns: list[SurveyedColumn] = []
+        self.portals: list[SurveyedPortal] = []
+        self.unread: list[Unplaced] = []
+        self._outlines: list[tuple[str, tuple[Point, ...]]] = []
+        self._named: Counter[str] = Counter()
+
+    def add_stall(
+        self,
+        name: str,
+        ring: Iterable[Sequence[float]],
+        *,
+        mouth_at: Point | None = None,
+        use: StallUse = StallUse.STANDARD,
+        size: SizeClass = SizeClass.STANDARD,
+        number: str = "",
+    ) -> None:
+        """Add a stall, or note why it is none.
+
+        Parameters
+        ----------
+        name
+            Id in the source. If it was taken before, a number is appended.
+        ring
+            Points (x, z) of its outline, of which the first may be repeated at the end.
+        mouth_at
+            Point on the side that cars cross; None if unknown.
+        use, size, number
+            As in `SurveyedStall`.
+        """
+        self._named[name] += 1
+        if self._named[name] > 1:
+            name = f"{name} ({self._named[name]})"
+        corners = corners_of(ring)
+        reason = _reason_against(corners)
+        if reason:
+            self.unread.append(Unplaced(name, reason))
+            return
+        a, b, c, d = corners
+        mouth = None if mouth_at is None else side_at(corners, mouth_at)
+        self.stalls.append(SurveyedStall(name, (a, b, c, d), mouth, use, size, number))
+
+    def add_lane(self, name: str, line: Iterable[Sequence[float]], width_m: float | None, *, one_way: bool) -> None:
+        """Add a lane by the points (x, z) of its centre line, or note that it has no length."""
+        points = _without_repeats(line)
+        if len(points) < 2:  # noqa: PLR2004 - a line
+            self.unread.append(Unplaced(name, "a lane without length"))
+        else:
+            self.lanes.append(SurveyedLane(points, None if width_m is None else round(width_m, _DIGITS), one_way))
+
+    def add_column(self, name: str, ring: Iterable[Sequence[float]]) -> None:
+        """Add a square column with the middle and the area of an outline, or note that this has no area."""
+        polygon = _polygon(_without_repeats(ring))
+        if polygon is None:
+            self.unread.append(Unplaced(name, "a column without area"))
+        else:
+            self.columns.append(SurveyedColumn(_point(polygon.centroid.coords[0]), float(polygon.area) ** 0.5))
+
+    def add_square_column(self, centre: Point, size_m: float) -> None:
+        """Add a column by its middle (x, z) and its side."""
+        self.columns.append(SurveyedColumn(_point(centre), size_m))
+
+    def add_portal(self, position: Sequence[float], kind: PortalKind = PortalKind.BOTH) -> None:
+        """Add a place where cars enter or leave."""
+        self.portals.append(SurveyedPortal(_point(position), kind))
+
+    def add_outline(self, name: str, ring: Iterable[Sequence[float]]) -> None:
+        """Add an outline. If there are several, the survey has the one with the most stalls."""
+        points = _without_repeats(ring)
+        polygon = _polygon(points)
+        if polygon is None or not polygon.is_valid:
+            self.unread.append(Unplaced(name, "an outline without area, or one that crosses itself"))
+        else:
+            self._outlines.append((name, points))
+
+    def stall_polygons(self) -> list[shapely.Polygon]:
+        """Return the ground of each stall so far."""
+        return [shapely.Polygon(stall.corners) for stall in self.stalls]
+
+    def outline(self) -> tuple[Point, ...] | None:
+        """Return the outline that contains the middles of the most stalls, or else None; note all others."""
+        if not self._outlines:
+            return None
+        middles = shapely.centroid(self.stall_polygons())
+        held = [int(shapely.contains(shapely.Polygon(ring), middles).sum()) for _, ring in self._outlines]
+        best = held.index(max(held))
+        chosen = self._outlines[best] if held[best] else None
+        for name, ring in self._outlines:
+            if chosen is None:
+                self.unread.append(Unplaced(name, "an outline that contains no stall"))
+            elif ring is not chosen[1]:
+                self.unread.append(Unplaced(name, f"an outline beside {chosen[0]}, which contains more stalls"))
+        self._outlines = [chosen] if chosen else []
+        return chosen[1] if chosen else None
+
+    def survey(self, *, origin_deg: tuple[float, float] | None = None) -> Survey:
+        """Return the survey of all parts."""
+        outline = self.outline()
+        return Survey(
+            tuple(self.stalls),
+            tuple(self.lanes),
+            tuple(_single(self.columns)),
+            tuple(self.portals),
+            outline,
+            tuple(self.unread),
+            origin_deg,
+        )
+
+
+def _single(columns: Iterable[SurveyedColumn]) -> list[SurveyedColumn]:
+    """Return columns without those that stand on the middle of another one; the largest remains."""
+    largest: dict[Point, SurveyedColumn] = {}
+    for column in columns:
+        x, z = column.centre
+        place = round(x, _COLUMN_DIGITS) + 0.0, round(z, _COLUMN_DIGITS) + 0.0
+        if place not in largest or column.size_m > largest[place].size_m:
+            largest[place] = column
+    return list(largest.values())
+
+
+def corners_of(ring: Iterable[Sequence[float]]) -> tuple[Point, ...]:
+    """Reduce the outline of a stall to its corners.
+
+    While there are more than four points, the one that lies nearest to the line between its neighbours is removed, if
+    it is nearer than `STRAIGHT_M`.
+    """
+    points = list(_without_repeats(ring))
+    while len(points) > _CORNERS:
+        off_m = _distances_to_neighbours(points)
+        straightest = int(np.argmin(off_m.round(_DIGITS)))
+        if off_m[straightest] >= STRAIGHT_M:
+            break
+        del points[straightest]
+    return tuple(points)
+
+
+def side_at(corners: Sequence[Point], place: Point) -> int:
+    """Return the number of the side of a quad that is nearest to a point; the lowest of equal ones."""
+    sides = [shapely.LineString([corners[side], corners[(side + 1) % len(corners)]]) for side in range(len(corners))]
+    return int(np.argmin(shapely.distance(sides, shapely.Point(place)).round(_DIGITS)))
+
+
+def _reason_against(corners: tuple[Point, ...]) -> str:
+    """Return the reason for which points are not the corners of a convex quadrilateral; empty if they are."""
+    if len(corners) != _CORNERS:
+        return f"a stall of {len(corners)} corners instead of {_CORNERS}"
+    polygon = shapely.Polygon(corners)
+    if not polygon.is_valid:
+        return "a stall whose sides cross or touch each other"
+    if (_distances_to_neighbours(corners) < STRAIGHT_M).any():
+        return f"a stall of 3 corners instead of {_CORNERS}"
+    if len(shapely.get_coordinates(polygon.convex_hull)) != _CORNERS + 1:
+        return "a stall with a corner that points inwards"
+    return ""
+
+
+def _distances_to_neighbours(points: Sequence[Point]) -> Floats:
+    """Return the distance of each point of a ring from the straight between its two neighbours, in metres."""
+    count = len(points)
+    chords = [shapely.LineString([points[index - 1], points[(index + 1) % count]]) for index in range(count)]
+    distances: Floats = shapely.distance(chords, shapely.points(points))
+    return distances
+
+
+def _without_repeats(line: Iterable[Sequence[float]]) -> tuple[Point, ...]:
+    """Return the points of a line or ring, rounded, without those that repeat the one before or close the ring."""
+    points: list[Point] = []
+    for place in line:
+        point = _point(place)
+        if not points or point != points[-1]:
+            points.append(point)
+    if len(points) > 2 and points[0] == points[-1]:  # noqa: PLR2004 - a closed ring
+        points.pop()
+    return tuple(points)
+
+
+def _polygon(points: Sequence[Point]) -> shapely.Polygon | None:
+    """Return the polygon around points, or None if it has no area."""
+    polygon = shapely.Polygon(points) if len(points) > 2 else None  # noqa: PLR2004 - a triangle
+    return polygon if polygon is not None and polygon.area > 0 else None
+
+
+def _point(place: Sequence[float]) -> Point:
+    x, z = (round(float(value), _DIGITS) + 0.0 for value in place[:2])
+    return x, z

@@ -1,0 +1,54 @@
+"""Reading of surveys: one format for each suffix of a file."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from garage2usd.common.errors import ConfigError
+from garage2usd.survey.csv_survey import read_csv_survey
+from garage2usd.survey.geojson_survey import read_geojson_survey
+from garage2usd.survey.opendrive_survey import read_opendrive_survey
+from garage2usd.survey.osm_survey import read_osm_survey
+from garage2usd.survey.survey import Survey
+from garage2usd.survey.toml_survey import read_toml_survey
+
+__all__ = ["SURVEY_SUFFIXES", "read_survey"]
+
+_READERS: dict[str, Callable[[Path], Survey]] = {
+    ".toml": read_toml_survey,
+    ".csv": read_csv_survey,
+    ".geojson": read_geojson_survey,
+    ".json": read_geojson_survey,
+    ".osm": read_osm_survey,
+    ".xodr": read_opendrive_survey,
+}
+SURVEY_SUFFIXES = tuple(_READERS)
+"""Suffixes of files that `read_survey` reads."""
+_REASONS = 3
+
+
+def read_survey(path: Path) -> Survey:
+    """Read the layout of an existing garage.
+
+    Parameters
+    ----------
+    path
+        A drawing in metres (``.toml``), rectangles (``.csv``), GeoJSON (``.geojson``, ``.json``), OpenStreetMap or
+        Lanelet2 (``.osm``), or OpenDRIVE (``.xodr``).
+
+    Raises
+    ------
+    ConfigError
+        For other suffixes, files that cannot be read or are malformed, and files without a stall.
+    MissingExtraError
+        For coordinates in degrees, without the extra ``maps``.
+    """
+    read = _READERS.get(path.suffix.lower())
+    if read is None:
+        raise ConfigError("SOURCE", str(path), f"a path that ends in {', '.join(SURVEY_SUFFIXES)}")
+    survey = read(path)
+    if not survey.stalls:
+        reasons = "; ".join(f"{name}: {reason}" for name, reason in survey.unread[:_REASONS])
+        raise ConfigError(
+            "SOURCE", str(path), "a file with a stall of four corners" + (f" ({reasons})" if reasons else "")
+        )
+    return survey
