@@ -134,14 +134,9 @@ def import_layout(
         # the stage comes last: where it stands, all of it does
         place_of = {file: path.with_name(file.name) for file in (*filter(None, [made.assets]), plan, labels, report)}
         publish_at(place_of | {made.stage: path})
+    beside = {file: path.with_name(file.name) for file in (report, labels, plan)}
     return ImportedGarage(
-        config,
-        layout,
-        alignment,
-        proofs,
-        path,
-        *(path.with_name(f"{path.stem}_{name}") for name in ("report.json", "labels.json", "plan.png")),
-        findings,
+        config, layout, alignment, proofs, path, beside[report], beside[labels], beside[plan], findings
     )
 
 

@@ -233,7 +233,7 @@ def _part_text(own: str, file: str) -> str:
 
 
 def _matrices(layout: Layout) -> dict[str, object]:
-    """S as rows of symbols, R and C in metres for each column and row, and the fire compartment of each square, if any."""
+    """S as rows of symbols, R and C in metres, and the fire compartment of each square; empty without a grid."""
     structure = layout.matrices
     if structure is None:
         return {}

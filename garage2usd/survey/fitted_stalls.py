@@ -8,12 +8,14 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from garage2usd.garage import Arc, LaneGraph, Point
 from garage2usd.survey.survey import Survey, SurveyedStall, Unplaced
 
 __all__ = ["FittedStall", "fitted_stalls"]
 
+Floats = NDArray[np.float64]
 _SIDES = 4
 _REACH_M = 9.0
 """Greatest distance in metres from the mouth of a stall to the middle of its lane."""
@@ -188,7 +190,7 @@ class _Fitting:
                 found.append((not is_short, round(away_m, 3), side, _Mouth(side, away_m, foot)))
         yield from (mouth for *_, mouth in sorted(found, key=lambda entry: entry[:3]))
 
-    def _lane_ahead(self, middle: np.ndarray, ahead: np.ndarray) -> tuple[float, Point] | None:
+    def _lane_ahead(self, middle: Floats, ahead: Floats) -> tuple[float, Point] | None:
         """Return the distance and the place of the nearest middle of a lane ahead of the middle of a side."""
         ray = shapely.LineString([middle - _BEHIND_M * ahead, middle + _REACH_M * ahead])
         crossed = [
@@ -201,7 +203,7 @@ class _Fitting:
         away, (x, z) = min((math.dist(point, middle), point) for point in crossed)
         return away, (x, z)
 
-    def _is_blocked(self, number: int, start: np.ndarray, foot: Point) -> bool:
+    def _is_blocked(self, number: int, start: Floats, foot: Point) -> bool:
         way = shapely.LineString([start, foot])
         return any(
             other != number and self._grounds[other].intersection(way).length > _INSIDE_M
@@ -331,7 +333,7 @@ def _snapped(yaw_rad: float) -> float:
     return round(yaw_rad, _YAW_DIGITS)
 
 
-def _off_m(corners: np.ndarray, shape: _Shape) -> float:
+def _off_m(corners: Floats, shape: _Shape) -> float:
     """Return the greatest distance of the corners of a stall from those of its shape."""
     out = np.array(shape.outwards)
     right = np.array([out[1], -out[0]])

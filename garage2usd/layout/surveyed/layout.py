@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import Any
 
@@ -66,8 +66,8 @@ class SurveyedLayout(Layout):
         Parts of the survey that it lacks, with the reasons.
     """
 
-    survey: Survey = Survey(())
-    network: LaneGraph = LaneGraph((), ())
+    survey: Survey = field(default_factory=lambda: Survey(()))
+    network: LaneGraph = field(default_factory=lambda: LaneGraph((), ()))
     fitted: tuple[FittedStall, ...] = ()
     unplaced: tuple[Unplaced, ...] = ()
 
@@ -88,7 +88,7 @@ class SurveyedLayout(Layout):
         return tuple(_quads(tuple(self.stalls), self.fitted, self.blocked, occupied))
 
     @property
-    def again(self) -> "partial[Layout]":
+    def again(self) -> "partial[SurveyedLayout]":  # type: ignore[override]
         """Lay the same survey out again."""
         return partial(lay_out_survey, self.survey)
 
@@ -153,7 +153,7 @@ def lay_out_survey(
     """
     assert survey.outline is not None
     fittings, seed, look = config.fittings, config.seed, drawn_look(config.look, config.seed)
-    keeps_left = config.standard.keeps_left
+    keeps_left = config.standard.drives_on_left
     ground = SurveyedGround(survey.outline)
     if not survey.lanes:
         raise ConfigError("lanes", [], "a lane or more")
