@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from garage2usd.garage import Arc, LaneGraph, Point
 from garage2usd.survey.survey import Survey, SurveyedStall, Unplaced
@@ -21,12 +21,14 @@ _REACH_M = 9.0
 """Greatest distance in metres from the mouth of a stall to the middle of its lane."""
 _SQUARE_DEG, _LEAST_ANGLE_DEG = 1.0, 25.0
 _PERPENDICULAR_DEG, _PARALLEL_DEG = 90.0, 0.0
+_PARALLEL_SIDES_DEG = 3.0
 _MOST_OFF_M = 0.25
 """Greatest distance in metres of a corner of a stall from the shape that is laid out."""
 _LEAST_WIDTH_M, _LEAST_LENGTH_M = 1.0, 2.0
 _MOST_OVERLAP = 0.05
 """Greatest share of a stall's ground that another one covers."""
 _INSIDE_M = 0.1
+_LEAST_GROUND_M2 = 0.25
 _QUARTER_RAD = 1e-3
 """Angle in radians up to which a stall stands along an axis."""
 _BEHIND_M = 0.5
@@ -56,6 +58,8 @@ class FittedStall:
         Unit vector (x, z) from its rear to its mouth.
     access
         Number of the lane node in front of its mouth.
+    note
+        How its shape differs from that in the survey; empty if it does not.
     """
 
     source: SurveyedStall
@@ -67,6 +71,7 @@ class FittedStall:
     turn: int
     outwards: Point
     access: int
+    note: str = ""
 
 
 class _Mouth(NamedTuple):
@@ -109,7 +114,8 @@ def fitted_stalls(
     Notes
     -----
     The mouth is the short side from which the middle of a lane is in reach without another stall between, else the long
-    one; of two such sides the one nearer to its lane, but that of most adjacent stalls first.
+    one, else one before which a lane ends or bends; of two such sides the one nearer to its lane, but that of most
+    adjacent stalls first.
     """
     return _Fitting(survey, lanes, keeps_left=keeps_left).result()
 
@@ -124,6 +130,9 @@ class _Fitting:
         ends = lanes.positions_m[np.array(self._arcs, dtype=np.intp).reshape(-1, 2)]
         self._lines = shapely.linestrings(ends) if len(ends) else np.empty(0, dtype=object)
         self._line_tree = shapely.STRtree(self._lines)
+        widths_m = np.array([lanes.arcs[arc].width_m for arc in self._arcs])
+        self._carriageways = np.asarray(shapely.buffer(self._lines, widths_m / 2, quad_segs=2))
+        self._carriageway_tree = shapely.STRtree(self._carriageways)
 
     def result(self) -> tuple[tuple[FittedStall, ...], tuple[Unplaced, ...]]:
         fitted: list[FittedStall] = []
@@ -133,9 +142,12 @@ class _Fitting:
             reason = self._hindrance(number)
             if not reason and mouth is None:
                 reason = f"no lane within {_REACH_M:g} m of a free side"
-            shape = None if reason or mouth is None else _shape(stall, mouth.side, self._keeps_left)
-            if isinstance(shape, str):
+            note = ""
+            shape = None if reason or mouth is None else _shape(stall.corners, mouth.side, self._keeps_left)
+            if isinstance(shape, str) and mouth is not None:
                 reason = shape
+                shape, note = self._reshaped(number, mouth)
+                reason = "" if shape is not None else reason
             if reason or mouth is None or shape is None or isinstance(shape, str):
                 unplaced.append(Unplaced(stall.name, reason))
                 continue
@@ -145,8 +157,22 @@ class _Fitting:
                 continue
             if shape.angle_deg == _PARALLEL_DEG:
                 shape = self._along_traffic(shape, access)
-            fitted.append(FittedStall(stall, *shape, access))
+            fitted.append(FittedStall(stall, *shape, access, note))
         return tuple(fitted), tuple(unplaced)
+
+    def _reshaped(self, number: int, mouth: _Mouth) -> tuple[_Shape | None, str]:
+        """Return the shape of a stall with its rear laid parallel to its mouth, and what that changes."""
+        laid = _with_parallel_rear(np.roll(np.array(self._stalls[number].corners), -mouth.side, axis=0))
+        if laid is None:
+            return None, ""
+        corners, moved_m = laid
+        shape = _shape(corners, 0, self._keeps_left)
+        ground = shapely.Polygon(corners)
+        beside = self._grounds[[at for at in self._tree.query(ground).tolist() if at != number]]
+        is_free = shapely.area(shapely.intersection(beside, ground)).sum() <= _MOST_OVERLAP * ground.area
+        if isinstance(shape, str) or not is_free:
+            return None, ""
+        return shape, f"its rear is laid parallel to its mouth, by which a corner moves {moved_m:.2f} m"
 
     def _is_gate(self, *nodes: int) -> bool:
         return any(self._lanes.nodes[node].is_portal for node in nodes)
@@ -182,13 +208,16 @@ class _Fitting:
             square = np.array([end[1] - start[1], start[0] - end[0]])
             square = square / np.linalg.norm(square) * (1.0 if square @ (middle - centre) > 0 else -1.0)
             reached = self._lane_ahead(middle, square)
+            is_beside = reached is None
+            if reached is None:
+                reached = self._ground_ahead(start, end, square)
             if reached is None:
                 continue
             away_m, foot = reached
-            is_short = np.linalg.norm(end - start) <= depth_m
+            is_long = bool(np.linalg.norm(end - start) > depth_m)
             if not self._is_blocked(number, middle + _INSIDE_M * square, foot):
-                found.append((not is_short, round(away_m, 3), side, _Mouth(side, away_m, foot)))
-        yield from (mouth for *_, mouth in sorted(found, key=lambda entry: entry[:3]))
+                found.append((is_beside, is_long, round(away_m, 3), side, _Mouth(side, away_m, foot)))
+        yield from (mouth for *_, mouth in sorted(found, key=lambda entry: entry[:4]))
 
     def _lane_ahead(self, middle: Floats, ahead: Floats) -> tuple[float, Point] | None:
         """Return the distance and the place of the nearest middle of a lane ahead of the middle of a side."""
@@ -202,6 +231,17 @@ class _Fitting:
             return None
         away, (x, z) = min((math.dist(point, middle), point) for point in crossed)
         return away, (x, z)
+
+    def _ground_ahead(self, start: Floats, end: Floats, ahead: Floats) -> tuple[float, Point] | None:
+        """Return the distance and the nearest place of the carriageway of a lane that ends or bends before a side."""
+        strip = shapely.Polygon([start, end, end + _REACH_M * ahead, start + _REACH_M * ahead])
+        parts = self._carriageways[self._carriageway_tree.query(strip, predicate="intersects")]
+        ground = shapely.union_all(shapely.intersection(parts, strip))
+        if ground.area < _LEAST_GROUND_M2:
+            return None
+        middle = shapely.Point((start + end) / 2)
+        (x, z) = shapely.shortest_line(ground, middle).coords[0]
+        return float(middle.distance(ground)), (x, z)
 
     def _is_blocked(self, number: int, start: Floats, foot: Point) -> bool:
         way = shapely.LineString([start, foot])
@@ -280,9 +320,9 @@ class _Fitting:
         return shape
 
 
-def _shape(stall: SurveyedStall, side: int, keeps_left: bool) -> _Shape | str:  # noqa: FBT001 - a fact of the country
+def _shape(given: ArrayLike, side: int, keeps_left: bool) -> _Shape | str:  # noqa: FBT001 - a fact of the country
     """Return the rectangle or parallelogram of a stall by its mouth, or the reason that there is none."""
-    corners = np.roll(np.array(stall.corners), -side, axis=0)
+    corners = np.roll(np.asarray(given, dtype=np.float64), -side, axis=0)
     one, other, beyond_other, beyond_one = corners
     out = (one + other - beyond_other - beyond_one) / 2
     depth_m = float(np.linalg.norm(out))
@@ -324,6 +364,35 @@ def _shape(stall: SurveyedStall, side: int, keeps_left: bool) -> _Shape | str:  
     if off_m > _MOST_OFF_M:
         return f"a corner is {off_m:.2f} m from the nearest rectangle or parallelogram, above {_MOST_OFF_M:g}"
     return shape
+
+
+def _with_parallel_rear(corners: Floats) -> tuple[Floats, float] | None:
+    """Return the corners of a stall with its mouth and its rectangle for a car, but its rear parallel to its mouth.
+
+    Parameters
+    ----------
+    corners
+        Both corners of the mouth, then of the rear; shape (4, 2).
+
+    Returns
+    -------
+    tuple or None
+        The corners and the greatest distance that one was moved; None if the sides are not parallel.
+    """
+    one, other, beyond_other, beyond_one = corners
+    sides = one - beyond_one, other - beyond_other
+    lengths_m = [float(np.linalg.norm(side)) for side in sides]
+    if min(lengths_m) < _LEAST_WIDTH_M:
+        return None
+    outs = [side / length_m for side, length_m in zip(sides, lengths_m, strict=True)]
+    if outs[0] @ outs[1] < math.cos(math.radians(_PARALLEL_SIDES_DEG)):
+        return None
+    out = (outs[0] + outs[1]) / np.linalg.norm(outs[0] + outs[1])
+    # the rectangle for a car ends where the first corner of the rear is, seen from the mouth
+    length_m = min(one @ out, other @ out) - max(beyond_one @ out, beyond_other @ out)
+    side_m = length_m + abs((one - other) @ out)
+    laid = np.array([one, other, other - side_m * out, one - side_m * out])
+    return laid, float(np.linalg.norm(laid - corners, axis=1).max())
 
 
 def _snapped(yaw_rad: float) -> float:

@@ -158,7 +158,7 @@ def lay_out_survey(
     if not survey.lanes:
         raise ConfigError("lanes", [], "a lane or more")
     gates = gates_of(ground.polygon, survey.portals, survey.lanes, keeps_left=keeps_left)
-    network = lane_network(survey.lanes, gates)
+    network = lane_network(survey.lanes, gates, survey.stall_polygons())
     found, unplaced = fitted_stalls(survey, network, keeps_left=keeps_left)
     if not found:
         reasons = ", ".join(dict.fromkeys(each.reason for each in unplaced)) or "it has none"
