@@ -115,7 +115,7 @@ class SurveyedLayout(Layout):
     @cached_property
     def _labels(self) -> dict[tuple[int, int], str]:
         edges = self.structure.row_edges_m, self.structure.column_edges_m
-        labels = dict.fromkeys(self.stalls.square.tolist(), f"stall_{StallType.TYPE_3.value}")
+        labels = dict.fromkeys(map(tuple, self.stalls.square.tolist()), f"stall_{StallType.TYPE_3.value}")
         for node in reversed(self.network.nodes):
             row, col = (
                 int(np.clip(np.searchsorted(lines, at, side="right") - 1, 0, len(lines) - 2))
