@@ -52,8 +52,8 @@ def read_opendrive_survey(path: Path) -> Survey:
     ----------
     path
         OpenDRIVE 1.4 to 1.8. Stalls are objects of the type ``parkingSpace``, or ``parking`` as in some maps, with
-        outlines, repetitions or as boxes; objects named ``column`` or ``pillar`` are columns. The driving lanes of a road are one lane, two-way if they
-        lead in both directions.
+        outlines, repetitions or as boxes; objects named ``column`` or ``pillar`` are columns. The driving lanes of a
+        road are one lane, two-way if they lead in both directions.
 
     Raises
     ------
