@@ -137,11 +137,11 @@ def _lanelet(osm: OsmElements, relation: OsmRelation) -> Lanelet | Unplaced:
             return Unplaced(relation.name, f"a lane without a {role} bound")
         lines.append(np.array(line))
     left, right = lines
-    if len(left) + len(right) < 3 or not shapely.Polygon(np.concatenate([left, right[::-1]])).area:  # noqa: PLR2004
-        return Unplaced(relation.name, "a lane whose bounds enclose no ground")
     straight, crossed = (np.hypot(*(left[[0, -1]] - ends).T).sum() for ends in (right[[0, -1]], right[[-1, 0]]))
     if crossed < straight:
         right = right[::-1]
+    if len(left) + len(right) < 3 or not shapely.Polygon(np.concatenate([left, right[::-1]])).area:  # noqa: PLR2004
+        return Unplaced(relation.name, "a lane whose bounds enclose no ground")
     # seen from above with z downwards, a ring along the left bound and back along the right one is clockwise
     ring = shapely.LinearRing(np.concatenate([left, right[::-1]]))
     if shapely.is_ccw(shapely.transform(ring, lambda points: points * (1.0, -1.0))):

@@ -45,15 +45,12 @@ class RoadLine:
     ----------
     geometries
         Pieces in order.
+    length_m
+        Length of the road, which may end before its last piece.
     """
 
     geometries: tuple[_Geometry, ...]
-
-    @property
-    def length_m(self) -> float:
-        """Length of the line."""
-        last = self.geometries[-1]
-        return last.s_m + last.length_m
+    length_m: float
 
     @property
     def joints_m(self) -> list[float]:
@@ -153,7 +150,10 @@ def road_line(road: ET.Element, place: str) -> RoadLine:
             geometries.append(_Geometry(s_m, x, y, heading, length_m, _curve(element, length_m, here)))
     if not geometries:
         refuse(f"{place}, planView", "nothing", "a geometry with a length above 0")
-    return RoadLine(tuple(sorted(geometries, key=lambda geometry: geometry.s_m)))
+    geometries.sort(key=lambda geometry: geometry.s_m)
+    end_m = geometries[-1].s_m + geometries[-1].length_m
+    length_m = number_of(road.get("length", end_m), f"{place}, length", most=_MOST_LENGTH_M)
+    return RoadLine(tuple(geometries), min(length_m, end_m))
 
 
 def _curve(element: ET.Element, length_m: float, place: str) -> Curve:

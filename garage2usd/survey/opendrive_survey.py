@@ -28,11 +28,13 @@ _MOST_REPEATS = 10_000
 _ANGLE = 1e6
 _WHOLE = 1e-6
 _DEGREES = re.compile(r"\+(proj|lat_0|lon_0|x_0|y_0)=(\S+)")
+_STALL_TYPES = {"parkingSpace", "parking"}
+_STALL_NAMES = {"parkingspace", "parking space", "parking", ""}
 _COLUMN_WORDS = ("column", "pillar")
 
 
 class _Pose(NamedTuple):
-    """A place beside a road, and how far along and across an object was repeated from its own place."""
+    """A place of an object beside a road: its sides if a repetition has them, and how it was moved and turned."""
 
     s_m: float
     t_m: float
@@ -40,6 +42,7 @@ class _Pose(NamedTuple):
     length_m: float | None
     shift_s_m: float
     shift_t_m: float
+    turned_rad: float
 
 
 def read_opendrive_survey(path: Path) -> Survey:
@@ -48,9 +51,9 @@ def read_opendrive_survey(path: Path) -> Survey:
     Parameters
     ----------
     path
-        OpenDRIVE 1.4 to 1.8. Stalls are objects of the type ``parkingSpace``, with outlines, ``repeat`` or as boxes;
-        objects named ``column`` or ``pillar`` are columns. The driving lanes of a road are one lane, two-way if they
-        lead in both directions.
+        OpenDRIVE 1.4 to 1.8. Stalls are objects of the type ``parkingSpace``, or ``parking`` as in some maps, with
+        outlines, repetitions or as boxes; objects named ``column`` or ``pillar`` are columns. The driving lanes of a
+        road are one lane, two-way if they lead in both directions.
 
     Raises
     ------
@@ -96,14 +99,14 @@ def _add_object(parts: SurveyParts, element: ET.Element, line: RoadLine, road: s
     words = f"{element.get('name', '')} {element.get('subtype', '')}".lower()
     space = element.find("parkingSpace")
     is_hatched = element.get("type") == "none" and facts.get("use", "") in set(StallUse)
-    is_stall = element.get("type") == "parkingSpace" or space is not None or is_hatched
+    is_stall = element.get("type") in _STALL_TYPES or space is not None or is_hatched
     is_column = not is_stall and any(word in words for word in _COLUMN_WORDS)
     if not is_stall and not is_column:
         return
     number = element.get("id", "without id")
     place = f"{road_place}, object {number}"
-    title = element.get("name") or ""
-    title = title if title and title.lower() not in {"parkingspace", "parking space"} else f"{road}, object {number}"
+    name = element.get("name", "")
+    title = f"{road}, object {number}" if name.lower() in _STALL_NAMES else name
     access = "" if space is None else space.get("access", "")
     poses = list(_poses(element, line, place))
     for pose, name in zip(poses, _names(title, len(poses)), strict=True):
@@ -130,7 +133,7 @@ def _poses(element: ET.Element, line: RoadLine, place: str) -> Iterator[_Pose]:
     t_m = number_of(element.get("t", 0), f"{place}, t")
     repeats = element.findall("repeat")
     if not repeats:
-        yield _Pose(s_m, t_m, None, None, 0.0, 0.0)
+        yield _Pose(s_m, t_m, None, None, 0.0, 0.0, 0.0)
     for repeat in repeats:
         here = f"{place}, repeat"
         start_m, length_m, step_m = (
@@ -147,6 +150,9 @@ def _poses(element: ET.Element, line: RoadLine, place: str) -> Iterator[_Pose]:
             numbers = [None if text is None else number_of(text, f"{here}, {key}Start") for text in texts]
             start = usual if numbers[0] is None else numbers[0]
             ends[key] = start, start if numbers[1] is None else numbers[1]
+        # as esmini does, objects are turned with the line along which they are repeated
+        (first_t, last_t), run_m = ends["t"], max(length_m, _WHOLE)
+        turned_rad = math.atan2((last_t or 0.0) - (first_t or 0.0), run_m)
         for number in range(count):
             run_m = number * step_m
             if start_m + run_m > line.length_m + _WHOLE:
@@ -158,7 +164,13 @@ def _poses(element: ET.Element, line: RoadLine, place: str) -> Iterator[_Pose]:
             }
             at_t_m = at["t"] or 0.0
             yield _Pose(
-                start_m + run_m, at_t_m, at["width"] or None, at["length"] or None, start_m + run_m - s_m, at_t_m - t_m
+                start_m + run_m,
+                at_t_m,
+                at["width"] or None,
+                at["length"] or None,
+                start_m + run_m - s_m,
+                at_t_m - t_m,
+                turned_rad,
             )
 
 
@@ -193,6 +205,7 @@ def _turned(element: ET.Element, line: RoadLine, pose: _Pose, local: Floats, pla
     (origin,) = line.beside(s_m, t_m)
     _, (heading,) = line.at(s_m)
     heading += number_of(element.get("hdg", 0), f"{place}, hdg", most=_ANGLE, unit="radians")
+    heading += pose.turned_rad
     cos, sin = math.cos(heading), math.sin(heading)
     u, v = local.T
     points: Floats = np.stack([origin[0] + u * cos - v * sin, origin[1] + u * sin + v * cos], axis=1)

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -28,6 +29,8 @@ STRAIGHT_M = 0.15
 _CORNERS = 4
 _DIGITS = 6
 _COLUMN_DIGITS = 2
+_LEAST_HALF_M = 1.25
+"""Half the width of the narrowest lane; stalls that are nearer to its centre line lie on it."""
 
 
 class SurveyParts:
@@ -136,12 +139,21 @@ class SurveyParts:
         self._outlines = [chosen] if chosen else []
         return chosen[1] if chosen else None
 
+    def _narrowed(self, lane: SurveyedLane) -> SurveyedLane:
+        """Return a lane that ends at the stalls beside it: maps may count their ground to the lane."""
+        if lane.width_m is None or not self.stalls:
+            return lane
+        nearest_m = float(shapely.distance(shapely.LineString(lane.points), self.stall_polygons()).min())
+        if not _LEAST_HALF_M <= nearest_m < lane.width_m / 2:
+            return lane
+        return replace(lane, width_m=round(2 * nearest_m, _DIGITS))
+
     def survey(self, *, origin_deg: tuple[float, float] | None = None) -> Survey:
         """Return the survey of all parts."""
         outline = self.outline()
         return Survey(
             tuple(self.stalls),
-            tuple(self.lanes),
+            tuple(self._narrowed(lane) for lane in self.lanes),
             tuple(_single(self.columns)),
             tuple(self.portals),
             outline,
