@@ -3,6 +3,7 @@
 import math
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from itertools import combinations, pairwise
 from typing import NamedTuple
 
@@ -12,7 +13,7 @@ import shapely
 from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, LaneNode, Point
 from garage2usd.survey.survey import SurveyedLane
 
-__all__ = ["USUAL_LANE_M", "Gate", "lane_network"]
+__all__ = ["USUAL_LANE_M", "Gate", "lane_network", "with_clear_widths"]
 
 USUAL_LANE_M = 6.0
 """Width in metres of a lane whose width is unknown."""
@@ -30,6 +31,7 @@ _STRAIGHT_M = 0.15
 """Deviation in metres up to which a centre line is straight."""
 _TWO_ENDS, _CROSSROADS = 2, 4
 _DIGITS = 4
+_LEAST_CLEAR_M, _MOST_CLEAR_M = 2.0, 12.0
 
 
 class Gate(NamedTuple):
@@ -100,6 +102,41 @@ def lane_network(
         if (start, end) not in both or start < end
     ]
     return _graph(nodes, edges, gates)
+
+
+def with_clear_widths(network: LaneGraph, standing: shapely.Geometry) -> LaneGraph:
+    """Return a lane graph whose lanes are as wide as the ground between what stands beside them.
+
+    Parameters
+    ----------
+    network
+        The lane graph.
+    standing
+        Stalls, columns and walls, (x, z).
+
+    Notes
+    -----
+    The width is twice the distance of a stretch from what stands nearest to it. The given width stays where that is
+    over twelve metres, on open ground, and where it is less than two, as centre lines of maps may cross stalls.
+    """
+    portals = {number for number, node in enumerate(network.nodes) if node.is_portal}
+    width_m: defaultdict[int, float] = defaultdict(float)
+    edges = []
+    for edge in network.edges:
+        if not portals & {edge.start, edge.end}:
+            ends = [network.nodes[number].position for number in (edge.start, edge.end)]
+            clear_m = round(2 * standing.distance(shapely.LineString(ends)), _DIGITS)
+            if _LEAST_CLEAR_M <= clear_m <= _MOST_CLEAR_M:
+                edge = edge._replace(width_m=clear_m)  # noqa: PLW2901 - the same edge with its width
+            for number in (edge.start, edge.end):
+                width_m[number] = max(width_m[number], edge.width_m)
+        edges.append(edge)
+    nodes = [
+        replace(node, widths_m=(side_m, side_m), sides_m=(side_m, side_m))
+        for number, node in enumerate(network.nodes)
+        for side_m in [width_m[number] or node.widths_m[0]]
+    ]
+    return LaneGraph(tuple(nodes), tuple(edges))
 
 
 def _line(lane: SurveyedLane) -> _Line:

@@ -41,7 +41,7 @@ from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneSquares, StallType
 from garage2usd.structure.stalls import Edge
 from garage2usd.survey.fitted_stalls import FittedStall, fitted_stalls
-from garage2usd.survey.lane_network import lane_network
+from garage2usd.survey.lane_network import lane_network, with_clear_widths
 from garage2usd.survey.survey import Survey, Unplaced
 
 __all__ = ["SurveyedLayout", "lay_out_survey"]
@@ -159,6 +159,8 @@ def lay_out_survey(
         raise ConfigError("lanes", [], "a lane or more")
     gates = gates_of(ground.polygon, survey.portals, survey.lanes, keeps_left=keeps_left)
     network = lane_network(survey.lanes, gates, survey.stall_polygons())
+    standing = shapely.union_all([*survey.stall_polygons(), *_column_grounds(survey), ground.polygon.boundary])
+    network = with_clear_widths(network, standing)
     found, unplaced = fitted_stalls(survey, network, keeps_left=keeps_left)
     if not found:
         reasons = ", ".join(dict.fromkeys(each.reason for each in unplaced)) or "it has none"
@@ -282,6 +284,10 @@ def _quads(
         yield Stall(stall.name, (left, right, rear_right, rear_left), stall.use, source.access, facts)
 
 
+def _column_grounds(survey: Survey) -> list[shapely.Polygon]:
+    return [shapely.Point(column.centre).buffer(column.size_m / 2, cap_style="square") for column in survey.columns]
+
+
 def _columns(survey: Survey, config: GarageConfig) -> list[Placement]:
     height_m = config.fittings.ceiling_height_m
     return [
@@ -291,10 +297,12 @@ def _columns(survey: Survey, config: GarageConfig) -> list[Placement]:
 
 
 def _ceiling(ground: SurveyedGround, config: GarageConfig) -> Iterator[Placement]:
+    """Yield the ceiling slab over each tile, as far as the outline reaches."""
     for tile in ground:
-        x, z = tile.middle_m
-        spec = CeilingSpec(round(tile.width_m, 6), round(tile.depth_m, 6), CEILING_THICKNESS_M)
-        yield Placement("Ceiling", spec, (x, config.fittings.ceiling_height_m, z), square=tile.square)
+        left, back, right, front = shapely.intersection(tile.box, ground.polygon).bounds
+        spec = CeilingSpec(round(right - left, 6), round(front - back, 6), CEILING_THICKNESS_M)
+        place = (left + right) / 2, (back + front) / 2
+        yield placed("Ceiling", spec, place, height_m=config.fittings.ceiling_height_m, square=tile.square)
 
 
 def _tubes(ground: SurveyedGround, config: GarageConfig) -> Iterator[Placement]:
