@@ -14,6 +14,7 @@ from garage2usd.cli.dataset import dataset
 from garage2usd.cli.doctor import doctor
 from garage2usd.cli.drive import drive
 from garage2usd.cli.export import export
+from garage2usd.cli.import_layout import import_layout
 from garage2usd.cli.look import look
 from garage2usd.cli.meshes import meshes
 from garage2usd.cli.plan import plan
@@ -47,7 +48,22 @@ def main() -> None:
     """Generate underground parking garages and export them as OpenUSD stages."""
 
 
-for _command in (build, check, dataset, doctor, drive, export, look, meshes, plan, render, schema, textures, view):
+for _command in (
+    build,
+    check,
+    dataset,
+    doctor,
+    drive,
+    export,
+    import_layout,
+    look,
+    meshes,
+    plan,
+    render,
+    schema,
+    textures,
+    view,
+):
     main.add_command(_command)
 
 

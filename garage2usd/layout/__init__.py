@@ -19,7 +19,7 @@ from garage2usd.config.plan import DeadEnds, UnreachableStalls
 from garage2usd.garage import LaneGraph, Stall, StallUse
 from garage2usd.layout.ceiling.beams import beams, ceiling_levels
 from garage2usd.layout.ceiling.lamps import installed_lamps, ramp_lamps
-from garage2usd.layout.ceiling.lighting import LightLevels, light_up
+from garage2usd.layout.ceiling.lighting import LightLevels, lane_points_of, light_up
 from garage2usd.layout.ceiling.services import cable_trays, ducts, sprinklers
 from garage2usd.layout.ceiling.signs_and_mirrors import exit_signs, lane_signs, mirrors
 from garage2usd.layout.clearance import check_carriageways
@@ -130,6 +130,11 @@ class Layout:
     held_back: frozenset[str] = frozenset()
     blocked: Mapping[str, str] = field(default_factory=dict)
     undecided: frozenset[str] = frozenset()
+
+    @property
+    def matrices(self) -> Structure | None:
+        """S, R and C; None for a garage without a grid, whose squares are tiles of the floor alone."""
+        return self.structure
 
     @property
     def lane_graph(self) -> LaneGraph:
@@ -286,7 +291,13 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     stalls = with_numbers(_used_stalls(grid, graph, cores, config, unreachable), zones)
     core_on = {core.square: core for core in cores if core.recess_m}
     installed = installed_lamps(tube_lights(grid, fittings, levels, core_on), look.lights, draws, seed=seed)
-    lamps, illuminance = light_up(installed, grid, stalls, fittings)
+    lamps, illuminance = light_up(
+        installed,
+        lane_points_of((tile.x_m, tile.z_m, tile.width_m, tile.depth_m) for tile in grid if tile.cell is Cell.LANE),
+        sum(tile.width_m * tile.depth_m for tile in grid),
+        stalls,
+        fittings,
+    )
     country = country_of(look.signs, config.standard)
     parked = with_own_cars(
         park_cars(

@@ -233,8 +233,10 @@ def _part_text(own: str, file: str) -> str:
 
 
 def _matrices(layout: Layout) -> dict[str, object]:
-    """S as rows of symbols, R and C in metres for each column and row, and the fire compartment of each square."""
-    structure = layout.structure
+    """S as rows of symbols, R and C in metres, and the fire compartment of each square; empty without a grid."""
+    structure = layout.matrices
+    if structure is None:
+        return {}
     return {
         "S": str(structure),
         "R": Vt.DoubleArray(structure.R[0].tolist()),

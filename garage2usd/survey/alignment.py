@@ -2,6 +2,7 @@
 
 import math
 from collections import defaultdict
+from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -16,6 +17,11 @@ _QUARTER = math.pi / 2
 _BIN_RAD = math.radians(0.5)
 _MARGIN_M = 0.1
 """Distance in metres between the parts of a survey without an outline and its walls."""
+_CLOSED_M = 10.0
+"""Half the width in metres of gaps between parts that belong to the garage."""
+_FILLED = 0.7
+"""Share of a rectangle around all parts from which on it is the outline."""
+_SMOOTHED_M = 1.0
 _USUAL_LANE_M = 6.0
 _DIGITS = 6
 
@@ -37,21 +43,12 @@ def aligned(survey: Survey) -> tuple[Survey, Alignment]:
     """
     turn_rad = -_main_direction_rad(survey)
     turned = survey.moved(turn_rad, (0.0, 0.0)) if turn_rad else survey
-    left, top, right, bottom = _extent_m(turned)
+    if turned.outline is None:
+        turned = replace(turned, outline=_outline_around(turned))
+    assert turned.outline is not None
+    left, top, _, _ = shapely.Polygon(turned.outline).bounds
     shift_m = round(-left, _DIGITS), round(-top, _DIGITS)
-    moved = turned.moved(0.0, shift_m)
-    if moved.outline is None:
-        width_m, depth_m = round(right - left, 3), round(bottom - top, 3)
-        moved = Survey(
-            moved.stalls,
-            moved.lanes,
-            moved.columns,
-            moved.portals,
-            ((0.0, 0.0), (width_m, 0.0), (width_m, depth_m), (0.0, depth_m)),
-            moved.unread,
-            moved.origin_deg,
-        )
-    return moved, Alignment(turn_rad, shift_m)
+    return turned.moved(0.0, shift_m), Alignment(turn_rad, shift_m)
 
 
 def _main_direction_rad(survey: Survey) -> float:
@@ -72,18 +69,21 @@ def _main_direction_rad(survey: Survey) -> float:
     return round(sum(moments[number] for number in near) / sum(lengths_m[number] for number in near), 9)
 
 
-def _extent_m(survey: Survey) -> tuple[float, float, float, float]:
-    """Return the least x and z and the greatest of the outline, or of all parts with a margin."""
-    if survey.outline is not None:
-        left, top, right, bottom = shapely.Polygon(survey.outline).bounds
-        return left, top, right, bottom
+def _outline_around(survey: Survey) -> tuple[Point, ...]:
+    """Return an outline around all parts of a survey: a rectangle, unless the parts leave much of it empty."""
     parts: list[shapely.Geometry] = list(survey.stall_polygons())
     parts += [
-        shapely.LineString(lane.points).buffer(
-            (lane.width_m or _USUAL_LANE_M) / 2, cap_style="flat", join_style="mitre"
-        )
+        shapely.LineString(lane.points).buffer(width_m / 2, cap_style="flat", join_style="mitre")
         for lane in survey.lanes
+        for width_m in [lane.width_m or _USUAL_LANE_M]
     ]
     parts += [shapely.Point(column.centre).buffer(column.size_m / 2, cap_style="square") for column in survey.columns]
-    left, top, right, bottom = shapely.total_bounds(parts).tolist()
-    return left - _MARGIN_M, top - _MARGIN_M, right + _MARGIN_M, bottom + _MARGIN_M
+    rectangle = shapely.box(*shapely.total_bounds(parts)).buffer(_MARGIN_M, join_style="mitre")
+    around = shapely.union_all(parts).buffer(_CLOSED_M, join_style="mitre").buffer(-_CLOSED_M, join_style="mitre")
+    if around.geom_type == "Polygon" and around.area < _FILLED * rectangle.area:
+        wider = shapely.Polygon(around.exterior).buffer(_SMOOTHED_M, join_style="mitre")
+        outline = wider.simplify(_SMOOTHED_M - _MARGIN_M)
+    else:
+        outline = rectangle
+    corners = shapely.get_coordinates(shapely.normalize(outline))[:-1]
+    return tuple((round(float(x), 3), round(float(z), 3)) for x, z in corners)

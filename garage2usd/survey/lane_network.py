@@ -3,6 +3,7 @@
 import math
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from itertools import combinations, pairwise
 from typing import NamedTuple
 
@@ -12,7 +13,7 @@ import shapely
 from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, LaneNode, Point
 from garage2usd.survey.survey import SurveyedLane
 
-__all__ = ["USUAL_LANE_M", "Gate", "lane_network"]
+__all__ = ["USUAL_LANE_M", "Gate", "lane_network", "with_clear_widths"]
 
 USUAL_LANE_M = 6.0
 """Width in metres of a lane whose width is unknown."""
@@ -22,12 +23,15 @@ _SAME_M = 0.75
 """Distance in metres up to which ends and crossings of centre lines are one node."""
 _GAP_M = 1.0
 """Gap in metres beyond half a lane's width up to which the end of a centre line joins the next one."""
+_AHEAD_M = 8.0
+"""Gap in metres straight ahead of its end up to which a centre line joins the next one, where no stall lies between."""
 _PITCH_M = 6.0
 """Greatest distance in metres between nodes."""
 _STRAIGHT_M = 0.15
 """Deviation in metres up to which a centre line is straight."""
 _TWO_ENDS, _CROSSROADS = 2, 4
 _DIGITS = 4
+_LEAST_CLEAR_M, _MOST_CLEAR_M = 2.0, 12.0
 
 
 class Gate(NamedTuple):
@@ -60,7 +64,9 @@ class _Line(NamedTuple):
     one_way: bool
 
 
-def lane_network(lanes: Iterable[SurveyedLane], gates: Sequence[Gate]) -> LaneGraph:
+def lane_network(
+    lanes: Iterable[SurveyedLane], gates: Sequence[Gate], grounds: Sequence[shapely.Polygon] = ()
+) -> LaneGraph:
     """Build the lane graph of centre lines and doors.
 
     Parameters
@@ -69,13 +75,15 @@ def lane_network(lanes: Iterable[SurveyedLane], gates: Sequence[Gate]) -> LaneGr
         Centre lines of lanes.
     gates
         Doors; each joins the centre line ahead of it, else the nearest one.
+    grounds
+        Grounds of stalls, which no lane leads over.
 
     Notes
     -----
     Ends of centre lines that stop short of another one are extended to it. Stretches that no junction joins to the
     others remain in the graph: no stall is reached there.
     """
-    lines = _joined([_line(lane) for lane in lanes])
+    lines = _joined([_line(lane) for lane in lanes], shapely.STRtree(list(grounds)))
     lines += [_approach(gate, lines) for gate in gates]
     cuts = _cuts(lines)
     nodes, number_of = _merged([point for points in cuts for _, point in points])
@@ -96,12 +104,47 @@ def lane_network(lanes: Iterable[SurveyedLane], gates: Sequence[Gate]) -> LaneGr
     return _graph(nodes, edges, gates)
 
 
+def with_clear_widths(network: LaneGraph, standing: shapely.Geometry) -> LaneGraph:
+    """Return a lane graph whose lanes are as wide as the ground between what stands beside them.
+
+    Parameters
+    ----------
+    network
+        The lane graph.
+    standing
+        Stalls, columns and walls, (x, z).
+
+    Notes
+    -----
+    The width is twice the distance of a stretch from what stands nearest to it. The given width stays where that is
+    over twelve metres, on open ground, and where it is less than two, as centre lines of maps may cross stalls.
+    """
+    portals = {number for number, node in enumerate(network.nodes) if node.is_portal}
+    width_m: defaultdict[int, float] = defaultdict(float)
+    edges = []
+    for edge in network.edges:
+        if not portals & {edge.start, edge.end}:
+            ends = [network.nodes[number].position for number in (edge.start, edge.end)]
+            clear_m = round(2 * standing.distance(shapely.LineString(ends)), _DIGITS)
+            if _LEAST_CLEAR_M <= clear_m <= _MOST_CLEAR_M:
+                edge = edge._replace(width_m=clear_m)  # noqa: PLW2901 - the same edge with its width
+            for number in (edge.start, edge.end):
+                width_m[number] = max(width_m[number], edge.width_m)
+        edges.append(edge)
+    nodes = [
+        replace(node, widths_m=(side_m, side_m), sides_m=(side_m, side_m))
+        for number, node in enumerate(network.nodes)
+        for side_m in [width_m[number] or node.widths_m[0]]
+    ]
+    return LaneGraph(tuple(nodes), tuple(edges))
+
+
 def _line(lane: SurveyedLane) -> _Line:
     line = shapely.LineString(lane.points).simplify(_STRAIGHT_M)
     return _Line(line, lane.width_m or USUAL_LANE_M, lane.one_way)
 
 
-def _joined(lines: Sequence[_Line]) -> list[_Line]:
+def _joined(lines: Sequence[_Line], grounds: shapely.STRtree) -> list[_Line]:
     """Extend the ends of centre lines that stop short of another one."""
     joined = []
     for number, each in enumerate(lines):
@@ -109,14 +152,47 @@ def _joined(lines: Sequence[_Line]) -> list[_Line]:
         others = [other for index, other in enumerate(lines) if index != number]
         for place in (0, -1):
             end = shapely.Point(points[place])
-            near = [other for other in others if other.line.distance(end) <= other.width_m / 2 + _GAP_M]
-            if not near or any(other.line.distance(end) <= _SAME_M for other in near):
+            if any(other.line.distance(end) <= _SAME_M for other in others):
                 continue
-            other = min(near, key=lambda found: found.line.distance(end))
-            foot = other.line.interpolate(other.line.project(end)).coords[0]
-            points.insert(0 if place == 0 else len(points), foot)
+            near = [other for other in others if other.line.distance(end) <= other.width_m / 2 + _GAP_M]
+            if near:
+                other = min(near, key=lambda found: found.line.distance(end))
+                foot = other.line.interpolate(other.line.project(end)).coords[0]
+            else:
+                foot = _ahead(_ends(each.line)[place], others, grounds)
+            if foot is not None:
+                points.insert(0 if place == 0 else len(points), foot)
         joined.append(each._replace(line=shapely.LineString(points)))
     return joined
+
+
+def _ahead(points: Sequence[Point], others: Iterable[_Line], grounds: shapely.STRtree) -> Point | None:
+    """Return the nearest place on another centre line straight ahead of the end of one; None without one."""
+    end, ray = shapely.Point(points[-1]), _ray(points)
+    met = [other.line.intersection(ray) for other in others if other.line.intersects(ray)]
+    # two lines that both stop short of their corner meet in it
+    corners = [ray.intersection(_ray(points)) for other in others for points in _ends(other.line)]
+    met += [corner for corner in corners if corner.geom_type == "Point" and not corner.is_empty]
+    if not met:
+        return None
+    way = shapely.shortest_line(end, min(met, key=end.distance))
+    foot = shapely.Point(way.coords[-1])
+    if len(grounds) and len(grounds.query(way, predicate="intersects")):
+        return None
+    return float(foot.x), float(foot.y)
+
+
+def _ends(line: shapely.LineString) -> tuple[Sequence[Point], Sequence[Point]]:
+    """Return the points of a line towards each of its ends."""
+    points = list(line.coords)
+    return points[::-1], points
+
+
+def _ray(points: Sequence[Point]) -> shapely.LineString:
+    """Return the line straight ahead of the last of some points."""
+    (x, z), (end_x, end_z) = points[-2:]
+    scale = _AHEAD_M / math.dist((x, z), (end_x, end_z))
+    return shapely.LineString([(end_x, end_z), (end_x + (end_x - x) * scale, end_z + (end_z - z) * scale)])
 
 
 def _approach(gate: Gate, lines: Sequence[_Line]) -> _Line:

@@ -11,6 +11,7 @@ from garage2usd.config.stalls import SizeClass
 from garage2usd.garage import Point, StallUse
 
 __all__ = [
+    "Corners",
     "PortalKind",
     "Survey",
     "SurveyedColumn",
@@ -19,6 +20,9 @@ __all__ = [
     "SurveyedStall",
     "Unplaced",
 ]
+
+Corners = tuple[Point, Point, Point, Point]
+"""(x, z) of the corners of a stall in order."""
 
 
 class PortalKind(StrEnum):
@@ -57,7 +61,7 @@ class SurveyedStall:
     """
 
     name: str
-    corners: tuple[Point, Point, Point, Point]
+    corners: Corners
     mouth: int | None = None
     use: StallUse = StallUse.STANDARD
     size: SizeClass = SizeClass.STANDARD
@@ -132,9 +136,13 @@ class Survey:
         def places(points: tuple[Point, ...]) -> tuple[Point, ...]:
             return tuple(map(place, points))
 
+        def quad(corners: Corners) -> Corners:
+            one, other, beyond_other, beyond_one = map(place, corners)
+            return one, other, beyond_other, beyond_one
+
         return replace(
             self,
-            stalls=tuple(replace(stall, corners=places(stall.corners)) for stall in self.stalls),
+            stalls=tuple(replace(stall, corners=quad(stall.corners)) for stall in self.stalls),
             lanes=tuple(replace(lane, points=places(lane.points)) for lane in self.lanes),
             columns=tuple(column._replace(centre=place(column.centre)) for column in self.columns),
             portals=tuple(portal._replace(position=place(portal.position)) for portal in self.portals),

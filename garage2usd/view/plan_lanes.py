@@ -3,14 +3,17 @@
 import math
 from collections.abc import Iterator
 
+import shapely
+
 from garage2usd.garage import LaneGraph, LaneKind
 from garage2usd.layout import Layout
+from garage2usd.objects.floor import FloorSpec
 from garage2usd.objects.outline import rectangle
 from garage2usd.planning import MeasuredCirculation
 from garage2usd.structure.grid import Cell
 from garage2usd.view.drawing import Colour, Line, Point, Region
 
-__all__ = ["DEAD_END", "FREE", "LANE_COLOUR", "LINE_M", "arrows", "lane_legend", "squares"]
+__all__ = ["DEAD_END", "FREE", "LANE_COLOUR", "LINE_M", "arrows", "lane_legend", "ribbons", "squares"]
 
 LANE_COLOUR: dict[LaneKind, Colour] = {
     LaneKind.CROSSROADS: (98, 146, 148),
@@ -36,8 +39,10 @@ _KEEP_RIGHT_M = 1.3
 _CHEVRON_M = 0.7
 
 
-def lane_legend(layout: Layout, found: MeasuredCirculation) -> list[tuple[Colour, str]]:
-    """Kinds of lane that there are, with their colours."""
+def lane_legend(layout: Layout, found: MeasuredCirculation | None) -> list[tuple[Colour, str]]:
+    """Kinds of lane that there are, with their colours; without circulation that of a grid, the lanes alone."""
+    if found is None:
+        return [(LANE_COLOUR[LaneKind.STRAIGHT], "lane")]
     rounds = found.circulation.rounds[layout.structure.cells >= Cell.LANE]
     kinds = {node.kind for node, pruned in zip(layout.lane_graph.nodes, rounds.tolist(), strict=True) if not pruned}
     entries = [(LANE_COLOUR[kind], _LANE_NAME[kind]) for kind in LaneKind if kind in kinds]
@@ -62,6 +67,20 @@ def squares(layout: Layout, found: MeasuredCirculation) -> Iterator[Region | Lin
             else:
                 yield Region(box, LANE_COLOUR[kind], f"{kind} through")
             yield Line([*box, box[0]], _SEAM, LINE_M / 4)
+
+
+def ribbons(layout: Layout) -> Iterator[Region]:
+    """The floor of a garage without a grid, and its lanes as wide as they are."""
+    for floor in layout.of_kind("floor"):
+        (x, _, z), spec = floor.position_m, floor.spec
+        assert isinstance(spec, FloorSpec)
+        half_x, half_z = spec.width_m / 2, spec.depth_m / 2
+        yield Region(rectangle(x - half_x, z - half_z, x + half_x, z + half_z), FREE, "free")
+    lanes = layout.lane_graph
+    for edge in lanes.edges:
+        ends = [lanes.nodes[number].position for number in (edge.start, edge.end)]
+        ground = shapely.LineString(ends).buffer(edge.width_m / 2, quad_segs=4)
+        yield Region(list(ground.exterior.coords)[:-1], LANE_COLOUR[LaneKind.STRAIGHT], "lane")
 
 
 def arrows(lanes: LaneGraph) -> Iterator[Line]:

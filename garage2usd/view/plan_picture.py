@@ -14,7 +14,7 @@ from garage2usd.objects.car import CarSpec
 from garage2usd.planning import MeasuredCirculation, measured_circulation
 from garage2usd.view.drawing import Colour, Disc, Drawing, Line, Point, Region, Text, text_width
 from garage2usd.view.plan_access import RAMP, portals, ramps
-from garage2usd.view.plan_lanes import FREE, LINE_M, arrows, lane_legend, squares
+from garage2usd.view.plan_lanes import FREE, LINE_M, arrows, lane_legend, ribbons, squares
 from garage2usd.view.plan_sheet import INK, PAPER, Mark, Sheet
 from garage2usd.view.route import route_of
 
@@ -62,11 +62,11 @@ def draw_plan(layout: Layout, *, stall: Stall | None = None, marks: Sequence[Mar
         Findings, drawn with a number at their places and listed below.
     """
     rows, cols = layout.structure.shape
-    found = measured_circulation(layout.structure)
+    found = None if layout.matrices is None else measured_circulation(layout.structure)
     sheet = Sheet(layout.structure, marks, _legend(layout, found, with_route=stall is not None))
 
     def elements() -> Iterator[_Element]:
-        yield from squares(layout, found)
+        yield from ribbons(layout) if found is None else squares(layout, found)
         yield from _stalls(layout)
         yield from arrows(layout.lane_graph)
         yield from ramps(layout, sheet)
@@ -80,13 +80,17 @@ def draw_plan(layout: Layout, *, stall: Stall | None = None, marks: Sequence[Mar
         yield from sheet.legend(layout)
         yield from sheet.marks()
 
-    title = f"Parking garage of {rows} x {cols} squares with {layout.parking_stalls} stalls"
+    size = "" if found is None else f" of {rows} x {cols} squares"
+    title = f"Parking garage{size} with {layout.parking_stalls} stalls"
     return Drawing(sheet.low, sheet.high, sheet.px_per_m, PAPER, title, list(elements()))
 
 
-def _figures(layout: Layout, found: MeasuredCirculation) -> str:
+def _figures(layout: Layout, found: MeasuredCirculation | None) -> str:
     """The garage in an architect's figures."""
-    stalls, loops = layout.parking_stalls, found.circulation.loops
+    stalls = layout.parking_stalls
+    if found is None:
+        return f"{stalls} stalls, {layout.counts()['car']} occupied, {layout.area_per_stall_m2:.1f} m2 a stall"
+    loops = found.circulation.loops
     return ", ".join(
         [
             f"{stalls} stalls, {layout.counts()['car']} occupied",
@@ -98,7 +102,7 @@ def _figures(layout: Layout, found: MeasuredCirculation) -> str:
     )
 
 
-def _legend(layout: Layout, found: MeasuredCirculation, *, with_route: bool) -> list[tuple[Colour, str]]:
+def _legend(layout: Layout, found: MeasuredCirculation | None, *, with_route: bool) -> list[tuple[Colour, str]]:
     """Colours and names of what the plan shows."""
     uses = {stall.use for stall in layout.quads}
     counts = layout.counts()

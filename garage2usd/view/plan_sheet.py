@@ -123,7 +123,9 @@ class Sheet:
             yield Text((x + 1.5 * letters, z), text, letters, INK, is_left=True, kind="legend")
         z = self._places[-1][1] + 2 * letters
         rows, cols = self._structure.shape
-        size = f"{rows} x {cols} squares, {self._width_m:.2f} x {self._depth_m:.2f} m"
+        size = f"{self._width_m:.2f} x {self._depth_m:.2f} m"
+        if layout.matrices is not None:
+            size = f"{rows} x {cols} squares, {size}"
         words = f"{size}, {layout.parking_stalls} stalls ({layout.uses_in_words()})"
         tick = letters / 3
         bar = [(0.0, z - tick), (0.0, z), (_SCALE_BAR_M, z), (_SCALE_BAR_M, z - tick)]

@@ -9,10 +9,8 @@ from numpy.typing import NDArray
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.nearness import Points
 from garage2usd.layout.placement import PlacedStall, Placement, of_spec
-from garage2usd.layout.tiles import TileGrid
 from garage2usd.native import elementary
 from garage2usd.objects.lamp import LampSpec
-from garage2usd.structure.grid import Cell
 
 __all__ = ["LightLevels", "Lux", "direct_lux", "lane_points_of", "light_up"]
 
@@ -63,7 +61,11 @@ class LightLevels:
 
 
 def light_up(
-    lamps: Sequence[Placement], grid: TileGrid, stalls: Sequence[PlacedStall], fittings: FittingsConfig
+    lamps: Sequence[Placement],
+    lane_points: NDArray[np.float64],
+    floor_m2: float,
+    stalls: Sequence[PlacedStall],
+    fittings: FittingsConfig,
 ) -> tuple[list[Placement], LightLevels]:
     """The same lamps with the luminance that the floor needs, and what the floor then gets.
 
@@ -74,9 +76,6 @@ def light_up(
     ``lane_lux`` and that on stalls ``stall_lux`` while all lamps burn; what is told is without those that are dead.
     The lumen method has ``E = N Phi UF MF / A``.
     """
-    lane_points = lane_points_of(
-        (tile.x_m, tile.z_m, tile.width_m, tile.depth_m) for tile in grid if tile.cell is Cell.LANE
-    )
     stall_points = np.array([stall.centre_m for stall in stalls]).reshape(-1, 2)
     new = [replace(lamp, spec=replace(spec, is_dead=False)) for lamp, spec in of_spec(lamps, LampSpec)]
     unit_lanes, unit_stalls = (direct_lux(points, new) for points in (lane_points, stall_points))
@@ -93,7 +92,6 @@ def light_up(
     burning = [spec for _, spec in of_spec(lit, LampSpec) if not spec.is_dead]
     if len(burning) < len(lit):
         unit_lanes, unit_stalls = (direct_lux(points, lit) for points in (lane_points, stall_points))
-    area = sum(tile.width_m * tile.depth_m for tile in grid)
     flux = sum(np.pi * luminance * spec.area_m2 for spec in burning)
     each = flux / len(burning) if burning else 0.0
     return lit, LightLevels(
@@ -101,7 +99,7 @@ def light_up(
         each,
         _lux(luminance * unit_lanes),
         _lux(luminance * unit_stalls),
-        flux * UTILISATION * MAINTENANCE / area,
+        flux * UTILISATION * MAINTENANCE / floor_m2,
         len(lit),
         len(lit) - len(burning),
     )

@@ -2,9 +2,6 @@
 
 from collections.abc import Iterable
 
-import numpy as np
-from numpy.typing import NDArray
-
 from garage2usd.assets.glyphs import GLYPH_PITCH, GLYPH_WIDTH
 from garage2usd.config import FittingsConfig, LookConfig
 from garage2usd.config.look import BandForm, MarkingsLook, NumberForm, NumberPlace
@@ -35,16 +32,15 @@ _FRAME_MARGIN = 0.3
 
 
 def stall_numbers(
-    stalls: Iterable[PlacedStall], grid: TileGrid, look: LookConfig, fittings: FittingsConfig
+    stalls: Iterable[PlacedStall], grid: TileGrid | None, look: LookConfig, fittings: FittingsConfig
 ) -> list[Placement]:
     """Place the painted number of each stall, in pieces of at most two characters.
 
-    Short pieces need few prototypes for all numbers.
+    Short pieces need few prototypes for all numbers. Without a grid, none are on walls.
     """
     numbers = look.numbers
     if not fittings.stall_numbers or numbers.place is NumberPlace.NONE:
         return []
-    outside = outside_squares(grid.structure.cells)
     placements: list[Placement] = []
     for stall in stalls:
         if not stall.number:
@@ -52,7 +48,7 @@ def stall_numbers(
         texts = _split(stall.number, numbers.form)
         count = sum(map(len, texts))
         height_m = _fitting_height_m(numbers.height_m, count, stall.width_m)
-        wall_m = _wall_behind_m(stall, grid, outside) if numbers.place is NumberPlace.WALL else None
+        wall_m = _wall_behind_m(stall, grid) if grid is not None and numbers.place is NumberPlace.WALL else None
         if wall_m is not None:
             along = -wall_m
         else:
@@ -120,7 +116,7 @@ def _on_floor_m(stall: PlacedStall, place: NumberPlace, height_m: float, marking
     return half - _FROM_LINE_M - height_m / 2, height_m
 
 
-def _wall_behind_m(stall: PlacedStall, grid: TileGrid, outside: NDArray[np.bool_]) -> float | None:
+def _wall_behind_m(stall: PlacedStall, grid: TileGrid) -> float | None:
     """Return the distance from a stall's middle back to the outer wall behind it.
 
     None without an outer wall there, and for stalls that are not perpendicular to it.
@@ -128,6 +124,7 @@ def _wall_behind_m(stall: PlacedStall, grid: TileGrid, outside: NDArray[np.bool_
     if stall.stall_kind is not StallKind.PERPENDICULAR:
         return None
     row, col = stall.edge.opposite.beyond(stall.square)
+    outside = outside_squares(grid.structure.cells)
     rows, cols = outside.shape
     if 0 <= row < rows and 0 <= col < cols and not outside[row, col]:
         return None

@@ -300,9 +300,9 @@ def _rows(stalls: Iterable[PlacedStall]) -> list[list[PlacedStall]]:
     row of its own.
     """
     rows: list[list[PlacedStall]] = []
-    of_side: dict[tuple[object, object], list[PlacedStall]] = {}
+    of_side: dict[tuple[object, ...], list[PlacedStall]] = {}
     for stall in stalls:
-        of_side.setdefault((stall.square, stall.edge), []).append(stall)
+        of_side.setdefault((stall.square, stall.edge, stall.yaw_rad), []).append(stall)
     for group in of_side.values():
         cos, sin = elementary.cos(group[0].yaw_rad), -elementary.sin(group[0].yaw_rad)
         ordered = sorted((stall.centre_m[0] * cos + stall.centre_m[1] * sin, stall.name, stall) for stall in group)

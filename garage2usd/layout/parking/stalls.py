@@ -26,7 +26,14 @@ from garage2usd.structure.lane_graph import LaneSquares, Square
 from garage2usd.structure.stall_runs import turn_of
 from garage2usd.structure.stall_shapes import kind_of_angle, slope_of_angle
 
-__all__ = ["WHEEL_STOP_FROM_REAR_M", "stall_panels", "stalls_of", "wheel_stops", "with_turning_stalls"]
+__all__ = [
+    "WHEEL_STOP_FROM_REAR_M",
+    "bare_stall_panels",
+    "stall_panels",
+    "stalls_of",
+    "wheel_stops",
+    "with_turning_stalls",
+]
 
 WHEEL_STOP_FROM_REAR_M = 0.55
 """Middle of a wheel stop from the stall's rear: behind the front wheels of a car parked nose-in."""
@@ -115,6 +122,16 @@ def stall_panels(
 ) -> list[Placement]:
     """The floor of each stall with its lines, below them those of older rows by the squares that show them."""
     return [stall.placement("Stall", _with_ghosts(stall, look, grid, ghosts)) for stall in stalls]
+
+
+def bare_stall_panels(stalls: Iterable[PlacedStall], look: MarkingsLook) -> list[Placement]:
+    """The floor of each stall with its lines alone."""
+    return [
+        stall.placement(
+            "Stall", _stall_panel(stall.width_m, stall.length_m, stall.angle_deg, stall.turn, stall.use, look)
+        )
+        for stall in stalls
+    ]
 
 
 def _with_ghosts(stall: PlacedStall, look: MarkingsLook, grid: TileGrid, ghosts: Mapping[Square, int]) -> StallSpec:

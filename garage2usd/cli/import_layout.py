@@ -1,0 +1,96 @@
+"""The command ``garage2usd import``."""
+
+import sys
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from garage2usd.cli.bars import Bars
+from garage2usd.cli.parameters import INPUT_FILE, echo_table, profile_option, seed_option
+
+if TYPE_CHECKING:
+    from garage2usd.imports import ImportedGarage
+
+__all__ = ["import_layout"]
+
+_MOST_NAMED = 20
+
+
+@click.command("import", short_help="Make a garage of a layout that others made.")
+@click.argument("source", type=INPUT_FILE)
+@click.option(
+    "--config",
+    "-c",
+    metavar="FILE",
+    type=INPUT_FILE,
+    help="Fittings, parking, look and seed (TOML). Its site, bay, stalls and plan do not apply.",
+)
+@seed_option
+@profile_option("The standard whose clauses apply, in place of the configuration's")
+@click.option("--no-proofs", is_flag=True, help="Do not prove for each stall that a car drives in and out.")
+@click.option(
+    "--output",
+    "-o",
+    metavar="FILE",
+    type=click.Path(path_type=Path),
+    default="garage.usdz",
+    show_default=True,
+    help="The stage: .usda, .usdc or .usdz. Its folder is made; files of that name are replaced.",
+)
+def import_layout(
+    *, source: Path, config: Path | None, seed: int | None, profile: str | None, no_proofs: bool, output: Path
+) -> None:
+    """Make a garage of the stalls, lanes and columns in SOURCE and write it as a USD stage.
+
+    SOURCE is a Lanelet2 map or an OpenStreetMap extract (.osm), an OpenDRIVE map (.xodr), GeoJSON (.geojson), a table
+    of rectangles (.csv), or a drawing in metres (.toml). Its stalls stay where they are, on no grid. Without lanes,
+    these are derived from the ground between the stalls.
+
+    Parts that the garage lacks are named on stderr, a line each with the reason, and under unplaced in the report,
+    which stands beside the stage with a plan (out/a_plan.png) and the table of all objects (a_labels.json).
+
+    \b
+    Examples:
+      garage2usd import samples/surveyed_lot.toml -o out/lot.usdz
+      garage2usd import map.osm --config look.toml --seed 3 -o out/lot.usda
+    """  # noqa: D301 - click's mark for a block that is not wrapped
+    from garage2usd.config import GarageConfig, load_config, profile_setting  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.imports import import_layout as make  # noqa: PLC0415
+
+    if config:
+        settings = load_config(config, profile=profile)
+    else:
+        settings = GarageConfig(**({} if profile is None else {"profile": profile_setting(profile)}))
+    if seed is not None:
+        settings = settings.with_seed(seed)
+    with Bars(sys.stderr) as progress:
+        made = make(source, output, config=settings, proves=not no_proofs, progress=progress)
+    unplaced = made.layout.unplaced
+    for name, reason in unplaced[:_MOST_NAMED]:
+        click.echo(f"not placed: {name}: {reason}", err=True)
+    if len(unplaced) > _MOST_NAMED:
+        click.echo(f"not placed: {len(unplaced) - _MOST_NAMED} more, see {made.report}", err=True)
+    for stall in made.layout.fitted:
+        if stall.note:
+            click.echo(f"changed: {stall.source.name}: {stall.note}", err=True)
+    _describe(made)
+
+
+def _describe(made: "ImportedGarage") -> None:
+    layout = made.layout
+    kinds = Counter(stall.kind.value for stall in layout.quads)
+    rows = [
+        ("stalls", f"{layout.parking_stalls} ({', '.join(f'{count} {kind}' for kind, count in kinds.most_common())})"),
+        ("not placed", str(len(layout.unplaced))),
+    ]
+    if made.proofs:
+        outcomes = Counter(proof.outcome.value for proof in made.proofs)
+        rows.append(("driven", ", ".join(f"{count} {outcome}" for outcome, count in outcomes.most_common())))
+    if made.findings:
+        counts = Counter(finding.severity.value for finding in made.findings)
+        found = ", ".join(f"{count} {severity}" for severity, count in counts.most_common())
+        rows.append(("check", f"{found}: garage2usd check {made.stage}"))
+    rows += [("stage", str(made.stage)), ("plan", str(made.plan)), ("report", str(made.report))]
+    echo_table(rows)

@@ -1,0 +1,194 @@
+"""Outer walls along the outline of a surveyed garage, with doors at its portals."""
+
+import math
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from garage2usd.common.errors import ConfigError
+from garage2usd.config import FittingsConfig
+from garage2usd.config.look import WallsLook
+from garage2usd.config.site import DOOR_FRAME_M, DOOR_JAMB_M
+from garage2usd.garage import LaneKind
+from garage2usd.layout.placement import Placement, placed
+from garage2usd.objects.outline import Point
+from garage2usd.objects.portal import PortalSpec
+from garage2usd.objects.wall import WallSpec
+from garage2usd.survey.lane_network import Gate
+from garage2usd.survey.survey import PortalKind, SurveyedLane, SurveyedPortal
+
+__all__ = ["gates_of", "surveyed_walls"]
+
+_DOOR_WALL_M = 4.6
+"""Length of the piece of wall around a door."""
+_DOOR_HEAD_M = 0.3
+_LEAST_WALL_M = 0.02
+_KINDS = {
+    PortalKind.ENTRANCE: (LaneKind.ENTRANCE,),
+    PortalKind.EXIT: (LaneKind.EXIT,),
+    PortalKind.BOTH: (LaneKind.ENTRANCE, LaneKind.EXIT),
+}
+_DIGITS = 6
+
+
+class _Side(NamedTuple):
+    """A side of the outline: its ends, with the inside on the right of a walk from start to end, seen with z down."""
+
+    start: Point
+    end: Point
+
+    @property
+    def length_m(self) -> float:
+        return math.dist(self.start, self.end)
+
+    @property
+    def along(self) -> Point:
+        length_m = self.length_m
+        return (self.end[0] - self.start[0]) / length_m, (self.end[1] - self.start[1]) / length_m
+
+    @property
+    def outwards(self) -> Point:
+        x, z = self.along
+        return z, -x
+
+    def at(self, run_m: float) -> Point:
+        x, z = self.along
+        return self.start[0] + run_m * x, self.start[1] + run_m * z
+
+
+def gates_of(
+    outline: shapely.Polygon, portals: Sequence[SurveyedPortal], lanes: Sequence[SurveyedLane], *, keeps_left: bool
+) -> list[Gate]:
+    """Place the doors of a surveyed garage on its outline.
+
+    Parameters
+    ----------
+    outline
+        The outline.
+    portals
+        Portals of the survey. Without any, one for both directions is at the end of a lane that is nearest to the
+        outline.
+    lanes
+        Lanes of the survey.
+    keeps_left
+        True if traffic keeps to the left: the side of the entrance beside the exit of the same portal.
+
+    Raises
+    ------
+    ConfigError
+        If the outline has no side that is long enough for a door.
+    """
+    sides = _sides(outline)
+    gates: list[Gate] = []
+    for portal in portals or [_natural_portal(outline, lanes)]:
+        kinds = _KINDS[portal.kind]
+        needed_m = len(kinds) * _DOOR_WALL_M
+        able = [side for side in sides if side.length_m >= needed_m + 2 * _LEAST_WALL_M]
+        if not able:
+            raise ConfigError(
+                "outline",
+                f"sides of at most {max(s.length_m for s in sides):.2f} m",
+                f"a side of {needed_m} m for a portal",
+            )
+        side = min(able, key=lambda each: round(_distance_m(each, portal.position), _DIGITS))
+        middle = _run_m(side, portal.position)
+        middle = min(max(middle, needed_m / 2 + _LEAST_WALL_M), side.length_m - needed_m / 2 - _LEAST_WALL_M)
+        # those who walk along the side have the inside on their right, so drivers who come in have its start on theirs
+        is_start_entrance = not keeps_left
+        ordered = kinds if is_start_entrance else kinds[::-1]
+        for number, kind in enumerate(ordered):
+            run = middle + (number - (len(kinds) - 1) / 2) * _DOOR_WALL_M
+            x, z = side.at(run)
+            gates.append(Gate(kind, (round(x, _DIGITS), round(z, _DIGITS)), side.outwards))
+    return gates
+
+
+def surveyed_walls(
+    outline: shapely.Polygon, gates: Iterable[Gate], fittings: FittingsConfig, look: WallsLook
+) -> list[Placement]:
+    """Place a wall outside every side of the outline, and a vehicle door at each gate.
+
+    Each wall is longer at its end by the thickness of the next one where they meet in a convex corner, and shorter in a
+    reflex one.
+    """
+    walls: list[Placement] = []
+    gates, sides = list(gates), _sides(outline)
+    for number, side in enumerate(sides):
+        following = sides[(number + 1) % len(sides)]
+        turn = side.along[0] * following.along[1] - side.along[1] * following.along[0]
+        corner_m = fittings.wall_thickness_m * turn
+        doors = sorted(
+            (_run_m(side, gate.foot), gate)
+            for gate in gates
+            if _distance_m(side, gate.foot) < _LEAST_WALL_M and gate.outwards == side.outwards
+        )
+        cuts = [0.0]
+        for run, _ in doors:
+            cuts += [run - _DOOR_WALL_M / 2, run + _DOOR_WALL_M / 2]
+        cuts.append(side.length_m + corner_m)
+        for piece, (start, end) in enumerate(pairwise(cuts)):
+            if end - start < _LEAST_WALL_M:
+                continue
+            door = doors[piece // 2][1] if piece % 2 else None
+            spec = _spec(end - start, fittings, look, door)
+            name = f"{'Wall' if door is None else 'Portal'}_{number + 1:02d}_{piece + 1}"
+            # the inner face looks to +Z, which is inwards
+            inwards = -side.outwards[0], -side.outwards[1]
+            walls.append(placed(name, spec, side.at((start + end) / 2), yaw_rad=_yaw_rad(inwards)))
+    return walls
+
+
+def _spec(length_m: float, fittings: FittingsConfig, look: WallsLook, door: Gate | None) -> WallSpec | PortalSpec:
+    length_m = round(length_m, _DIGITS)
+    height, thickness = fittings.ceiling_height_m, fittings.wall_thickness_m
+    if door is None:
+        return WallSpec(length_m, height, thickness, look.dado_m, look.has_stripe)
+    return PortalSpec(
+        length_m,
+        height,
+        thickness,
+        door_width_m=round(length_m - 2 * DOOR_JAMB_M, _DIGITS),
+        door_height_m=round(max(fittings.clear_height_m + DOOR_FRAME_M, height - 2 * _DOOR_HEAD_M), _DIGITS),
+        is_entrance=door.kind is LaneKind.ENTRANCE,
+    )
+
+
+def _natural_portal(outline: shapely.Polygon, lanes: Sequence[SurveyedLane]) -> SurveyedPortal:
+    """Return the portal of a survey without one: the end of a lane nearest to the outline."""
+    ends = [lane.points[place] for lane in lanes for place in (0, -1)]
+    if not ends:
+        raise ConfigError("lanes", [], "a lane or more")
+    boundary = outline.exterior
+    return SurveyedPortal(min(ends, key=lambda end: (round(boundary.distance(shapely.Point(end)), 3), end)))
+
+
+def _sides(outline: shapely.Polygon) -> list[_Side]:
+    """Return the sides of an outline in order, the inside on the right of each, seen from above with z downwards."""
+    corners = np.array(outline.exterior.coords)[:, :2]
+    # seen with z downwards, a positive area in x and z runs clockwise
+    clockwise = float(np.sum(corners[:-1, 0] * corners[1:, 1] - corners[1:, 0] * corners[:-1, 1])) > 0
+    points = corners if clockwise else corners[::-1]
+    rounded = [(round(float(x), _DIGITS), round(float(z), _DIGITS)) for x, z in points]
+    return [_Side(start, end) for start, end in pairwise(rounded) if math.dist(start, end) > _LEAST_WALL_M]
+
+
+def _distance_m(side: _Side, point: Point) -> float:
+    return float(shapely.LineString([side.start, side.end]).distance(shapely.Point(point)))
+
+
+def _run_m(side: _Side, point: Point) -> float:
+    x, z = side.along
+    return (point[0] - side.start[0]) * x + (point[1] - side.start[1]) * z
+
+
+def _yaw_rad(direction: Point) -> float:
+    """Return the yaw that turns +Z to a direction; exact for quarter turns."""
+    x, z = direction
+    yaw = math.atan2(x, z)
+    quarter = round(yaw / (math.pi / 2))
+    if abs(yaw - quarter * math.pi / 2) < 1e-9:  # noqa: PLR2004 - rounding
+        return {0: 0.0, 1: math.pi / 2, 2: math.pi, -1: -math.pi / 2, -2: math.pi}[quarter]
+    return yaw

@@ -1,0 +1,421 @@
+"""Stalls of a survey as rectangles and parallelograms that open onto a lane, and those that cannot be placed."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import ArrayLike, NDArray
+
+from garage2usd.garage import Arc, LaneGraph, Point
+from garage2usd.survey.survey import Survey, SurveyedStall, Unplaced
+
+__all__ = ["FittedStall", "fitted_stalls"]
+
+Floats = NDArray[np.float64]
+_SIDES = 4
+_REACH_M = 9.0
+"""Greatest distance in metres from the mouth of a stall to the middle of its lane."""
+_SQUARE_DEG, _LEAST_ANGLE_DEG = 1.0, 25.0
+_PERPENDICULAR_DEG, _PARALLEL_DEG = 90.0, 0.0
+_PARALLEL_SIDES_DEG = 3.0
+_MOST_OFF_M = 0.25
+"""Greatest distance in metres of a corner of a stall from the shape that is laid out."""
+_LEAST_WIDTH_M, _LEAST_LENGTH_M = 1.0, 2.0
+_MOST_OVERLAP = 0.05
+"""Greatest share of a stall's ground that another one covers."""
+_INSIDE_M = 0.1
+_LEAST_GROUND_M2 = 0.25
+_QUARTER_RAD = 1e-3
+"""Angle in radians up to which a stall stands along an axis."""
+_BEHIND_M = 0.5
+_DIGITS, _YAW_DIGITS = 6, 9
+
+
+@dataclass(frozen=True)
+class FittedStall:
+    """A stall of a survey with its mouth and its lane.
+
+    Attributes
+    ----------
+    source
+        The stall in the survey.
+    centre
+        (x, z) of its middle.
+    width_m, length_m
+        Sides of the rectangle for a car.
+    yaw_rad
+        Yaw about +Y of a car parked nose in, 0 where its nose points to -Z.
+    angle_deg
+        Angle of its long sides to the lane: 90 for perpendicular stalls, 0 for parallel ones.
+    turn
+        1 if cars enter an angled stall by a turn to the right, and for a parallel one with the lane on the left, seen
+        towards the nose; else -1.
+    outwards
+        Unit vector (x, z) from its rear to its mouth.
+    access
+        Number of the lane node in front of its mouth.
+    note
+        How its shape differs from that in the survey; empty if it does not.
+    """
+
+    source: SurveyedStall
+    centre: Point
+    width_m: float
+    length_m: float
+    yaw_rad: float
+    angle_deg: float
+    turn: int
+    outwards: Point
+    access: int
+    note: str = ""
+
+
+class _Mouth(NamedTuple):
+    """A side of a stall that opens onto a lane: its number, and the distance in metres to the lane's middle."""
+
+    side: int
+    away_m: float
+    foot: Point
+
+
+class _Shape(NamedTuple):
+    centre: Point
+    width_m: float
+    length_m: float
+    yaw_rad: float
+    angle_deg: float
+    turn: int
+    outwards: Point
+
+
+def fitted_stalls(
+    survey: Survey, lanes: LaneGraph, *, keeps_left: bool
+) -> tuple[tuple[FittedStall, ...], tuple[Unplaced, ...]]:
+    """Find the mouth and the lane of each stall of a survey.
+
+    Parameters
+    ----------
+    survey
+        The stalls.
+    lanes
+        The lane graph.
+    keeps_left
+        True if traffic keeps to the left, which decides which way cars look in parallel stalls of two-way lanes.
+
+    Returns
+    -------
+    tuple
+        The stalls in their order, and those that cannot be placed, each with the reason.
+
+    Notes
+    -----
+    The mouth is the short side from which the middle of a lane is in reach without another stall between, else the long
+    one, else one before which a lane ends or bends; of two such sides the one nearer to its lane, but that of most
+    adjacent stalls first.
+    """
+    return _Fitting(survey, lanes, keeps_left=keeps_left).result()
+
+
+class _Fitting:
+    def __init__(self, survey: Survey, lanes: LaneGraph, *, keeps_left: bool) -> None:
+        self._lanes, self._keeps_left = lanes, keeps_left
+        self._stalls = survey.stalls
+        self._grounds = np.array(survey.stall_polygons(), dtype=object)
+        self._tree = shapely.STRtree(self._grounds)
+        self._arcs = [(edge.start, edge.end) for edge in lanes.edges if not self._is_gate(edge.start, edge.end)]
+        ends = lanes.positions_m[np.array(self._arcs, dtype=np.intp).reshape(-1, 2)]
+        self._lines = shapely.linestrings(ends) if len(ends) else np.empty(0, dtype=object)
+        self._line_tree = shapely.STRtree(self._lines)
+        widths_m = np.array([lanes.arcs[arc].width_m for arc in self._arcs])
+        self._carriageways = np.asarray(shapely.buffer(self._lines, widths_m / 2, quad_segs=2))
+        self._carriageway_tree = shapely.STRtree(self._carriageways)
+
+    def result(self) -> tuple[tuple[FittedStall, ...], tuple[Unplaced, ...]]:
+        fitted: list[FittedStall] = []
+        unplaced: list[Unplaced] = []
+        mouths = self._voted([list(self._mouths(number)) for number in range(len(self._stalls))])
+        for number, (stall, mouth) in enumerate(zip(self._stalls, mouths, strict=True)):
+            reason = self._hindrance(number)
+            if not reason and mouth is None:
+                reason = f"no lane within {_REACH_M:g} m of a free side"
+            note = ""
+            shape = None if reason or mouth is None else _shape(stall.corners, mouth.side, self._keeps_left)
+            if isinstance(shape, str) and mouth is not None:
+                reason = shape
+                shape, note = self._reshaped(number, mouth)
+                reason = "" if shape is not None else reason
+            if reason or mouth is None or shape is None or isinstance(shape, str):
+                unplaced.append(Unplaced(stall.name, reason))
+                continue
+            access = self._access(mouth)
+            if isinstance(access, str):
+                unplaced.append(Unplaced(stall.name, access))
+                continue
+            if shape.angle_deg == _PARALLEL_DEG:
+                shape = self._along_traffic(shape, access)
+            fitted.append(FittedStall(stall, *shape, access, note))
+        return tuple(fitted), tuple(unplaced)
+
+    def _reshaped(self, number: int, mouth: _Mouth) -> tuple[_Shape | None, str]:
+        """Return the shape of a stall with its rear laid parallel to its mouth, and what that changes."""
+        laid = _with_parallel_rear(np.roll(np.array(self._stalls[number].corners), -mouth.side, axis=0))
+        if laid is None:
+            return None, ""
+        corners, moved_m = laid
+        shape = _shape(corners, 0, self._keeps_left)
+        ground = shapely.Polygon(corners)
+        beside = self._grounds[[at for at in self._tree.query(ground).tolist() if at != number]]
+        is_free = shapely.area(shapely.intersection(beside, ground)).sum() <= _MOST_OVERLAP * ground.area
+        if isinstance(shape, str) or not is_free:
+            return None, ""
+        return shape, f"its rear is laid parallel to its mouth, by which a corner moves {moved_m:.2f} m"
+
+    def _is_gate(self, *nodes: int) -> bool:
+        return any(self._lanes.nodes[node].is_portal for node in nodes)
+
+    def _hindrance(self, number: int) -> str:
+        """Return why the ground of a stall cannot be one; empty if it can."""
+        ground = self._grounds[number]
+        if not ground.is_valid or ground.area < _LEAST_WIDTH_M * _LEAST_LENGTH_M:
+            return f"its ground of {ground.area:.2f} m2 is too small or crosses itself"
+        for other in sorted(self._tree.query(ground, predicate="intersects").tolist()):
+            if other >= number:
+                continue
+            share = ground.intersection(self._grounds[other]).area / ground.area
+            if share > _MOST_OVERLAP:
+                return f"{share:.0%} of its ground is that of stall {self._stalls[other].name}"
+        return ""
+
+    def _mouths(self, number: int) -> Iterator[_Mouth]:
+        """Yield the sides of a stall from which a lane is in reach without another stall between, the best first."""
+        stall = self._stalls[number]
+        corners = np.array(stall.corners)
+        centre = corners.mean(axis=0)
+        found = []
+        for side in range(_SIDES) if stall.mouth is None else (stall.mouth,):
+            start, end = corners[side], corners[(side + 1) % _SIDES]
+            middle = (start + end) / 2
+            opposite = (corners[(side + 2) % _SIDES] + corners[(side + 3) % _SIDES]) / 2
+            along = middle - opposite
+            depth_m = float(np.linalg.norm(along))
+            if depth_m < _LEAST_WIDTH_M or np.linalg.norm(end - start) < _LEAST_WIDTH_M:
+                continue
+            # an angled stall is left along its sides, but its lane is square to its mouth
+            square = np.array([end[1] - start[1], start[0] - end[0]])
+            square = square / np.linalg.norm(square) * (1.0 if square @ (middle - centre) > 0 else -1.0)
+            reached = self._lane_ahead(middle, square)
+            is_beside = reached is None
+            if reached is None:
+                reached = self._ground_ahead(start, end, square)
+            if reached is None:
+                continue
+            away_m, foot = reached
+            is_long = bool(np.linalg.norm(end - start) > depth_m)
+            if not self._is_blocked(number, middle + _INSIDE_M * square, foot):
+                found.append((is_beside, is_long, round(away_m, 3), side, _Mouth(side, away_m, foot)))
+        yield from (mouth for *_, mouth in sorted(found, key=lambda entry: entry[:4]))
+
+    def _lane_ahead(self, middle: Floats, ahead: Floats) -> tuple[float, Point] | None:
+        """Return the distance and the place of the nearest middle of a lane ahead of the middle of a side."""
+        ray = shapely.LineString([middle - _BEHIND_M * ahead, middle + _REACH_M * ahead])
+        crossed = [
+            point
+            for index in self._line_tree.query(ray, predicate="intersects").tolist()
+            for point in shapely.get_coordinates(self._lines[index].intersection(ray)).tolist()
+        ]
+        if not crossed:
+            return None
+        away, (x, z) = min((math.dist(point, middle), point) for point in crossed)
+        return away, (x, z)
+
+    def _ground_ahead(self, start: Floats, end: Floats, ahead: Floats) -> tuple[float, Point] | None:
+        """Return the distance and the nearest place of the carriageway of a lane that ends or bends before a side."""
+        strip = shapely.Polygon([start, end, end + _REACH_M * ahead, start + _REACH_M * ahead])
+        parts = self._carriageways[self._carriageway_tree.query(strip, predicate="intersects")]
+        ground = shapely.union_all(shapely.intersection(parts, strip))
+        if ground.area < _LEAST_GROUND_M2:
+            return None
+        middle = shapely.Point((start + end) / 2)
+        (x, z) = shapely.shortest_line(ground, middle).coords[0]
+        return float(middle.distance(ground)), (x, z)
+
+    def _is_blocked(self, number: int, start: Floats, foot: Point) -> bool:
+        way = shapely.LineString([start, foot])
+        return any(
+            other != number and self._grounds[other].intersection(way).length > _INSIDE_M
+            for other in self._tree.query(way, predicate="intersects").tolist()
+        )
+
+    def _voted(self, mouths: Sequence[Sequence[_Mouth]]) -> list[_Mouth | None]:
+        """Choose the mouth of each stall: of its possible ones that whose direction most adjacent stalls prefer."""
+        directions = [[self._direction(number, mouth) for mouth in found] for number, found in enumerate(mouths)]
+        chosen: list[_Mouth | None] = []
+        for number, found in enumerate(mouths):
+            if not found:
+                chosen.append(None)
+                continue
+            beside = [
+                directions[other][0]
+                for other in self._tree.query(self._grounds[number], predicate="dwithin", distance=_INSIDE_M).tolist()
+                if other != number and mouths[other] and self._shares_side(number, other)
+            ]
+            votes = [
+                sum(math.dist(direction, other) < 0.5 for other in (*beside, directions[number][0]))  # noqa: PLR2004
+                for direction in directions[number]
+            ]
+            chosen.append(found[votes.index(max(votes))])
+        return chosen
+
+    def _shares_side(self, number: int, other: int) -> bool:
+        """Return True if two stalls lie along most of a side of theirs."""
+        common = self._grounds[number].buffer(_INSIDE_M).intersection(self._grounds[other])
+        return bool(common.length / 2 > _LEAST_LENGTH_M)
+
+    def _direction(self, number: int, mouth: _Mouth) -> Point:
+        corners = np.array(self._stalls[number].corners)
+        middle = (corners[mouth.side] + corners[(mouth.side + 1) % _SIDES]) / 2
+        away = middle - corners.mean(axis=0)
+        x, z = (away / np.linalg.norm(away)).tolist()
+        return x, z
+
+    @cached_property
+    def _served(self) -> frozenset[int]:
+        """Nodes that are reached from an entrance and lead to an exit."""
+        arriving = {node for arc in self._lanes.arriving for node in arc}
+        leaving = {node for arc in self._lanes.leaving for node in arc}
+        return frozenset(arriving & leaving)
+
+    def _access(self, mouth: _Mouth) -> int | str:
+        """Return the number of the node nearest to the place before a mouth, or the reason that there is none."""
+        positions = self._lanes.positions_m
+        away_m = np.hypot(*(positions - mouth.foot).T)
+        order = [int(node) for node in np.argsort(away_m, kind="stable") if not self._lanes.nodes[node].is_portal]
+        if not order or order[0] not in self._served:
+            missing = [
+                words
+                for words, arcs in (
+                    ("from an entrance", self._lanes.arriving),
+                    ("to an exit", self._lanes.leaving),
+                )
+                if not order or all(order[0] not in arc for arc in arcs)
+            ]
+            return f"no route {' and '.join(missing) or 'without a turn on the spot'} over its lane"
+        return order[0]
+
+    def _along_traffic(self, shape: _Shape, access: int) -> _Shape:
+        """Turn a parallel stall so that its car looks along the traffic of a one-way lane beside it."""
+        arcs: list[Arc] = [arc for arc, edge in self._lanes.arcs.items() if access in arc and edge.one_way]
+        arcs = [arc for arc in arcs if not self._is_gate(*arc)]
+        ahead = -math.sin(shape.yaw_rad), -math.cos(shape.yaw_rad)
+        for start, end in arcs:
+            (x, z), (end_x, end_z) = self._lanes.nodes[start].position, self._lanes.nodes[end].position
+            along = ahead[0] * (end_x - x) + ahead[1] * (end_z - z)
+            if along < -0.5 * math.hypot(end_x - x, end_z - z):
+                turned = _snapped(math.remainder(shape.yaw_rad + math.pi, math.tau))
+                return shape._replace(yaw_rad=turned, turn=-shape.turn)
+        return shape
+
+
+def _shape(given: ArrayLike, side: int, keeps_left: bool) -> _Shape | str:  # noqa: FBT001 - a fact of the country
+    """Return the rectangle or parallelogram of a stall by its mouth, or the reason that there is none."""
+    corners = np.roll(np.asarray(given, dtype=np.float64), -side, axis=0)
+    one, other, beyond_other, beyond_one = corners
+    out = (one + other - beyond_other - beyond_one) / 2
+    depth_m = float(np.linalg.norm(out))
+    along = (other - one + beyond_other - beyond_one) / 2
+    out_x, out_z = (out / depth_m).tolist()
+    right = np.array([out_z, -out_x])  # of a driver who drives in, seen from above with z downwards
+    across_m, rise_m = float(along @ right), float(along @ (out / depth_m))
+    if across_m < 0:
+        across_m, rise_m = -across_m, -rise_m
+    centre = corners.mean(axis=0)
+    angle_deg = math.degrees(math.atan2(across_m, abs(rise_m)))
+    if angle_deg < _LEAST_ANGLE_DEG:
+        return f"an angle of {angle_deg:.0f} degrees to its lane, below {_LEAST_ANGLE_DEG:g}"
+    turn, width_m, length_m = (1 if rise_m > 0 else -1), across_m, depth_m
+    if _PERPENDICULAR_DEG - angle_deg <= _SQUARE_DEG:
+        angle_deg, turn = _PERPENDICULAR_DEG, 1
+        yaw = math.atan2(out_x, out_z)
+        if across_m > depth_m:
+            angle_deg, width_m, length_m = _PARALLEL_DEG, depth_m, across_m
+            # the lane is on the left of a car that looks along the traffic on the right, and the other way round
+            turn = -1 if keeps_left else 1
+            yaw = math.atan2(turn * out_z, -turn * out_x)
+    else:
+        angle_deg = round(angle_deg, 6)
+        length_m = depth_m - width_m * abs(rise_m / across_m)
+        yaw = math.atan2(out_x, out_z)
+    if width_m < _LEAST_WIDTH_M or length_m < _LEAST_LENGTH_M:
+        return f"{width_m:.2f} by {length_m:.2f} m for a car, below {_LEAST_WIDTH_M:g} by {_LEAST_LENGTH_M:g}"
+    shape = _Shape(
+        (round(float(centre[0]), _DIGITS), round(float(centre[1]), _DIGITS)),
+        round(width_m, _DIGITS),
+        round(length_m, _DIGITS),
+        _snapped(yaw),
+        angle_deg,
+        turn,
+        (out_x, out_z),
+    )
+    off_m = _off_m(corners, shape)
+    if off_m > _MOST_OFF_M:
+        return f"a corner is {off_m:.2f} m from the nearest rectangle or parallelogram, above {_MOST_OFF_M:g}"
+    return shape
+
+
+def _with_parallel_rear(corners: Floats) -> tuple[Floats, float] | None:
+    """Return the corners of a stall with its mouth and its rectangle for a car, but its rear parallel to its mouth.
+
+    Parameters
+    ----------
+    corners
+        Both corners of the mouth, then of the rear; shape (4, 2).
+
+    Returns
+    -------
+    tuple or None
+        The corners and the greatest distance that one was moved; None if the sides are not parallel.
+    """
+    one, other, beyond_other, beyond_one = corners
+    sides = one - beyond_one, other - beyond_other
+    lengths_m = [float(np.linalg.norm(side)) for side in sides]
+    if min(lengths_m) < _LEAST_WIDTH_M:
+        return None
+    outs = [side / length_m for side, length_m in zip(sides, lengths_m, strict=True)]
+    if outs[0] @ outs[1] < math.cos(math.radians(_PARALLEL_SIDES_DEG)):
+        return None
+    out = (outs[0] + outs[1]) / np.linalg.norm(outs[0] + outs[1])
+    # the rectangle for a car ends where the first corner of the rear is, seen from the mouth
+    length_m = min(one @ out, other @ out) - max(beyond_one @ out, beyond_other @ out)
+    side_m = length_m + abs((one - other) @ out)
+    laid = np.array([one, other, other - side_m * out, one - side_m * out])
+    return laid, float(np.linalg.norm(laid - corners, axis=1).max())
+
+
+def _snapped(yaw_rad: float) -> float:
+    quarter = round(yaw_rad / (math.pi / 2))
+    if abs(yaw_rad - quarter * math.pi / 2) < _QUARTER_RAD:
+        return {0: 0.0, 1: math.pi / 2, 2: math.pi, -1: -math.pi / 2, -2: math.pi}[quarter]
+    return round(yaw_rad, _YAW_DIGITS)
+
+
+def _off_m(corners: Floats, shape: _Shape) -> float:
+    """Return the greatest distance of the corners of a stall from those of its shape."""
+    out = np.array(shape.outwards)
+    right = np.array([out[1], -out[0]])
+    across_m, depth_m, slope = shape.width_m, shape.length_m, 0.0
+    if shape.angle_deg == _PARALLEL_DEG:
+        across_m, depth_m = depth_m, across_m
+    elif shape.angle_deg != _PERPENDICULAR_DEG:
+        slope = shape.turn / math.tan(math.radians(shape.angle_deg))
+        depth_m += across_m * abs(slope)
+    laid = [
+        np.array(shape.centre)
+        + right * across * across_m / 2
+        + out * (deep * depth_m / 2 + slope * across * across_m / 2)
+        for across, deep in ((-1, 1), (1, 1), (1, -1), (-1, -1))
+    ]
+    return max(min(float(np.linalg.norm(corner - other)) for other in laid) for corner in corners)
