@@ -20,6 +20,13 @@ _STALL_SUBTYPES = {"parking", "parking_spot", "parking_space"}
 _HATCHED = "hatched_road_markings"
 _GATES = {"entrance", "gate", "lift_gate", "swing_gate", "sliding_gate", "toll_booth"}
 _YES = {"yes", "true", "1", "designated"}
+_USE_TAGS = {
+    "disabled": "disabled",
+    "access:disabled": "disabled",
+    "capacity:disabled": "disabled",
+    "capacity:charging": "ev",
+    "charging": "ev",
+}
 _ONE_WAY = {"yes": 1, "true": 1, "1": 1, "-1": -1, "reverse": -1}
 _SPACE_M = 0.05
 """Distance from a stall's outline up to which the ends of Autoware's line for the same stall lie on it."""
@@ -183,16 +190,16 @@ def _mouth(osm: OsmElements, name: str, ring: tuple[int, ...]) -> Point | None:
 
 
 def _use(tags: Mapping[str, str]) -> StallUse:
-    said = [tags[key] for key in ("use", "parking_space", "parking_type", "capacity") if key in tags]
-    marks = {"disabled": "disabled", "capacity:disabled": "disabled", "capacity:charging": "ev", "charging": "ev"}
-    marks["wheelchair"] = "disabled"
-    for key, word in marks.items():
-        value = tags.get(key, "no").lower()
-        if value in _YES - ({"yes", "true"} if key == "wheelchair" else set()) or (value.isdigit() and int(value) > 0):
-            said.append(word)
-    if tags.get("access:disabled") in _YES or tags.get("access") == "disabled":
+    said = [tags[key] for key in ("use", "parking_space", "parking_type") if key in tags]
+    said += [word for key, word in _USE_TAGS.items() if _holds(tags.get(key, "no"))]
+    if tags.get("wheelchair") == "designated":  # yes says only that wheelchairs may go there
         said.append("disabled")
     return use_of(said)
+
+
+def _holds(value: str) -> bool:
+    """Return True for yes and for numbers above 0."""
+    return value.lower() in _YES or (value.isdecimal() and int(value) > 0)
 
 
 def _add_ways(parts: SurveyParts, osm: OsmElements, outline: tuple[Point, ...] | None, path: Path) -> None:
