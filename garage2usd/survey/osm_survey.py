@@ -199,7 +199,7 @@ def _use(tags: Mapping[str, str]) -> StallUse:
 
 def _holds(value: str) -> bool:
     """Return True for yes and for numbers above 0."""
-    return value.lower() in _YES or (value.isdecimal() and int(value) > 0)
+    return value.lower() in _YES or (value.isdecimal() and value.strip("0") != "")
 
 
 def _add_ways(parts: SurveyParts, osm: OsmElements, outline: tuple[Point, ...] | None, path: Path) -> None:

@@ -66,7 +66,8 @@ points = [[0, 8], [30, 8]]
 <object id="1" type="parkingSpace" s="5" t="9" hdg="0.2" width="2.5" length="5">
 <repeat s="0" length="30" distance="3" tStart="9" tEnd="8"/></object>
 <object id="2" type="parkingSpace" s="5" t="-9"><outlines><outline>
-<cornerRoad s="5" t="-9"/><cornerRoad s="8" t="-9"/><cornerRoad s="8" t="-4"/><cornerRoad s="5" t="-4"/></outline></outlines></object>
+<cornerRoad s="5" t="-9"/><cornerRoad s="8" t="-9"/><cornerRoad s="8" t="-4"/><cornerRoad s="5" t="-4"/>
+</outline></outlines></object>
 </objects></road></OpenDRIVE>""",
 }  # fmt: skip
 PIECES = [
