@@ -113,6 +113,27 @@ def test_a_lot_of_openstreetmap(tmp_path):
     }
 
 
+def test_areas_for_several_cars_are_rows(tmp_path):
+    lot = Map()
+    lot.way(box(0, 0, 5, 25), amenity="parking_space", capacity="10", capacity__disabled="2", name="W")
+    lot.way(box(10, 0, 24, 2.5), amenity="parking_space", capacity="4", capacity__disabled="4")
+    lot.way(box(10, 10, 5, 5), amenity="parking_space", capacity="40")
+    lot.node((50, 0), amenity="parking_space")
+    survey = lot.read(tmp_path)
+    grounds = [ground(stall) for stall in survey.stalls]
+    assert len(grounds) == 14
+    assert {stall.use for stall in survey.stalls[:10]} == {StallUse.STANDARD}
+    assert {stall.use for stall in survey.stalls[10:]} == {StallUse.ACCESSIBLE}
+    assert survey.stalls[0].name == "W, stall 1"
+    assert all(shape.area == pytest.approx(12.5) for shape in grounds[:10])
+    assert sorted(shape.bounds for shape in grounds[10:]) == [(10 + 6 * n, 0, 16 + 6 * n, 2.5) for n in range(4)]
+    assert shapely.union_all(grounds[:10]).equals(shapely.box(0, 0, 5, 25))
+    assert survey.unread == (
+        ("way 3", "40 stalls side by side, each 0.12 m wide"),
+        ("node 13", "a stall as a point, without an outline"),
+    )
+
+
 def lanelet(lot, left, right, **tags):
     members = [(lot.way(left), "left"), (lot.way(right), "right")]
     return lot.relation(members, type="lanelet", subtype="road", **tags)
