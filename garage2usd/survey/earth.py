@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.common.extras import of_extra
 
 with of_extra("a survey in degrees"):
@@ -14,15 +15,18 @@ Floats = NDArray[np.float64]
 
 _ORIGIN_DIGITS = 6
 """Decimals of the origin in degrees: a tenth of a metre."""
+_REACH_M = 100_000.0
 
 
-def ground_of(degrees: ArrayLike, around: ArrayLike | None = None) -> tuple[Floats, tuple[float, float]]:
+def ground_of(degrees: ArrayLike, place: str, *, around: ArrayLike | None = None) -> tuple[Floats, tuple[float, float]]:
     """Project points of WGS 84 to the ground of a survey.
 
     Parameters
     ----------
     degrees
         Longitude and latitude of each point; shape (n, 2).
+    place
+        Place of the points in messages.
     around
         Points with the origin in their middle, likewise; None for all points.
 
@@ -32,6 +36,11 @@ def ground_of(degrees: ArrayLike, around: ArrayLike | None = None) -> tuple[Floa
         (x, z) in metres, x east and z south; float64, shape (n, 2).
     origin_deg
         Latitude and longitude of (0, 0).
+
+    Raises
+    ------
+    ConfigError
+        If points are too far from each other for one plane.
     """
     points = np.asarray(degrees, np.float64)
     middles = points if around is None else np.asarray(around, np.float64)
@@ -41,4 +50,9 @@ def ground_of(degrees: ArrayLike, around: ArrayLike | None = None) -> tuple[Floa
     to_metres = Transformer.from_crs("EPSG:4326", projection, always_xy=True)
     x, y = to_metres.transform(points[:, 0], points[:, 1])
     ground: Floats = np.stack([x, -np.asarray(y)], axis=-1)
+    far = np.flatnonzero(~(np.abs(ground).max(axis=1) < _REACH_M))
+    if len(far):
+        longitude_deg, latitude_deg = points[far[0]].tolist()
+        allowed = f"points within {_REACH_M / 1000:g} km of the others, around {latitude}, {longitude}"
+        raise ConfigError(f"{place}: latitude and longitude", (latitude_deg, longitude_deg), allowed)
     return ground, (latitude, longitude)

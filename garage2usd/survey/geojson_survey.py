@@ -87,7 +87,7 @@ def read_geojson_survey(path: Path) -> Survey:
             _check_degrees(shape)
         from garage2usd.survey.earth import ground_of  # noqa: PLC0415 - files in metres do without its extra
 
-        ground, origin_deg = ground_of(positions)
+        ground, origin_deg = ground_of(positions, path.name)
     start = 0
     for shape in shapes:
         end = start + len(shape.positions)
@@ -156,7 +156,8 @@ def _parts_of(geometry: object, shape: _Shape, parts: SurveyParts) -> Iterator[_
                 refuse(f"{place}.coordinates", rings, "a list of rings, the outer one first")
             member, *holes = rings  # noqa: PLW2901 - the outer ring stands for the polygon
             if holes:
-                parts.unread.append(Unplaced(shape.name, f"{len(holes)} holes of a {shape.kind}; these become floor"))
+                reason = f"the {len(holes)} holes in this {shape.kind}; they become floor"
+                parts.unread.append(Unplaced(shape.name, reason))
         positions = [member] if form.endswith("Point") else member
         if not isinstance(positions, list):
             refuse(f"{place}.coordinates", positions, "a list of positions")
@@ -168,10 +169,10 @@ def _parts_of(geometry: object, shape: _Shape, parts: SurveyParts) -> Iterator[_
 def _position(position: object, place: str) -> tuple[float, float]:
     if not isinstance(position, list) or len(position) < 2:  # noqa: PLR2004 - x and y, perhaps a height
         refuse(place, position, "positions of two numbers or three")
-    x, y = (
-        number_of("true" if isinstance(value, str) else value, place, unit="degrees or metres")
-        for value in position[:2]
-    )
+    for value in position[:2]:
+        if isinstance(value, str):
+            refuse(place, value, "a number of degrees or metres")
+    x, y = (number_of(value, place, unit="degrees or metres") for value in position[:2])
     return x, y
 
 

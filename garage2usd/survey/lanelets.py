@@ -96,7 +96,7 @@ def _partners(lanelets: Sequence[Lanelet]) -> list[tuple[int | None, str]]:
         for side, ways in (("left", lanelets[index].left), ("right", lanelets[index].right)):
             beside.setdefault((side, tuple(sorted(ways))), []).append(index)
     pairs = [(pair[0], pair[1], side) for (side, _), pair in beside.items() if len(pair) == 2]  # noqa: PLR2004
-    grounds = [lanelets[index].ground for index in one_way]
+    grounds = np.array([lanelets[index].ground for index in one_way], dtype=object)
     first, second = shapely.STRtree(grounds).query(grounds, predicate="intersects")
     for here, there in sorted(zip(first.tolist(), second.tolist(), strict=True)):
         if here < there:

@@ -185,7 +185,7 @@ def _ground(
     from garage2usd.survey.earth import ground_of  # noqa: PLC0415 - files in metres do without its extra
 
     around = [position for number, position in zip(places, degrees, strict=True) if number in used]
-    ground, origin_deg = ground_of(degrees, around=around)
+    ground, origin_deg = ground_of(degrees, path.name, around=around)
     return dict(zip(places, ((x, z) for x, z in ground.tolist()), strict=True)), origin_deg
 
 

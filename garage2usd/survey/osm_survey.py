@@ -15,11 +15,19 @@ from garage2usd.survey.words import positive_of, refuse, size_of, use_of
 
 __all__ = ["read_osm_survey"]
 
+_MOST_IN_A_ROW = 1000
 _STALL_AMENITIES = {"parking_space"}
 _STALL_SUBTYPES = {"parking", "parking_spot", "parking_space"}
 _HATCHED = "hatched_road_markings"
 _GATES = {"entrance", "gate", "lift_gate", "swing_gate", "sliding_gate", "toll_booth"}
-_YES = {"yes", "true", "1", "designated"}
+_YES = {"yes", "true", "designated"}
+_USE_TAGS = {
+    "disabled": "disabled",
+    "access:disabled": "disabled",
+    "capacity:disabled": "disabled",
+    "capacity:charging": "ev",
+    "charging": "ev",
+}
 _ONE_WAY = {"yes": 1, "true": 1, "1": 1, "-1": -1, "reverse": -1}
 _SPACE_M = 0.05
 """Distance from a stall's outline up to which the ends of Autoware's line for the same stall lie on it."""
@@ -33,10 +41,11 @@ def read_osm_survey(path: Path) -> Survey:
     path
         OSM XML. Stalls are closed ways and multipolygons with ``amenity=parking_space`` or one of the subtypes
         ``parking``, ``parking_spot`` and ``parking_space``, and Autoware's ways ``type=parking_space`` of two points
-        with a ``width``. Lanes are lanelets for vehicles, and ways ``service=parking_aisle``, and within the outline
-        any ``highway=service``. The outline is the one of ``amenity=parking`` with the most stalls. Columns are areas
-        of the subtype ``Columns``. Entrances are nodes ``amenity=parking_entrance`` or gates, and service roads that
-        cross the outline. If the stalls have tags ``level``, the level with the most stalls is read.
+        with a ``width``. With a ``capacity`` above 1, an area is a row of as many stalls. Lanes are lanelets for
+        vehicles, and ways ``service=parking_aisle``, and within the outline any ``highway=service``. The outline is
+        the one of ``amenity=parking`` with the most stalls. Columns are areas of the subtype ``Columns``. Entrances
+        are nodes ``amenity=parking_entrance`` or gates, and service roads that cross the outline. If the stalls have
+        tags ``level``, the level with the most stalls is read.
 
     Raises
     ------
@@ -49,13 +58,7 @@ def read_osm_survey(path: Path) -> Survey:
     parts = SurveyParts()
     level = _level(osm)
     _add_stalls(parts, osm, level, path)
-    for lane in lanes_of_lanelets(osm):
-        if isinstance(lane, Unplaced):
-            parts.unread.append(lane)
-        elif _is_on(lane.tags, level):
-            parts.add_lane(lane.name, lane.points, lane.width_m, one_way=lane.one_way)
-        else:
-            parts.unread.append(Unplaced(lane.name, f"a lane on level {lane.tags['level']} instead of {level}"))
+    _add_lanelets(parts, osm, level)
     for name, tags, ring in _areas(osm):
         if ring is None or not _is_on(tags, level):
             continue
@@ -66,12 +69,7 @@ def read_osm_survey(path: Path) -> Survey:
             parts.add_outline(name, points)
     outline = parts.outline()
     _add_ways(parts, osm, outline, path)
-    for node in osm.nodes.values():
-        is_entrance = node.tags.get("amenity") == "parking_entrance" or (
-            node.tags.get("barrier") in _GATES and _is_near(node.position, outline)
-        )
-        if is_entrance and _is_on(node.tags, level):
-            parts.add_portal(node.position)
+    _add_portals(parts, osm, level, outline)
     return parts.survey(origin_deg=osm.origin_deg)
 
 
@@ -130,8 +128,14 @@ def _add_stalls(parts: SurveyParts, osm: OsmElements, level: str | None, path: P
         else:
             use = _use(tags)
             size = size_of(tags[key] for key in ("parking_space", "parking_type", "size") if key in tags)
-            number = tags.get("ref", "")
+            number, count = tags.get("ref", ""), tags.get("capacity", "1")
+            if count.isdecimal() and 1 < float(count) <= _MOST_IN_A_ROW:
+                parts.add_row(title, osm.line(ring), int(count), use=_use(tags, of=count), size=size)
+                continue
             parts.add_stall(title, osm.line(ring), mouth_at=_mouth(osm, name, ring), use=use, size=size, number=number)
+    for node in osm.nodes.values():
+        if node.tags.get("amenity") in _STALL_AMENITIES:
+            parts.unread.append(Unplaced(node.tags.get("name") or node.name, "a stall as a point, without an outline"))
     _add_spaces(parts, osm, path)
 
 
@@ -182,17 +186,38 @@ def _mouth(osm: OsmElements, name: str, ring: tuple[int, ...]) -> Point | None:
     return (x + end_x) / 2, (z + end_z) / 2
 
 
-def _use(tags: Mapping[str, str]) -> StallUse:
-    said = [tags[key] for key in ("use", "parking_space", "parking_type", "capacity") if key in tags]
-    marks = {"disabled": "disabled", "capacity:disabled": "disabled", "capacity:charging": "ev", "charging": "ev"}
-    marks["wheelchair"] = "disabled"
-    for key, word in marks.items():
-        value = tags.get(key, "no").lower()
-        if value in _YES - ({"yes", "true"} if key == "wheelchair" else set()) or (value.isdigit() and int(value) > 0):
-            said.append(word)
-    if tags.get("access:disabled") in _YES or tags.get("access") == "disabled":
+def _use(tags: Mapping[str, str], *, of: str = "") -> StallUse:
+    """Return the use of a stall, or of all stalls of a row: a number of them tells it if it is that of the row."""
+    said = [tags[key] for key in ("use", "parking_space", "parking_type") if key in tags]
+    said += [word for key, word in _USE_TAGS.items() if _holds(tags.get(key, "no"), of)]
+    if tags.get("wheelchair") == "designated":  # yes says only that wheelchairs may go there
         said.append("disabled")
     return use_of(said)
+
+
+def _holds(value: str, of: str) -> bool:
+    """Return True for yes, and for numbers above 0, or for one of them if it is given."""
+    if value.isdecimal():
+        return value == of if of else value.strip("0") != ""
+    return value.lower() in _YES
+
+
+def _add_lanelets(parts: SurveyParts, osm: OsmElements, level: str | None) -> None:
+    for lane in lanes_of_lanelets(osm):
+        if isinstance(lane, Unplaced):
+            parts.unread.append(lane)
+        elif _is_on(lane.tags, level):
+            parts.add_lane(lane.name, lane.points, lane.width_m, one_way=lane.one_way)
+        else:
+            parts.unread.append(Unplaced(lane.name, f"a lane on level {lane.tags['level']} instead of {level}"))
+
+
+def _add_portals(parts: SurveyParts, osm: OsmElements, level: str | None, outline: tuple[Point, ...] | None) -> None:
+    """Add the nodes that are entrances, and gates on the outline."""
+    for node in osm.nodes.values():
+        is_gate = node.tags.get("barrier") in _GATES and _is_near(node.position, outline)
+        if (is_gate or node.tags.get("amenity") == "parking_entrance") and _is_on(node.tags, level):
+            parts.add_portal(node.position)
 
 
 def _add_ways(parts: SurveyParts, osm: OsmElements, outline: tuple[Point, ...] | None, path: Path) -> None:

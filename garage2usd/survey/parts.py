@@ -1,8 +1,10 @@
 """Parts of a survey as a reader finds them: stalls checked for four corners, unique names, one outline of many."""
 
+import math
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import shapely
@@ -27,6 +29,8 @@ Floats = NDArray[np.float64]
 STRAIGHT_M = 0.15
 """Distance from the line through its neighbours up to which a point of an outline is no corner."""
 _CORNERS = 4
+_LEAST_STALL_M = 1.0
+"""Width below which stalls of a row are an error of the source: motorcycles need as much."""
 _DIGITS = 6
 _COLUMN_DIGITS = 2
 _LEAST_HALF_M = 1.25
@@ -85,6 +89,32 @@ class SurveyParts:
         a, b, c, d = corners
         mouth = None if mouth_at is None else side_at(corners, mouth_at)
         self.stalls.append(SurveyedStall(name, (a, b, c, d), mouth, use, size, number))
+
+    def add_row(
+        self,
+        name: str,
+        ring: Iterable[Sequence[float]],
+        count: int,
+        *,
+        use: StallUse = StallUse.STANDARD,
+        size: SizeClass = SizeClass.STANDARD,
+    ) -> None:
+        """Add equal stalls side by side along the longer sides of a quadrilateral, or note why there are none."""
+        corners = corners_of(ring)
+        reason = _reason_against(corners)
+        if not reason:
+            a, b, c, d = corners
+            if math.dist(a, b) + math.dist(c, d) < math.dist(b, c) + math.dist(d, a):
+                a, b, c, d = b, c, d, a
+            share_m = (math.dist(a, b) + math.dist(c, d)) / 2 / count
+            if share_m < _LEAST_STALL_M:
+                reason = f"{count} stalls side by side, each {share_m:.2f} m wide"
+        if reason:
+            self.unread.append(Unplaced(name, reason))
+            return
+        ends = [((1 - share) * np.array([a, d]) + share * np.array([b, c])).tolist() for share in _shares(count)]
+        for number, ((start, rear), (end, next_rear)) in enumerate(pairwise(ends), 1):
+            self.add_stall(f"{name}, stall {number}", [start, end, next_rear, rear], use=use, size=size)
 
     def add_lane(self, name: str, line: Iterable[Sequence[float]], width_m: float | None, *, one_way: bool) -> None:
         """Add a lane by the points (x, z) of its centre line, or note that it has no length."""
@@ -171,6 +201,11 @@ def _single(columns: Iterable[SurveyedColumn]) -> list[SurveyedColumn]:
         if place not in largest or column.size_m > largest[place].size_m:
             largest[place] = column
     return list(largest.values())
+
+
+def _shares(count: int) -> Iterator[float]:
+    """Yield the ends of equal shares of 1."""
+    return (number / count for number in range(count + 1))
 
 
 def corners_of(ring: Iterable[Sequence[float]]) -> tuple[Point, ...]:

@@ -19,11 +19,13 @@ from click.testing import CliRunner
 
 import garage2usd
 from garage2usd.cli import main
+from garage2usd.common.settings import validated
 from garage2usd.config import config_from_mapping
 from garage2usd.datasets import Recipe
 from garage2usd.datasets.drives import check_drives
 from garage2usd.profiles import read_profile
 from garage2usd.sensors.rig.rig import rig_from_mapping
+from garage2usd.survey.toml_survey import DrawnGarage
 
 REPOSITORY = Path(__file__).parents[2]  # test_wheel.py loads this module alone, without other helpers
 
@@ -113,6 +115,9 @@ class Reader:
         settings = tomllib.loads(block.text)
         if block.file_name:
             (self.folder / block.file_name).write_text(block.text)
+        if isinstance(settings.get("stalls"), list) or not settings.keys().isdisjoint({"runs", "lanes"}):
+            assert validated(DrawnGarage, settings), block
+            return
         if "sensors" in settings:
             assert rig_from_mapping(settings).sensors, block
             return

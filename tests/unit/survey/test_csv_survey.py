@@ -91,8 +91,10 @@ COLUMNS = "x, y, width_m, length_m, heading_deg, x1, y1, x2, y2, x3, y3, x4, y4,
         (f"{HEADER},x\n", "lot.csv: header: got 'x'; allowed: each column once"),
         (
             "x,y\n",
-            "lot.csv: header: got 'x, y'; allowed: all of x, y, width_m, length_m, heading_deg, "
-            "or all of x1, y1, x2, y2, x3, y3, x4, y4",
+            (
+                "lot.csv: header: got 'x, y'; allowed: all of x, y, width_m, length_m, heading_deg, "
+                "or all of x1, y1, x2, y2, x3, y3, x4, y4"
+            ),
         ),
         (f"{HEADER}\n1,2,3\n", "lot.csv: line 2: got '3 fields'; allowed: 5 fields, as in the header"),
         (
@@ -109,8 +111,10 @@ COLUMNS = "x, y, width_m, length_m, heading_deg, x1, y1, x2, y2, x3, y3, x4, y4,
         ),
         (
             f"{HEADER},use\n1,2,2,5,0,boats\n",
-            "lot.csv: line 2, use: got 'boats'; allowed: one of standard, turning, ev, accessible, access_aisle, "
-            "unreachable",
+            (
+                "lot.csv: line 2, use: got 'boats'; allowed: one of standard, turning, ev, accessible, access_aisle, "
+                "unreachable"
+            ),
         ),
         (
             f"{HEADER},size\n1,2,2,5,0,tiny\n",

@@ -17,7 +17,10 @@ from garage2usd.survey.opendrive_lines import road_line
 from garage2usd.survey.reader import read_survey
 
 LANE = '<lane id="{0}" type="driving"><width sOffset="0" a="{1}" b="0" c="0" d="0"/></lane>'
-TWO_WAY = f"<lanes><laneSection s='0'><left>{LANE.format(1, 3)}</left><right>{LANE.format(-1, 3)}</right></laneSection></lanes>"
+TWO_WAY = (
+    f"<lanes><laneSection s='0'><left>{LANE.format(1, 3)}</left>"
+    f"<right>{LANE.format(-1, 3)}</right></laneSection></lanes>"
+)
 
 
 def line_of(geometry, length=20.0, hdg=0.0):
@@ -36,8 +39,9 @@ def written(tmp_path, roads, head=""):
 
 def road(objects="", *, lanes=TWO_WAY, geometry="<line/>", length=100, number=1):
     return (
-        f'<road id="{number}" length="{length}" junction="-1"><planView><geometry s="0" x="0" y="0" hdg="0" length="{length}">'
-        f"{geometry}</geometry></planView>{lanes}<objects>{objects}</objects></road>"
+        f'<road id="{number}" length="{length}" junction="-1"><planView>'
+        f'<geometry s="0" x="0" y="0" hdg="0" length="{length}">{geometry}</geometry>'
+        f"</planView>{lanes}<objects>{objects}</objects></road>"
     )
 
 
@@ -59,8 +63,14 @@ curvatures = st.floats(-0.1, 0.1)
 def test_spirals_end_where_scenariogeneration_ends_them(start, end, length, hdg):
     line = line_of(f'<spiral curvStart="{start}" curvEnd="{end}"/>', length, hdg)
     (points,), (heading,) = line.at(np.array([length]))
-    angle = lambda s: hdg + start * s + (end - start) / length * s**2 / 2  # noqa: E731
-    expected = [quad(lambda s: part(angle(s)), 0, length, epsabs=1e-9)[0] for part in (math.cos, math.sin)]
+
+    def angle(s):
+        return hdg + start * s + (end - start) / length * s**2 / 2
+
+    expected = [
+        quad(lambda s: math.cos(angle(s)), 0, length, epsabs=1e-9)[0],
+        quad(lambda s: math.sin(angle(s)), 0, length, epsabs=1e-9)[0],
+    ]
     assert points == pytest.approx(expected, abs=1e-6)
     assert heading == pytest.approx(angle(length), abs=1e-9)
     if abs(end - start) > 1e-6:
@@ -239,7 +249,10 @@ def test_what_is_no_stall_is_named(tmp_path):
         ),
         (
             road(box(), geometry='<arc curvature="inf"/>'),
-            "lot.xodr: road 1, geometry 0, arc, curvature: got 'inf'; allowed: a number of 1 / metres from -1000 to 1000",
+            (
+                "lot.xodr: road 1, geometry 0, arc, curvature: got 'inf'; allowed: a number of 1 / metres from -1000 "
+                "to 1000"
+            ),
         ),
         (
             '<road id="1" length="1"/>',

@@ -88,16 +88,16 @@ def test_lanes_of_opendrive_lie_between_the_borders_that_the_standard_gives(expo
         assert np.hypot(*np.subtract(lane.points[0], first)) < 2 * WITHIN_M
 
 
+def ground_of(lanes):
+    lines = [(shapely.LineString(lane.points), lane.width_m / 2) for lane in lanes]
+    return shapely.union_all([line.buffer(half_m, cap_style="flat") for line, half_m in lines])
+
+
 @each_sample
 def test_both_maps_have_the_same_lanes(exported, sample):
     _, of_roads = exported(sample, "xodr")
     _, of_lanelets = exported(sample, "osm")
-    grounds = [
-        shapely.union_all([
-            shapely.LineString(lane.points).buffer(lane.width_m / 2, cap_style="flat") for lane in read_survey(path).lanes
-        ])
-        for path in (of_roads, of_lanelets)
-    ]  # fmt: skip
+    grounds = [ground_of(read_survey(path).lanes) for path in (of_roads, of_lanelets)]
     assert grounds[0].symmetric_difference(grounds[1]).area < 0.02 * grounds[0].area
     both = [[lane for lane in read_survey(path).lanes if not lane.one_way] for path in (of_roads, of_lanelets)]
     for lane in both[0]:

@@ -132,13 +132,13 @@ RUN = '[[runs]]\nfirst = [0, 0]\nlast = [10, 0]\nside = "left"\n'
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (f"{STALL}colour = 1\n", "lot.toml: stalls.0.colour: got 1; allowed: one of the keys id, corners, centre, "
-         "heading_deg, width_m, length_m, mouth, use, size, number"),
-        (f'{STALL}use = "boats"\n', "lot.toml: stalls.0.use: got 'boats'; allowed: 'standard', 'turning', 'ev', "
-         "'accessible', 'access_aisle' or 'unreachable'"),
+        (f"{STALL}colour = 1\n", ("lot.toml: stalls.0.colour: got 1; allowed: one of the keys id, corners, centre, "
+         "heading_deg, width_m, length_m, mouth, use, size, number")),
+        (f'{STALL}use = "boats"\n', ("lot.toml: stalls.0.use: got 'boats'; allowed: 'standard', 'turning', 'ev', "
+         "'accessible', 'access_aisle' or 'unreachable'")),
         (f"{STALL}mouth = 4\n", "lot.toml: stalls.0.mouth: got 4; allowed: less than or equal to 3"),
-        ("[[stalls]]\ncentre = [0, 0]\n", "lot.toml: stalls.0: got {'centre': [0, 0]}; allowed: corners, or centre, "
-         "heading_deg, width_m and length_m"),
+        ("[[stalls]]\ncentre = [0, 0]\n", ("lot.toml: stalls.0: got {'centre': [0, 0]}; allowed: corners, or centre, "
+         "heading_deg, width_m and length_m")),
         (f"{STALL}width_m = 2\n", "either corners, or centre, heading_deg, width_m and length_m"),
         (RUN, "count or width_m"),
         (f'{RUN}kind = "parallel"\n', "count or length_m"),
@@ -148,8 +148,8 @@ RUN = '[[runs]]\nfirst = [0, 0]\nlast = [10, 0]\nside = "left"\n'
         ("[[lanes]]\npoints = [[0, 0]]\n", "lot.toml: lanes.0.points: got"),
         ("[[columns]]\nat = [0, nan]\n", "lot.toml: columns.0.at.1: got nan; allowed:"),
         ("[[columns]]\nsize_m = 1\n", "lot.toml: columns.0.at: got 'nothing'; allowed: a value; columns.0 needs at"),
-        ('[[portals]]\nat = [0, 0]\nkind = "door"\n', "lot.toml: portals.0.kind: got 'door'; allowed: 'entrance', "
-         "'exit' or 'both'"),
+        ('[[portals]]\nat = [0, 0]\nkind = "door"\n', ("lot.toml: portals.0.kind: got 'door'; allowed: 'entrance', "
+         "'exit' or 'both'")),
         ("stalls = 3\n", "lot.toml: stalls: got 3; allowed:"),
         ("[[stalls]", "SOURCE: got"),
     ],
