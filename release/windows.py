@@ -224,8 +224,12 @@ def main() -> None:
     wine |= {"WINEDLLOVERRIDES": "mscoree,mshtml="}
     print("Windows in Wine", flush=True)
     command = [_WINE, str(python), replay, str(folder / "garage2usd/native/loops.dll"), str(calls)]
-    # a pipe, as Python does not start in Wine where the standard input is a file or closed
-    sys.exit(subprocess.run(command, env={**os.environ, **wine}, input=b"", check=False).returncode)
+    # pipes, as Python does not start in Wine where a standard stream is a file
+    run = subprocess.run(
+        command, env={**os.environ, **wine}, input=b"", stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False
+    )
+    print(run.stdout.decode(errors="replace").replace("\r\n", "\n"))
+    sys.exit(run.returncode)
 
 
 def _windows_python(folder: Path) -> Path:
