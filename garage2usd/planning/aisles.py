@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from garage2usd.config.plan import SarsaParameters
-from garage2usd.native import Float64s, Int8s, Int64s, UInt64s, in_c
+from garage2usd.native import Float64s, Int8s, Int64Cube, Int64s, UInt64s, in_c
 from garage2usd.planning.archive import Archive
 from garage2usd.planning.board import Board
 from garage2usd.planning.ground import Ground
@@ -54,7 +54,7 @@ class Runs(NamedTuple):
     length: Int64s
     ahead: Int64s
     turned: Int64s
-    spines: Int64s
+    spines: Int64Cube
 
 
 def runs_of(ground: Ground) -> Runs:
