@@ -132,7 +132,7 @@ def draw_portals(
                 return result
     reason = (
         f"{len(kinds)} portals at least {site.min_portal_distance_cells} squares apart found no place: "
-        f"{len(eligible)} eligible squares, {best} placed at best, {_diameter(eligible)} squares between the farthest two"
+        f"{len(eligible)} eligible squares, {best} placed at best, {_span(eligible)} squares between the farthest two"
     )
     raise GenerationError("portals", reason, seed=seed, attempts=_RESTARTS)
 
@@ -152,7 +152,7 @@ def _take_spaced(
     return chosen
 
 
-def _diameter(squares: NDArray[np.int64]) -> int:
+def _span(squares: NDArray[np.int64]) -> int:
     """Largest Manhattan distance between two squares: the spread of row + col or of row - col."""
     if len(squares) == 0:
         return 0
