@@ -12,7 +12,7 @@ from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.extras import require
 from garage2usd.common.output import check_file, check_name, drafting, publish_at, staging_folder
-from garage2usd.common.processes import each_in_a_copy, without_collector
+from garage2usd.common.processes import run_in_forks, without_collector
 from garage2usd.common.progress import Progress, silent, unheard
 from garage2usd.config.maps import MapsConfig, ScenarioConfig
 from garage2usd.maps.drives import DrivePlanner
@@ -253,7 +253,7 @@ def export(
             opened.read_for([asked.format for asked in files])
             tasks = [partial(_write, opened, staging / str(number), files[number]) for number in order]
             progress("export", 0, len(files))
-            for number, (written, lines) in zip(order, each_in_a_copy(tasks, workers), strict=True):
+            for number, (written, lines) in zip(order, run_in_forks(tasks, workers), strict=True):
                 drafts[number] = written
                 for line in lines:
                     notice(f"{files[number].place.name}: {line}")
