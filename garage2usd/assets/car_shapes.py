@@ -247,7 +247,8 @@ def _changed(base: SideView, line: tuple[float, float, float, float, float], **c
 def _roof(foot: float, front: float, rear: float, deck: float, drop: float = 0.975) -> tuple[tuple[float, float], ...]:
     """Points of a roof line as shares of length and height.
 
-    These are the windscreen foot, roof front, roof rear and rear window foot; `drop` is the height of the third."""
+    These are the windscreen foot, roof front, roof rear and rear window foot; `drop` is the height of the third.
+    """
     return (foot, 0.0), (front, 1.0), (rear, drop), (deck, 0.0)
 
 

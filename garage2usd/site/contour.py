@@ -36,7 +36,7 @@ def draw_contour(site: SiteConfig, *, seed: int, attempt: int = 0) -> Mask:
 
     Notes
     -----
-    Algorithm 1. Deviation: as printed, rectangles must overlap, without saying which; requiring all pairs fails
+    Algorithm 1. Deviation: the paper requires that rectangles overlap, without saying which; requiring all pairs fails
     for almost every draw of many rectangles. A rectangle is accepted if it overlaps an accepted one by 2 x 2 squares,
     so that the union is connected and at least two squares wide. Deviation: sides are at least three squares, so that a
     portal has a lane and a stall behind it. Deviation: a union that covers less than ``min_fill`` of the squares is
