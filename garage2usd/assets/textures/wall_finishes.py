@@ -44,7 +44,7 @@ def _painted(rng: np.random.Generator) -> Pixels:
 
 
 def _column_painted(rng: np.random.Generator) -> Pixels:
-    """Painted column, 1.35 m around and 4.05 m up from the foot: scraped by bumpers and doors, splashed from the floor."""
+    """Painted column, 1.35 m around, 4.05 m up from the foot: scraped by bumpers and doors, splashed from the floor."""
     shape = 576, 192
     value = _rolled(rng, shape, 142.0)
     above_m = ((shape[0] - 0.5 - np.arange(shape[0])) * (4.05 / shape[0]))[:, None]
