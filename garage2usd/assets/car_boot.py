@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.assets.car_interior import behind_seats_m
-from garage2usd.assets.car_patches import Faces, flat
+from garage2usd.assets.car_patches import Faces, planar_faces
 from garage2usd.assets.car_shapes import SHAPES
 from garage2usd.assets.car_shell import Shell, both_sides, grid_quads
 from garage2usd.assets.cars import car
@@ -137,7 +137,7 @@ def with_open_boot(asset: Asset, body: CarBody) -> Asset:
                 moved.append(_swung(lining, boot))
                 rim.append(_band(edges[:, ::-1], _RIM))
     moved = [replace(part, collider=Collider.CONVEX_HULL) if part.name == "BootBody" else part for part in moved]
-    well = make_part("BootWell", [*np.concatenate(rim), *flat(_well(boot))], "interior_dark", crease_deg=30.0)
+    well = make_part("BootWell", [*np.concatenate(rim), *planar_faces(_well(boot))], "interior_dark", crease_deg=30.0)
     uncut = {id(part) for part in asset.parts}
     parts = [part if id(part) in uncut else with_manifold_points(part) for part in (*kept, *moved, well)]
     return replace(asset, parts=tuple(parts))

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.assets.car_shell import Contour, Shell, both_sides, grid_quads, needed
+from garage2usd.assets.car_shell import Contour, Shell, both_sides, grid_quads, simplified
 from garage2usd.assets.mesh import Face
 
 __all__ = [
@@ -19,7 +19,7 @@ __all__ = [
     "at_x",
     "disc_patch",
     "end_patch",
-    "flat",
+    "planar_faces",
     "ribbon",
     "slab",
 ]
@@ -41,7 +41,7 @@ Row = tuple[float, Place, Place]
 """Height of a row, and its ends."""
 
 
-def flat(quads: Faces) -> list[Face]:
+def planar_faces(quads: Faces) -> list[Face]:
     """Keep planar quads as they are, and split all others into two triangles."""
     a, b, c, d = quads.transpose(1, 0, 2)
     across = np.cross(c - a, d - b)
@@ -108,7 +108,7 @@ def _turns(contour: Contour, first: float, last: float, skin_m: float) -> NDArra
     arcs = contour.arc_at_points(numbers)
     numbers = numbers[(arcs > first + _COLUMN_M) & (arcs < last - _COLUMN_M)]
     arcs = np.array([first, *contour.arc_at_points(numbers), last])
-    kept = needed(arcs, contour.place(arcs, 0.0), skin_m / 4)
+    kept = simplified(arcs, contour.place(arcs, 0.0), skin_m / 4)
     chosen: NDArray[np.int64] = numbers[np.array(kept[1:-1], dtype=int) - 1]
     return chosen
 
@@ -116,7 +116,7 @@ def _turns(contour: Contour, first: float, last: float, skin_m: float) -> NDArra
 def ribbon(shell: Shell, line: Sequence[tuple[float, float]], width_m: float, *, lift_m: float = 0.003) -> Faces:
     """A thin strip on both sides along points of the shell's surface: (metres from the nose, ring point)."""
     places = np.array([shell.surface(s, t) for s, t in line])
-    kept = needed(np.sum(line, axis=1), places, _TURN_TOLERANCE_M)
+    kept = simplified(np.sum(line, axis=1), places, _TURN_TOLERANCE_M)
     places, normals = places[kept], np.array([shell.normal(*line[i]) for i in kept])
     across = np.cross(np.gradient(places, axis=0), normals)
     across *= width_m / 2 / np.linalg.norm(across, axis=1, keepdims=True)

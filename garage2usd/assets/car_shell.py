@@ -10,7 +10,7 @@ from garage2usd.assets.car_shapes import SideView
 from garage2usd.assets.monotone_curve import MonotoneCurve
 from garage2usd.config.vehicles import CarBody
 
-__all__ = ["Contour", "Shell", "both_sides", "grid_quads", "needed"]
+__all__ = ["Contour", "Shell", "both_sides", "grid_quads", "simplified"]
 
 _ARCH_GAP_M = 0.045
 _ARCH_STEPS = 9
@@ -222,13 +222,13 @@ class Shell:
         # doors need fewer stations than the windows above them
         middle = np.flatnonzero((self.stations >= self.cowl) & (self.stations <= self.deck))
         side = self.points[middle, _SILL : _BELT + 1]
-        doors = side[needed(self.stations[middle], side.reshape(len(side), -1), _SIDE_TOLERANCE_M)]
+        doors = side[simplified(self.stations[middle], side.reshape(len(side), -1), _SIDE_TOLERANCE_M)]
         kinds[middle[0] : middle[-1], _SILL:_BELT] = ""
         found = {kind: quads[kinds == kind] for kind in ("body", "cabin", "glass", "rear_glass", "pillar")}
         caps = [grid_quads(cap).reshape(-1, 4, 3) for cap in self._caps.values()]
         found["body"] = np.concatenate([found["body"], grid_quads(doors).reshape(-1, 4, 3), caps[0], caps[1][:, ::-1]])
         pan = self.points[:, : _SILL + 1]
-        kept = needed(self.stations, pan.reshape(len(pan), -1), _PAN_TOLERANCE_M)
+        kept = simplified(self.stations, pan.reshape(len(pan), -1), _PAN_TOLERANCE_M)
         found["under"] = grid_quads(pan[kept]).reshape(-1, 4, 3)
         return {kind: both_sides(faces) for kind, faces in found.items()}
 
@@ -391,7 +391,7 @@ def both_sides(quads: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.concatenate([quads, (quads * (-1.0, 1.0, 1.0))[:, back]])
 
 
-def needed(at: NDArray[np.float64], rows: NDArray[np.float64], tolerance: float) -> list[int]:
+def simplified(at: NDArray[np.float64], rows: NDArray[np.float64], tolerance: float) -> list[int]:
     """Simplify a polyline of rows: indices of the rows that approximate all others within a tolerance.
 
     Uses the Ramer-Douglas-Peucker algorithm (1972).

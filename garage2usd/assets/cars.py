@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from garage2usd.assets.car_interior import interior
 from garage2usd.assets.car_lamps import head_lamps, tail_lamps
-from garage2usd.assets.car_patches import Faces, flat, ribbon, slab
+from garage2usd.assets.car_patches import Faces, planar_faces, ribbon, slab
 from garage2usd.assets.car_shapes import SHAPES
-from garage2usd.assets.car_shell import Shell, both_sides, grid_quads, needed
+from garage2usd.assets.car_shell import Shell, both_sides, grid_quads, simplified
 from garage2usd.assets.car_trim import PLATE_M, bright_trim, end_trim, front_plate_m, rear_plate_m
 from garage2usd.assets.car_wheels import wheels
 from garage2usd.assets.faces import box_faces, lathe_faces
@@ -48,29 +48,31 @@ def car(body: CarBody) -> Asset:
     roof = "soft_top" if shape.soft_top else "car_paint"
     lips = "trim_black" if shape.clad else "car_paint"
     parts = [
-        make_part("Body", flat(regions["body"]), "car_paint", collider=Collider.CONVEX_HULL, crease_deg=32),
-        make_part("Cabin", flat(regions["cabin"]), roof, collider=Collider.CONVEX_HULL, crease_deg=40),
-        make_part("Glass", flat(regions["glass"]), "glass", crease_deg=38),
-        make_part("Pillars", flat(regions["pillar"]), "trim_black", crease_deg=38),
-        make_part("Underbody", flat(regions["under"]), "trim_black"),
-        make_part("HeadLamps", flat(head.lights), "lamp_front", crease_deg=50),
-        make_part("TailLamps", flat(tail.lenses), "lamp_rear", crease_deg=50),
-        make_part("ReverseLamps", flat(tail.reverse), "lamp_front", crease_deg=50),
-        make_part("LampHousings", flat(np.concatenate([head.housings, tail.housings])), "lamp_housing", crease_deg=50),
-        make_part("Trim", flat(end_trim(shell)), "trim_black"),
-        make_part("Bright", flat(np.concatenate([head.bezels, bright_trim(shell)])), "chrome"),
-        make_part("Arches", flat(_arch_lips(shell)), lips, crease_deg=50),
-        make_part("Seams", flat(_seams(shell)), "trim_black"),
-        make_part("Handles", flat(_handles(shell)), "car_paint"),
-        make_part("Mirrors", flat(_mirrors(shell)), "car_paint", crease_deg=50),
+        make_part("Body", planar_faces(regions["body"]), "car_paint", collider=Collider.CONVEX_HULL, crease_deg=32),
+        make_part("Cabin", planar_faces(regions["cabin"]), roof, collider=Collider.CONVEX_HULL, crease_deg=40),
+        make_part("Glass", planar_faces(regions["glass"]), "glass", crease_deg=38),
+        make_part("Pillars", planar_faces(regions["pillar"]), "trim_black", crease_deg=38),
+        make_part("Underbody", planar_faces(regions["under"]), "trim_black"),
+        make_part("HeadLamps", planar_faces(head.lights), "lamp_front", crease_deg=50),
+        make_part("TailLamps", planar_faces(tail.lenses), "lamp_rear", crease_deg=50),
+        make_part("ReverseLamps", planar_faces(tail.reverse), "lamp_front", crease_deg=50),
+        make_part(
+            "LampHousings", planar_faces(np.concatenate([head.housings, tail.housings])), "lamp_housing", crease_deg=50
+        ),
+        make_part("Trim", planar_faces(end_trim(shell)), "trim_black"),
+        make_part("Bright", planar_faces(np.concatenate([head.bezels, bright_trim(shell)])), "chrome"),
+        make_part("Arches", planar_faces(_arch_lips(shell)), lips, crease_deg=50),
+        make_part("Seams", planar_faces(_seams(shell)), "trim_black"),
+        make_part("Handles", planar_faces(_handles(shell)), "car_paint"),
+        make_part("Mirrors", planar_faces(_mirrors(shell)), "car_paint", crease_deg=50),
         *interior(shell),
         *_plate_holders(shell),
         *wheels(body, shape.rim),
     ]
     if len(regions["rear_glass"]):
-        parts.append(make_part("RearGlass", flat(regions["rear_glass"]), "glass_dark", crease_deg=38))
+        parts.append(make_part("RearGlass", planar_faces(regions["rear_glass"]), "glass_dark", crease_deg=38))
     if shape.spoiler:
-        parts.append(make_part("Spoiler", flat(_spoiler(shell)), "car_paint", crease_deg=50))
+        parts.append(make_part("Spoiler", planar_faces(_spoiler(shell)), "car_paint", crease_deg=50))
     return Asset(tuple(parts), paints={paint: f"car_paint_{paint}" for paint in PAINTS})
 
 
@@ -79,7 +81,7 @@ def dusty(asset: Asset, body: CarBody) -> Asset:
     shell = Shell(body, SHAPES[body.name])
     stations = np.flatnonzero((shell.stations > _CLEAN_END_M) & (shell.stations < body.length_m - _CLEAN_END_M))
     side = shell.points[stations, _DUST_POINTS]
-    kept = needed(shell.stations[stations], side.reshape(len(side), -1), _DUST_TOLERANCE_M)
+    kept = simplified(shell.stations[stations], side.reshape(len(side), -1), _DUST_TOLERANCE_M)
     faces = grid_quads(side[kept] + np.array((_DUST_LIFT_M, 0.0, 0.0))).reshape(-1, 4, 3)
 
     def project(corners: NDArray[np.float64], _normals: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -88,7 +90,7 @@ def dusty(asset: Asset, body: CarBody) -> Asset:
         high = np.clip(corners[:, 1] - shell.shape.clearance_m, 0.01, most)
         return np.stack([corners[:, 2], high], axis=1)
 
-    part = make_part("Dust", flat(both_sides(faces)), "road_dust", crease_deg=50, project=project)
+    part = make_part("Dust", planar_faces(both_sides(faces)), "road_dust", crease_deg=50, project=project)
     return replace(asset, parts=(*asset.parts, part))
 
 

@@ -87,7 +87,7 @@ class Core:
         return self.edge.along_x
 
     def beside_m(self, half_m: float) -> float:
-        """Centre of the free part beside the core along its edge, from the square's centre; `half_m` is half the side."""
+        """Centre of the free part beside the core along its edge, from the square's centre; `half_m` is half a side."""
         side = 1 if self.along_m < 0 else -1
         return round((self.along_m + side * (self.width_m / 2 + half_m)) / 2, 6)
 

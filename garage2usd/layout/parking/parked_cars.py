@@ -140,7 +140,7 @@ class _Row:
         car = self.cars[number]
         free_m = max(self.width_m / 2 - _LINE_M - car.half_x(mirrors=False), 0.0)
         walled_m = max(self.width_m / 2 - _ROW_END_M - car.half_x(), 0.0)
-        return -(free_m if self.yields_width(number - 1) else walled_m), free_m if self.is_lent(
+        return -(free_m if self.yields_width(number - 1) else walled_m), free_m if self.yields_width(
             number + 1
         ) else walled_m
 
@@ -334,7 +334,7 @@ def _lean_over(
         return found
 
     misparking = chance(parking.misparked, sum(bool(row.free_beside(n)) for row in rows for n in row.numbers))
-    able = sum(row.yields_width(n - 1) or row.is_lent(n + 1) for row in rows for n in row.numbers)
+    able = sum(row.yields_width(n - 1) or row.yields_width(n + 1) for row in rows for n in row.numbers)
     leaning = chance(parking.over_line, able)
     for row in rows:
         for number in row.numbers:
