@@ -101,7 +101,7 @@ def _both(plane: _Plane) -> tuple[_Plane, _Plane]:
 
 
 def has_boot(body: CarBody) -> bool:
-    """Whether a body of the catalogue has a tailgate or a boot lid; pickups and panel vans have neither."""
+    """True if a body of the catalogue has a tailgate or a boot lid; pickups and panel vans have neither."""
     shape = SHAPES[body.name]
     return shape.bed is None and shape.glass_until is None
 

@@ -138,7 +138,7 @@ _STROKES: dict[str, tuple[Stroke, ...]] = {
 
 
 def is_han(text: str) -> bool:
-    """Whether a text consists only of the Chinese characters of this module."""
+    """True if a text consists only of the Chinese characters of this module."""
     return bool(text) and all(character in _STROKES for character in text)
 
 

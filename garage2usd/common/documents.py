@@ -43,7 +43,7 @@ MAX_REPORT_BYTES = 512 * 1024 * 1024
 
 
 def is_file(path: Path) -> bool:
-    """Whether a path is a regular file; also False for names that no file can have, for which `pathlib` raises."""
+    """True if a path is a regular file; also False for names that no file can have, for which `pathlib` raises."""
     return os.path.isfile(path)  # noqa: PTH113
 
 

@@ -45,7 +45,7 @@ _UNSPEAKABLE_BY_USD = "@\\"
 
 
 def can_say(path: str | Path) -> bool:
-    """Whether USD and text formats can store a path: valid UTF-8 without control characters."""
+    """True if USD and text formats can store a path: valid UTF-8 without control characters."""
     return _UNSPEAKABLE.search(str(path)) is None
 
 

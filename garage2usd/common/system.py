@@ -82,12 +82,12 @@ def in_words() -> str:
 
 
 def can_be_copied() -> bool:
-    """Whether this process can be forked, which requires a single thread; known on Linux only."""
+    """True if this process can be forked, which requires a single thread; known on Linux only."""
     return sys.platform == "linux" and _THREADS.is_dir() and len(list(_THREADS.iterdir())) == 1
 
 
 def is_console(descriptor: int) -> bool:
-    """Whether text for this descriptor goes to a Windows console, which does not accept UTF-8 bytes."""
+    """True if text for this descriptor goes to a Windows console, which does not accept UTF-8 bytes."""
     return sys.platform == "win32" and os.isatty(descriptor)
 
 

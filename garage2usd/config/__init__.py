@@ -108,7 +108,7 @@ class GarageConfig(Settings):
 
     @property
     def names_files(self) -> bool:
-        """Whether S, R or C are to be read from files, as `load_config` does."""
+        """True if S, R or C are to be read from files, as `load_config` does."""
         bay = self.bay
         return any(file is not None for file in (self.site.structure_file, bay.column_widths_file, bay.row_depths_file))
 

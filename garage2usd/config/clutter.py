@@ -74,5 +74,5 @@ class ClutterConfig(Settings):
 
     @property
     def is_any(self) -> bool:
-        """Whether any count is greater than 0."""
+        """True if any count is greater than 0."""
         return any(self.per_hundred(what) > 0 for what in _USUAL)

@@ -27,7 +27,7 @@ _MATRICES = (
 
 
 def is_array_file(path: Path) -> bool:
-    """Whether a file is a NumPy array, judged by its extension."""
+    """True if a file is a NumPy array, judged by its extension."""
     return path.suffix.lower() in ARRAY_SUFFIXES
 
 

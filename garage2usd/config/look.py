@@ -340,7 +340,7 @@ class WallsLook(Settings):
 
     @property
     def has_stripe(self) -> bool:
-        """Whether a yellow stripe runs above the painted band; only with the 'natural' one."""
+        """True if a yellow stripe runs above the painted band; only with the 'natural' one."""
         return self.dado == NATURAL
 
 

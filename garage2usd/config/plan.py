@@ -83,7 +83,7 @@ class UnreachableStalls(StrEnum):
 
     @property
     def are_proven(self) -> bool:
-        """Whether every stall is proven."""
+        """True if every stall is proven."""
         return self in {UnreachableStalls.MARK, UnreachableStalls.DROP}
 
 
@@ -271,7 +271,7 @@ class PlanConfig(Settings):
 
     @property
     def polishes(self) -> bool:
-        """Whether plans are improved by hill climbing after learning."""
+        """True if plans are improved by hill climbing after learning."""
         return self.preset != "paper" if self.climb is None else self.climb
 
     @property

@@ -151,7 +151,7 @@ class BayConfig(Settings):
 
     @property
     def chosen_sides(self) -> tuple[bool, bool]:
-        """Whether C (depths of the rows) and R (widths of the columns) are chosen with the plan."""
+        """True for C (row depths), and for R (column widths), if they are chosen with the plan."""
         return self.dimensioned and self.row_depths_m is None, self.dimensioned and self.column_widths_m is None
 
     @model_validator(mode="after")

@@ -78,5 +78,5 @@ class StageConfig(Settings):
         return str(path)
 
     def is_nested(self, squares: int) -> bool:
-        """Whether equal squares share a prototype in a garage of `squares` squares."""
+        """True if equal squares share a prototype in a garage of `squares` squares."""
         return self.form is StageForm.NESTED or (self.form is StageForm.AUTO and squares >= _NESTED_FROM_SQUARES)

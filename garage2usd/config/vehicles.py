@@ -79,7 +79,7 @@ class CarBody:
         return self.ahead_m - self.length_m / 2
 
     def fits(self, width_m: float, length_m: float, height_m: float = math.inf) -> bool:
-        """Whether the car with its mirrors fits a box of these measures in metres."""
+        """True if the car with its mirrors fits a box of these measures in metres."""
         return self.overall_width_m <= width_m and self.length_m <= length_m and self.height_m <= height_m
 
     def half_extents_m(self, yaw_rad: float, *, width_m: float | None = None) -> tuple[float, float]:

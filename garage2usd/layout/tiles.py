@@ -83,7 +83,7 @@ class Tile:
 
     @property
     def axis_is_x(self) -> bool | None:
-        """Whether a straight lane runs along X; None for bends and junctions."""
+        """True if a straight lane runs along X; None for bends and junctions."""
         up, down, left, right = self.drivable
         if (left or right) and not (up or down):
             return True
@@ -158,12 +158,12 @@ class TileGrid:
         return self.tiles.get(square)
 
     def has_upright_stalls(self, square: Square) -> bool:
-        """Whether a square has stalls, and all of them are perpendicular."""
+        """True if a square has stalls, and all of them are perpendicular."""
         places = self.stall_places.get(square, ())
         return bool(places) and all(place.row.shape.kind is StallKind.PERPENDICULAR for place in places)
 
     def is_bare(self, tile: Tile) -> bool:
-        """Whether a tile is free, and neither its own stalls nor angled stalls of adjacent tiles cover it."""
+        """True if a tile is free, and neither its own stalls nor angled stalls of adjacent tiles cover it."""
         return tile.cell is Cell.FREE and not self.stall_places.get(tile.square) and not self.openings(tile)
 
     def openings(self, tile: Tile) -> tuple[Polygon, ...]:

@@ -34,7 +34,7 @@ PROFILE_NAMES = ("cn-jgj100", "de-garvo", "uk-istructe", "us-ada")
 
 
 def is_profile_file(name: str) -> bool:
-    """Whether a profile is given by the path of a file instead of a name."""
+    """True if a profile is given by the path of a file instead of a name."""
     return name not in PROFILE_NAMES and (name.lower().endswith(".toml") or "/" in name or "\\" in name)
 
 

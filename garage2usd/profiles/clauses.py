@@ -55,7 +55,7 @@ class Clause(Settings):
     confidence: Confidence
     """'high': several sources agree, 'medium': one or two, 'low': a weak one."""
     verified: bool = False
-    """Whether the value was read in the original text of the source instead of a secondary one."""
+    """True if the value was read in the original text of the source instead of a secondary one."""
     severity: Severity = Severity.ERROR
     """'error', 'warning' or 'info': severity of a violation."""
     text: str = Field("", max_length=2000)

@@ -159,7 +159,7 @@ class Profile(Settings):
 
     @property
     def drives_on_left(self) -> bool:
-        """Whether traffic in the profile's country keeps to the left."""
+        """True if traffic in the profile's country keeps to the left."""
         return self.country in _LEFT_HAND_TRAFFIC
 
     @property

@@ -66,7 +66,7 @@ def outer_squares(cells: CellArray) -> Mask:
 
 
 def free_squares_connected(cells: CellArray) -> bool:
-    """Whether the free squares form one 4-connected piece and every portal touches it."""
+    """True if the free squares form one 4-connected piece and every portal touches it."""
     free = cells == Cell.FREE
     _, count = pieces_of(free)
     portal = (cells == Cell.ENTRANCE) | (cells == Cell.EXIT)

@@ -44,7 +44,7 @@ def with_room_for_ramps(cells: CellArray, squares: int) -> Mask:
 
 
 def are_apart(cells: CellArray, squares: int) -> bool:
-    """Whether no two ramps of a matrix share a square."""
+    """True if no two ramps of a matrix share a square."""
     taken: set[Square] = set()
     for portal in door_edges(cells):
         ray = set(_ray(cells, portal, squares))

@@ -167,7 +167,7 @@ def mirrors(
 
 
 def _is_blind(edge: Edge, tile: Tile, grid: TileGrid) -> bool:
-    """Whether a driver who enters over an edge sees a side lane only from inside the square."""
+    """True if a driver who enters over an edge sees a side lane only from inside the square."""
     between = (grid.neighbour(tile, edge, side) for side in edge.ends if tile.drivable[side])
     return any(other is None or other.cell is Cell.FREE for other in between)
 

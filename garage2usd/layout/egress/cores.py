@@ -83,7 +83,7 @@ class Core:
 
     @property
     def along_x(self) -> bool:
-        """Whether the edge that its door faces runs along X."""
+        """True if the edge that its door faces runs along X."""
         return self.edge.along_x
 
     def beside_m(self, half_m: float) -> float:

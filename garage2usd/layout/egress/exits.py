@@ -189,6 +189,6 @@ def _places_by_compartment(
 
 
 def _is_straight(graph: LaneSquares, lane: Square, edge: Edge) -> bool:
-    """Whether cars drive over a lane square parallel to an edge of it, and not across that edge."""
+    """True if cars drive over a lane square parallel to an edge of it, and not across that edge."""
     joined = set(graph.graph[lane])
     return bool(joined) and joined <= {end.beyond(lane) for end in edge.ends}

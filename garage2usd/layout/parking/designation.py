@@ -125,7 +125,7 @@ def _access_aisle(index: int, stalls: tuple[PlacedStall, ...], uses: list[StallU
 
 
 def _is_standard_beside(index: int, other: int, stalls: tuple[PlacedStall, ...], uses: list[StallUse]) -> bool:
-    """Whether `other` is a standard stall in the same row and adjacent to the stall at an index."""
+    """True if `other` is a standard stall in the same row and adjacent to the stall at an index."""
     if not 0 <= other < len(stalls) or uses[other] is not StallUse.STANDARD:
         return False
     first, second = stalls[index], stalls[other]

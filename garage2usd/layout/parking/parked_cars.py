@@ -126,7 +126,7 @@ class _Row:
         self.misparked: set[int] = set()
 
     def yields_width(self, number: int) -> bool:
-        """Whether a stall exists whose car can leave some of its width to the next one."""
+        """True if a stall exists whose car can leave some of its width to the next one."""
         inside = 0 <= number < len(self.stalls)
         return inside and self.stalls[number].use in {StallUse.STANDARD, StallUse.EV} and not self.is_tight
 

@@ -68,7 +68,7 @@ class StallTable(Table[PlacedStall]):
 
     @property
     def takes_cars(self) -> NDArray[np.bool_]:
-        """Whether cars park in each stall; bool, shape (n,)."""
+        """True if cars park in each stall; bool, shape (n,)."""
         return np.array([use.takes_cars for use in STALL_USES])[self.use]
 
     @property

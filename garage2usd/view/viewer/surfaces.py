@@ -48,7 +48,7 @@ class ShownSurface(NamedTuple):
 
     @property
     def is_blended(self) -> bool:
-        """Whether the surface is translucent."""
+        """True if the surface is translucent."""
         return self.has_alpha or self.opacity < 1
 
 
