@@ -40,7 +40,7 @@ _RULES_NAMED = 3
     "--with",
     "formats",
     metavar="FORMAT,...",
-    help="Export the stage as well, beside it: glb, osm, xodr, xosc, yaml, several with commas; see "
+    help="Export the stage as well, beside it: add.xml, glb, osm, xodr, xosc, yaml, several with commas; see "
     "`garage2usd export`.",
 )
 @click.option(

@@ -21,9 +21,10 @@ __all__ = ["export"]
     type=click.Path(path_type=Path),
     multiple=True,
     required=True,
-    help="A file: .glb for a scene, .osm for a Lanelet2 map, .xodr for an OpenDRIVE map, .xosc for an OpenSCENARIO "
-    "scenario with the map it names beside it, .yaml for a robot's occupancy grid with its picture beside it, and the "
-    "masks that maps.grid asks for; may be repeated.",
+    help="A file: .add.xml for the stalls as parking areas of SUMO with the map of their network beside it, .glb for a "
+    "scene, .osm for a Lanelet2 map, .xodr for an OpenDRIVE map, .xosc for an OpenSCENARIO scenario with the map it "
+    "names beside it, .yaml for a robot's occupancy grid with its picture beside it, and the masks that maps.grid asks "
+    "for; may be repeated.",
 )
 @click.option(
     "--config",
@@ -54,7 +55,7 @@ def export(
     PATH is a stage, also one that other tools have edited, which is exported as it stands; or the report of a build,
     whose garage is made again.
 
-    What a scene cannot say of a stage, such as lights with an area, is named on standard error and left out.
+    What a format cannot say of a stage, such as lights with an area, is named on standard error and left out.
 
     The car of a scenario drives from an entrance to a stall, parks, and drives to an exit, as `garage2usd drive
     --stall` has it. Its options, one or more, stand in place of the whole section maps.scenario of the configuration.

@@ -6,7 +6,7 @@ from pydantic import Field, ValidationInfo, field_validator
 
 from garage2usd.common.settings import Settings
 
-__all__ = ["DriveConfig", "GridConfig", "Leg", "MapsConfig", "ScenarioConfig"]
+__all__ = ["DriveConfig", "GridConfig", "Leg", "MapsConfig", "ParkingAreas", "ScenarioConfig", "SumoConfig"]
 
 
 class Leg(StrEnum):
@@ -15,6 +15,17 @@ class Leg(StrEnum):
     BOTH = "both"
     IN = "in"
     OUT = "out"
+
+
+class ParkingAreas(StrEnum):
+    """Which stalls are one parking area of SUMO."""
+
+    BAY = "bay"
+    """Those before one lane node: vehicles stop close to their space."""
+    ROW = "row"
+    """All along a lane from one junction to the next."""
+    STALL = "stall"
+    """Each by itself, so that a vehicle can be sent to a certain stall."""
 
 
 class GridConfig(Settings):
@@ -72,6 +83,16 @@ class ScenarioConfig(Settings):
     """Whether the car comes (``"in"``), leaves (``"out"``), or comes, parks and leaves (``"both"``)."""
 
 
+class SumoConfig(Settings):
+    """The parking areas of SUMO."""
+
+    areas: ParkingAreas = ParkingAreas.BAY
+    """Which stalls are one parking area: of a bay (``"bay"``), of a row (``"row"``), or each stall (``"stall"``)."""
+    badges: bool = True
+    """Whether only vehicles with the badge of its use (attribute ``parkingBadges``) may park in an accessible or EV
+    stall."""
+
+
 class MapsConfig(Settings):
     """Maps, scenarios and grids that are made of the stage."""
 
@@ -87,3 +108,5 @@ class MapsConfig(Settings):
     """How the car of scenarios drives."""
     scenario: ScenarioConfig = ScenarioConfig()
     """What it drives."""
+    sumo: SumoConfig = SumoConfig()
+    """The parking areas of SUMO."""
