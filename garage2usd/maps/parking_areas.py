@@ -20,7 +20,7 @@ __all__ = ["NETWORK_SUFFIX", "write_parking_areas"]
 
 NETWORK_SUFFIX = ".netccfg"
 """End of the name of netconvert's configuration."""
-_BADGES = {StallUse.ACCESSIBLE: "accessible", StallUse.EV: "ev"}
+_BADGES = {StallUse.ACCESSIBLE: "accessible", StallUse.EV: "ev", StallUse.MOTORCYCLE: "motorcycle"}
 """Badge of the vehicles that may park in stalls of a use."""
 _AREA_M = 1.0
 """Least length of a parking area along its lane, where the lane is as long."""
@@ -70,10 +70,10 @@ def write_parking_areas(
     """
     network = network or network_of(garage)
     lanes = ParkingLanes(network)
-    parking = [stall for stall in garage.stalls if stall.takes_cars]
+    parking = [stall for stall in garage.stalls if stall.is_parked_in]
     for stall in garage.stalls:
-        if not stall.takes_cars:
-            remarks.add("stalls where no car parks are left out", stall.name)
+        if not stall.is_parked_in:
+            remarks.add("stalls where nobody parks are left out", stall.name)
     spaces = []
     for stall in parking:
         space = lanes.space_of(stall)

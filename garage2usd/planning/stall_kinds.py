@@ -216,6 +216,9 @@ def _shape(config: GarageConfig, kind: StallKind, size: SizeClass, angle_deg: fl
     if size is SizeClass.COMPACT and size not in stalls.sizes_m:
         width_m = max(width_m, _rounded_up_m(profile.compact_stall_width))
         length_m = max(length_m, _rounded_up_m(profile.compact_stall_length))
+    if size is SizeClass.MOTORCYCLE and size not in stalls.sizes_m:
+        width_m = max(width_m, _rounded_up_m(profile.motorcycle_stall_width))
+        length_m = max(length_m, _rounded_up_m(profile.motorcycle_stall_length))
     if kind is StallKind.PARALLEL:
         longer_m = length_m - bay.stall_length_m
         standard_m = stalls.parallel_length_m or _rounded_up_m(profile.parallel_stall_length) or _PARALLEL_LENGTH_M
@@ -303,7 +306,7 @@ class _Fitting:
         shapes = {
             run.shape
             for run in (self._runs[number] for number in self._of_line[axis, line])
-            if run.edge.along_x != (axis == 0)
+            if run.edge.along_x != (axis == 0) and SizeClass(run.shape.size).takes_cars
         }
         # parallel stalls alone would ask for spans that no other row needs
         spanned = {shape for shape in shapes if shape.kind is not StallKind.PARALLEL} or shapes

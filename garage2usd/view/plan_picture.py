@@ -29,6 +29,7 @@ STALL_COLOUR: dict[StallUse, Colour] = {
     StallUse.ACCESS_AISLE: (232, 226, 196),
     StallUse.TURNING: (240, 212, 140),
     StallUse.UNREACHABLE: (226, 178, 170),
+    StallUse.MOTORCYCLE: (222, 206, 238),
 }
 _STALL_WORDS = {
     StallUse.STANDARD: "stall",
@@ -105,11 +106,14 @@ def _legend(layout: Layout, found: MeasuredCirculation, *, with_route: bool) -> 
     entries = lane_legend(layout, found)
     entries += [(STALL_COLOUR[use], _stall_words(use)) for use in StallUse if use in uses]
     entries += [(_CAR, "parked car")] if counts["car"] else []
+    motorbikes = len(layout.parked_motorbikes())
+    entries += [(_CAR, "parked motorcycle")] if motorbikes and not counts["car"] else []
     entries += [(FREE, "free")]
     entries += [(RAMP, "ramp")] if counts["ramp"] else []
     entries += [(SOLID, "obstacle")] if counts["obstacle"] else []
     entries += [(_ON_FOOT, "door of a stair core")] if layout.cores else []
-    entries += [(_STANDING, "people and things")] if any(counts[kind.name] for kind in _CLUTTER) else []
+    standing = sum(counts[kind.name] for kind in _CLUTTER) - motorbikes
+    entries += [(_STANDING, "people and things")] if standing else []
     entries += [(INK, "column, wall")]
     return entries + ([(_IN, "way in"), (_OUT, "way out")] if with_route else [])
 
@@ -120,9 +124,10 @@ def _stall_words(use: StallUse) -> str:
 
 def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
     cars = {car.stall: car for car in layout.of_kind("car")}
+    taken = {*cars, *(place.stall for place in layout.of_kind("motorbike") if place.square is not None)}
     for stall in layout.quads:
         corners = stall.corners
-        said = " blocked" if stall.blocked_by else " occupied" if stall.name in cars else ""
+        said = " blocked" if stall.blocked_by else " occupied" if stall.name in taken else ""
         kind = f"stall {stall.use}{said}"
         yield Region(corners, STALL_COLOUR[stall.use], kind, stall.name)
         yield Line([corners[0], corners[3], corners[2], corners[1]], PAPER, LINE_M)
@@ -139,7 +144,8 @@ def _clutter(layout: Layout) -> Iterator[Region]:
     """People and things that stand about."""
     for kind in _CLUTTER:
         for place in layout.of_kind(kind.name):
-            yield from (Region(outline, _STANDING, kind.name, place.name) for outline in place.outlines())
+            colour = _STANDING if place.square is None else _CAR
+            yield from (Region(outline, colour, kind.name, place.name) for outline in place.outlines())
 
 
 def _car_outline(car: Placement, body: CarBody) -> list[Point]:

@@ -195,7 +195,7 @@ def test_occupied_stalls_and_those_left_out_are_named(mixed, builds, tmp_path):
     hatched = [name for name, stall in sumo.judged.lanes.stalls.items() if stall["use"] not in CARS]
     assert hatched
     (line,) = sumo.heard
-    assert line.startswith(f"g.add.xml: stalls where no car parks are left out ({len(hatched)}): ")
+    assert line.startswith(f"g.add.xml: stalls where nobody parks are left out ({len(hatched)}): ")
     assert hatched[0] in line
     for each in (sumo, mixed):
         occupied = [area.find("param[@key='occupied']").get("value").split() for area in each.elements.values()]
