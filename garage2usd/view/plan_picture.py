@@ -137,7 +137,13 @@ def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
         for car in cars.values()
         if isinstance(car.spec, CarSpec)
     )
-    yield from (_number(stall, str(stall.number)) for stall in layout.quads if stall.number)
+    yield from (_number(stall, _short_number(stall)) for stall in layout.quads if stall.number)
+
+
+def _short_number(stall: Stall) -> str:
+    """The number of a stall, without its zone where it would reach into the next stall."""
+    number = str(stall.number)
+    return number.rpartition("-")[2] if stall.use is StallUse.MOTORCYCLE else number
 
 
 def _clutter(layout: Layout) -> Iterator[Region]:
