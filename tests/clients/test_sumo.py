@@ -20,8 +20,9 @@ NEAR_M, NEAR_DEG = 2e-3, 0.02
 STOPS_WITHIN_M = 1.0
 QUICK = [sample for sample in SAMPLES if sample.stem not in {"large_20x30", "looks"}]
 MIXED = REPOSITORY / "samples/mixed_stalls.toml"
-BADGES = {"accessible": "accessible", "ev": "ev"}
+BADGES = {"accessible": "accessible", "ev": "ev", "motorcycle": "motorcycle"}
 CARS = {"standard", *BADGES}
+SITE = {"width_cells": 7, "height_cells": 6}
 
 
 class Sumo:
@@ -134,6 +135,15 @@ def mixed(builds, tmp_path_factory):
 @pytest.mark.parametrize("sample", QUICK, ids=lambda path: path.stem)
 def test_vehicles_park_in_every_stall(sample, builds, tmp_path):
     assert list(Sumo(builds(sample, "usdc").stage, tmp_path).complaints()) == []
+
+
+def test_vehicles_with_a_badge_park_in_the_stalls_for_motorcycles(tmp_path):
+    sizes = {"standard": 0.7, "motorcycle": 0.3}
+    config = garage2usd.GarageConfig(seed=2, site=SITE, plan={"episodes": 100}, stalls={"sizes": sizes})
+    sumo = Sumo(garage2usd.build(config, tmp_path / "g.usdc").stage, tmp_path)
+    badges = [area.get("acceptedBadges") for area in sumo.elements.values()]
+    assert badges.count("motorcycle") > 1
+    assert list(sumo.complaints()) == []
 
 
 @pytest.mark.parametrize("areas", ["row", "stall"])
