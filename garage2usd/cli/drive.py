@@ -58,8 +58,8 @@ def drive(
 
     PATH is a configuration, and the garage the one that `build` makes of it and the seed; or a stage, also one that
     other tools have edited, or the report of a build. Without PATH it is the default garage. The car is 4.8 x 1.8 m
-    with a turning radius of 6 m. Access aisles and stalls for turning hold no car and are left out. Stalls without ways
-    are named with what is in the way, and the exit code is 1.
+    with a turning radius of 6 m. Access aisles and stalls for turning hold no car and are left out, and so are stalls
+    for motorcycles. Stalls without ways are named with what is in the way, and the exit code is 1.
 
     With --stall the car drives the whole way, on ramps and lanes as well, as fast as the settings `maps.drive` allow:
     those of PATH where it is a configuration or a report, else the defaults. Gates open to it.

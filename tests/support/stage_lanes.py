@@ -54,7 +54,7 @@ class JudgedStage:
 
     @cached_property
     def taken(self):
-        """Ids of the stalls in which the origin of a vehicle lies, by the table of labels and pxr, and of blocked ones."""
+        """Ids of stalls in which the origin of a vehicle lies, by the table of labels and pxr, and of blocked ones."""
         cars = [thing["path"] for thing in self.labelled if thing["class"] in {"car", "motorbike"}]
         places = UsdGeom.XformCache()
         at = [places.GetLocalToWorldTransform(self.stage.GetPrimAtPath(path)).ExtractTranslation() for path in cars]
