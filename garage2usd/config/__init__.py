@@ -46,6 +46,8 @@ __all__ = [
 
 _DIRECTIONS = ("aisles", "one_way_share", "one_way")
 """Settings of the plan that came after its digest."""
+_LATER_CLAUSES = ("motorcycle_stall_width", "motorcycle_stall_length")
+"""Clauses of profiles likewise."""
 
 
 class GarageConfig(Settings):
@@ -128,6 +130,8 @@ class GarageConfig(Settings):
             excluded["stalls"] = True
         if all(getattr(self.plan, name) == PlanConfig.model_fields[name].default for name in _DIRECTIONS):
             excluded["plan"] = set(_DIRECTIONS)
+        if isinstance(self.profile, Profile):
+            excluded["profile"] = {name for name in _LATER_CLAUSES if getattr(self.profile, name) is None}
         settings = self.model_dump(mode="json", exclude=excluded)
         canonical = json.dumps(settings, sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(canonical.encode()).hexdigest()
