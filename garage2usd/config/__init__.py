@@ -128,6 +128,8 @@ class GarageConfig(Settings):
         excluded: dict[str, Any] = {"maps": True, "look": of_look, "vehicles": of_vehicles}
         if self.stalls == StallsConfig():  # likewise
             excluded["stalls"] = True
+        if not self.bay.column_setback_m:
+            excluded["bay"] = {"column_setback_m"}
         if all(getattr(self.plan, name) == PlanConfig.model_fields[name].default for name in _DIRECTIONS):
             excluded["plan"] = set(_DIRECTIONS)
         if isinstance(self.profile, Profile):

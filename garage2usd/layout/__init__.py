@@ -47,7 +47,7 @@ from garage2usd.layout.parking.tight import tight_stalls
 from garage2usd.layout.parking.zones import Zones, with_numbers
 from garage2usd.layout.placement import PlacedStall, Placement
 from garage2usd.layout.shell.boards import with_boards
-from garage2usd.layout.shell.building import columns, ground_inside, outer_walls
+from garage2usd.layout.shell.building import columns, corner_columns, ground_inside, outer_walls
 from garage2usd.layout.shell.mounts import mounted_objects
 from garage2usd.layout.shell.ramps import barriers, ramp_lights, with_ramps
 from garage2usd.layout.shell.zone_plates import zone_plates
@@ -233,6 +233,10 @@ class Layout:
         told[0] += f"; {for_motorcycles} for motorcycles" if for_motorcycles else ""
         return "; kept free: ".join(filter(None, told))
 
+    def columns_at_mouths(self) -> tuple[str, ...]:
+        """Names of the columns on corners between stalls and lanes, which are not set back from the mouths."""
+        return corner_columns(self.structure, self.of_kind("column"))
+
     def of_kind(self, kind: str) -> tuple[Placement, ...]:
         """All objects of one kind, by its name."""
         return tuple(self.placements.at(self.placements.rows_of(kind)))
@@ -330,7 +334,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
 
         yield (ceiling_panel(tile, fittings) for tile in grid)
         yield lamps
-        yield beams(structure, bay, ceiling, levels.beam_depth_m)
+        yield beams(structure, bay, ceiling, levels.beam_depth_m, pillars)
         yield ducts(grid, ceiling, levels, look.ceiling)
         yield cable_trays(grid, ceiling, levels)
         yield sprinklers(grid, ceiling, levels)
