@@ -21,6 +21,7 @@ from garage2usd.maps.network import Network
 from garage2usd.maps.occupancy import grid_files, write_grid
 from garage2usd.maps.opendrive import write_opendrive
 from garage2usd.maps.parked_cars import parked_cars
+from garage2usd.maps.parking_areas import NETWORK_SUFFIX, write_parking_areas
 from garage2usd.maps.road_builder import network_of
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.pipeline import build
@@ -34,6 +35,7 @@ from garage2usd.reading.walk import placed_objects
 __all__ = ["EXPORT_SUFFIXES", "check_exports", "check_formats", "export"]
 
 _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO, _GRID = ".json", ".glb", ".osm", ".xodr", ".xosc", ".yaml"
+_AREAS = ".add.xml"
 _OF_EXTRA = {_LANELET2: ("a Lanelet2 map", "pyproj"), _SCENARIO: ("a scenario", "scenariogeneration")}
 """Formats that need a module of an extra, with their description and that module, by extension."""
 Notice = Callable[[str], None]
@@ -53,7 +55,7 @@ class _Source:
             _ = self.objects
         if len(of_lanes) > 1:
             _ = self.garage.taken_stalls
-        if {_LANELET2, _MAP} <= {*of_lanes}:
+        if len({_LANELET2, _MAP, _AREAS} & {*of_lanes}) > 1:
             _ = self.network
 
     @cached_property
@@ -84,7 +86,7 @@ class _Asked(NamedTuple):
     joint
         Separator between the stem and the names of a grid's masks.
     road_file
-        Name of the map beside it to which a scenario refers.
+        Name of the map beside it to which a scenario and SUMO's parking areas refer.
     """
 
     place: Path
@@ -100,6 +102,8 @@ class _Asked(NamedTuple):
     def files(self, folder: Path) -> tuple[Path, ...]:
         """Paths in `folder` of the file and of files that are written with it."""
         path = folder / self.place.name
+        if self.format == _AREAS:
+            return path, path.with_name(f"{_stem_of(path)}{NETWORK_SUFFIX}")
         return grid_files(path, self.settings.grid, joint=self.joint) if self.format == _GRID else (path,)
 
 
@@ -143,12 +147,26 @@ def _scenario(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> 
     )
 
 
+def _parking_areas(source: _Source, path: Path, asked: _Asked, remarks: Remarks) -> None:
+    _, network_file = asked.files(path.parent)
+    write_parking_areas(
+        source.garage,
+        path,
+        asked.settings.sumo,
+        network_file=network_file,
+        road_file=asked.road_file,
+        remarks=remarks,
+        network=source.network,
+    )
+
+
 _WRITERS: dict[str, _Write] = {
     _SCENE: _glb,
     _SCENARIO: _scenario,
     _LANELET2: _lanelet2,
     _GRID: _grid,
     _MAP: _opendrive,
+    _AREAS: _parking_areas,
 }
 """Writers by extension, the slowest first, so that parallel tasks finish together."""
 
@@ -169,8 +187,8 @@ def _write(source: _Source, folder: Path, asked: _Asked) -> tuple[tuple[Path, ..
 
 
 EXPORT_SUFFIXES = tuple(sorted(_WRITERS))
-"""Extensions of the files that `export` writes: GLB scenes, Lanelet2 maps, OpenDRIVE maps, OpenSCENARIO scenarios, and
-YAML files of occupancy grids."""
+"""Extensions of the files that `export` writes: SUMO's parking areas, GLB scenes, Lanelet2 maps, OpenDRIVE maps,
+OpenSCENARIO scenarios, and YAML files of occupancy grids."""
 
 
 def export(
@@ -195,7 +213,8 @@ def export(
         One or more files, whose extensions select the formats: ``.glb`` a scene as binary glTF 2.0, ``.osm`` a Lanelet2
         map, ``.xodr`` an OpenDRIVE 1.8 map, ``.xosc`` an OpenSCENARIO 1.2 scenario with a ``.xodr`` map of the same
         stem beside it, ``.yaml`` an occupancy grid for robots with its image (``.pgm``) and, depending on the settings,
-        masks.
+        masks, ``.add.xml`` the stalls as parking areas of SUMO, with the map that their network is made of and
+        netconvert's configuration for it (``.netccfg``) beside it.
     settings
         Settings of maps, grids and drives; if left out, those of the report, else the defaults.
     scenario
@@ -214,8 +233,8 @@ def export(
     Returns
     -------
     tuple of Path
-        All files, in the order of `outputs`; the map of a scenario follows it if it is not an output itself. Either all
-        files appear or none.
+        All files, in the order of `outputs`; the map of a scenario or of parking areas follows it if it is not an
+        output itself. Either all files appear or none.
 
     Raises
     ------
@@ -267,12 +286,12 @@ def export(
 def check_exports(
     outputs: Sequence[str | Path], *, settings: MapsConfig | None = None, joint: str = "_"
 ) -> tuple[Path, ...]:
-    """Validate exports; return their paths and those of the maps of scenarios; raises as `export`."""
+    """Validate exports; return their paths and those of the maps that they name; raises as `export`."""
     asked = tuple(map(Path, outputs))
     if not asked:
         raise ConfigError("output", "", f"one or more paths that end in {', '.join(EXPORT_SUFFIXES)}")
     for number, place in enumerate(asked):
-        if _format_of(place) not in _WRITERS or not place.stem:
+        if _format_of(place) not in _WRITERS or not _stem_of(place):
             raise ConfigError("output", str(place), f"a path that ends in {', '.join(EXPORT_SUFFIXES)}")
         if place in asked[:number]:
             raise ConfigError("output", str(place), "each file once")
@@ -307,16 +326,25 @@ def _asked(places: Sequence[Path], settings: MapsConfig, joint: str) -> list[_As
 
 
 def _with_maps(places: Sequence[Path]) -> Iterator[Path]:
+    brought: list[Path] = []
     for place in places:
         yield place
-        if _format_of(place) == _SCENARIO and _map_beside(place, places) is None:
-            yield place.with_suffix(_MAP)
+        if _format_of(place) in {_SCENARIO, _AREAS} and _map_beside(place, [*places, *brought]) is None:
+            brought.append(place.with_name(f"{_stem_of(place)}{_MAP}"))
+            yield brought[-1]
 
 
 def _map_beside(place: Path, places: Sequence[Path]) -> Path | None:
     """Return the path of the map with the same stem in the same folder."""
-    return next((map_ for map_ in places if _format_of(map_) == _MAP and map_.with_suffix(place.suffix) == place), None)
+    beside = place.parent, _stem_of(place)
+    return next((map_ for map_ in places if _format_of(map_) == _MAP and (map_.parent, map_.stem) == beside), None)
 
 
 def _format_of(path: Path) -> str:
-    return path.suffix.lower()
+    name = path.name.lower()
+    return _AREAS if name.endswith(_AREAS) else path.suffix.lower()
+
+
+def _stem_of(path: Path) -> str:
+    """Return a file's name without what says its format; empty if there is nothing else."""
+    return path.name[: -len(_AREAS)] if _format_of(path) == _AREAS else path.stem

@@ -112,6 +112,7 @@ def make_report(
         not_designed_to=None if unmet is None else tuple(unmet),
         lane_kinds=layout.kinds_of_squares(),
         object_counts=layout.counts(),
+        columns_at_mouths=layout.columns_at_mouths() if config.bay.column_setback_m else None,
         unreachable_stalls=tuple(sorted(layout.unreachable)),
         undecided_stalls=tuple(sorted(layout.undecided)),
         stair_cores=tuple(

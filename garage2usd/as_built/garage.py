@@ -14,7 +14,7 @@ from garage2usd.as_built.openings import Door, Ramp, doors_of, ramps_of
 from garage2usd.as_built.shapes import Thing
 from garage2usd.as_built.solids import Solid, Solids
 from garage2usd.as_built.stall_grounds import StallGrounds
-from garage2usd.garage import Fault, LaneGraph, Point, Stall
+from garage2usd.garage import Fault, LaneGraph, Point, Stall, StallUse
 from garage2usd.objects import CAR_LABELS
 from garage2usd.site.portals import outer_squares
 from garage2usd.structure.grid import Cell, Structure
@@ -121,10 +121,17 @@ class BuiltGarage:
 
     @cached_property
     def taken_stalls(self) -> frozenset[Stall]:
-        """Stalls with a car, and stalls blocked by a misparked car."""
+        """Stalls with a car or motorcycle, and stalls blocked by a misparked car."""
         own = frozenset(home for _, home in self.cars.values() if home is not None)
         names = {stall.name for stall in own}
-        return own.union(stall for stall in self.stalls if stall.blocked_by in names)
+        return own.union(self._motorcycle_homes, (stall for stall in self.stalls if stall.blocked_by in names))
+
+    @cached_property
+    def _motorcycle_homes(self) -> frozenset[Stall]:
+        """Stalls for motorcycles with a motorbike."""
+        pieces = np.array([solid.footprint for solid in self.solids.standing("motorbike")], dtype=object)
+        homes = self.stall_grounds.homes_of(pieces) if len(pieces) else []
+        return frozenset(home for home in homes if home is not None and home.use is StallUse.MOTORCYCLE)
 
     def compartment_at(self, place: Point) -> int:
         """Return the number of the fire compartment at a place; 0 where none are declared."""

@@ -131,7 +131,10 @@ def _between_columns(stall: Stall, places: NDArray[np.float64]) -> float | None:
     """Return the centre distance of the two columns beside a stall's mouth; None without two."""
     outwards = np.array(stall.outwards)
     offset = places - np.array(stall.mouth)
-    beside = np.abs(offset @ outwards) < _FOOT_M
+    ahead = offset @ outwards
+    # columns that are set back from the mouths stand in the front half of the stalls
+    depth_m = 0.0 if stall.kind is StallKind.ANGLED else math.dist(stall.corners[1], stall.corners[2])
+    beside = (ahead < _FOOT_M) & (ahead > -max(_FOOT_M, depth_m / 2))
     along = (offset @ np.array([-outwards[1], outwards[0]]))[beside]
     left, right = along[along < 0], along[along > 0]
     return float(right.min() - left.max()) if len(left) and len(right) else None

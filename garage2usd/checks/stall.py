@@ -8,7 +8,7 @@ import shapely
 
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
-from garage2usd.garage import Stall, StallKind
+from garage2usd.garage import Stall, StallKind, StallUse
 from garage2usd.objects import CAR_LABELS
 from garage2usd.profiles import Length, Profile
 
@@ -62,6 +62,20 @@ def _compact_share(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     if clause and compact and (share := 100 * len(compact) / len(stalls)) > clause.amount + ROUNDING_M:
         message = "too many of the stalls are for compact cars"
         yield Miss(compact[0].name, compact[0].centre, message, share, clause.amount)
+
+
+@BOOK.rule("motorcycle-stall-width", "motorcycle_stall_width", asks="a stall for motorcycles is wide enough")
+def _motorcycle_width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    return _short(_for_motorcycles(garage), profile.motorcycle_stall_width, "width_m", "narrow")
+
+
+@BOOK.rule("motorcycle-stall-length", "motorcycle_stall_length", asks="a stall for motorcycles is long enough")
+def _motorcycle_length(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    return _short(_for_motorcycles(garage), profile.motorcycle_stall_length, "length_m", "short")
+
+
+def _for_motorcycles(garage: BuiltGarage) -> list[Stall]:
+    return [stall for stall in garage.stalls if stall.use is StallUse.MOTORCYCLE]
 
 
 def _sized(garage: BuiltGarage, *, parallel: bool = False, compact: bool = False) -> list[Stall]:

@@ -9,7 +9,7 @@ from garage2usd.checks import aisle, clearance, feasibility, stall
 from garage2usd.checks.finding import Severity
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.driving import DesignCar, Limits, StallProof, prove_garage
-from garage2usd.garage import Stall
+from garage2usd.garage import Stall, StallUse
 from garage2usd.profiles import Length, Profile
 
 __all__ = ["BOOK", "design_car"]
@@ -41,6 +41,16 @@ def _undecided(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     for at, proof in _proofs(garage, profile):
         if not proof.is_proven and proof.is_undecided:
             yield Miss(proof.stall, rounded(at.centre), _message(proof))
+
+
+@BOOK.rule("motorcycle-path", asks="ways into stalls for motorcycles are proven", severity=Severity.INFO)
+def _motorcycles(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+    """Yield one finding that names the stalls for motorcycles, as there is no design motorcycle to prove them with."""
+    found = [stall for stall in garage.stalls if stall.use is StallUse.MOTORCYCLE]
+    if found:
+        named = ", ".join(stall.name for stall in found[:_NAMED]) + (", ..." if len(found) > _NAMED else "")
+        message = f"no way is proven into the {len(found)} stalls for motorcycles, as no motorcycle is driven: {named}"
+        yield Miss(found[0].name, rounded(found[0].centre), message)
 
 
 def _proofs(garage: BuiltGarage, profile: Profile) -> _Proofs:

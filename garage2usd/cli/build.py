@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["build"]
 
-_RULES_NAMED = 3
+_RULES_NAMED, _COLUMNS_NAMED = 3, 3
 
 
 @click.command(short_help="Build a garage and write it as a USD stage.")
@@ -40,7 +40,7 @@ _RULES_NAMED = 3
     "--with",
     "formats",
     metavar="FORMAT,...",
-    help="Export the stage as well, beside it: glb, osm, xodr, xosc, yaml, several with commas; see "
+    help="Export the stage as well, beside it: add.xml, glb, osm, xodr, xosc, yaml, several with commas; see "
     "`garage2usd export`.",
 )
 @click.option(
@@ -132,6 +132,7 @@ def _describe(made: "Build") -> None:
     lines = [
         ("squares", f"{rows} x {cols}, {counts['floor']} inside"),
         ("stalls", f"{layout.parking_stalls} ({layout.uses_in_words()}), {counts['car']} with a car"),
+        *_columns(made),
         ("cores", f"{len(layout.cores)} in the place of {_displaced(layout)} stalls; {parts}"),
         ("light", _lit(made)),
         ("m2/stall", f"{layout.area_per_stall_m2:.1f}"),
@@ -167,6 +168,17 @@ def _learnt(made: "Build") -> list[tuple[str, str]]:
     )
     polished = "polish kept it" if plan.learnt.structure == plan.archive[0].structure else f"polish made it {made_it}"
     return [("learning", f"found a plan of {learnt}; {polished}")]
+
+
+def _columns(made: "Build") -> list[tuple[str, str]]:
+    """How many columns beside lanes are set back from the mouths, and which stay."""
+    layout, bay = made.garage.layout, made.garage.config.bay
+    if not bay.column_setback_m:
+        return []
+    stay = layout.columns_at_mouths()
+    named = ", ".join(stay[:_COLUMNS_NAMED]) + (", ..." if len(stay) > _COLUMNS_NAMED else "")
+    others = f"; at the corner stay {len(stay)}: {named}" if stay else ""
+    return [("columns", f"set back {bay.column_setback_m:g} m from the mouths{others}")]
 
 
 def _lit(made: "Build") -> str:

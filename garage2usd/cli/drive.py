@@ -58,8 +58,8 @@ def drive(
 
     PATH is a configuration, from which the garage is made as by `build`; a stage, including one edited in other tools;
     or the report of a build. Without PATH the default garage is used. The car is 4.8 x 1.8 m with a turning radius of
-    6 m. Access aisles and turning stalls are left out, since no car parks there. Stalls without a path are listed with
-    the objects in the way, and the exit code is 1.
+    6 m. Access aisles, turning stalls and stalls for motorcycles are left out, since no car parks there. Stalls without
+    a path are listed with the objects in the way, and the exit code is 1.
 
     With --stall the car drives from an entrance into the stall and on to an exit, over ramps and lanes. Its speed
     follows the settings `maps.drive` of a configuration or report, else the defaults. Gates are open.

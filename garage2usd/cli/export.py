@@ -21,9 +21,10 @@ __all__ = ["export"]
     type=click.Path(path_type=Path),
     multiple=True,
     required=True,
-    help="A file: .glb for a scene, .osm for a Lanelet2 map, .xodr for an OpenDRIVE map, .xosc for an OpenSCENARIO "
-    "scenario with the map it names beside it, .yaml for a robot's occupancy grid with its picture beside it, and the "
-    "masks that maps.grid asks for; may be repeated.",
+    help="A file: .add.xml for the stalls as parking areas of SUMO with the map of their network beside it, .glb for a "
+    "scene, .osm for a Lanelet2 map, .xodr for an OpenDRIVE map, .xosc for an OpenSCENARIO scenario with the map it "
+    "names beside it, .yaml for a robot's occupancy grid with its picture beside it, and the masks that maps.grid asks "
+    "for; may be repeated.",
 )
 @click.option(
     "--config",

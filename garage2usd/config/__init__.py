@@ -47,6 +47,8 @@ __all__ = [
 _DIRECTIONS = ("aisles", "one_way_share", "one_way")
 """Settings of the plan that enter the digest only if they differ from their defaults, so that older digests stay valid.
 """
+_LATER_CLAUSES = ("motorcycle_stall_width", "motorcycle_stall_length")
+"""Clauses of profiles for which the same holds."""
 
 
 class GarageConfig(Settings):
@@ -127,8 +129,12 @@ class GarageConfig(Settings):
         excluded: dict[str, Any] = {"maps": True, "look": of_look, "vehicles": of_vehicles}
         if self.stalls == StallsConfig():  # for the same reason
             excluded["stalls"] = True
+        if not self.bay.column_setback_m:
+            excluded["bay"] = {"column_setback_m"}
         if all(getattr(self.plan, name) == PlanConfig.model_fields[name].default for name in _DIRECTIONS):
             excluded["plan"] = set(_DIRECTIONS)
+        if isinstance(self.profile, Profile):
+            excluded["profile"] = {name for name in _LATER_CLAUSES if getattr(self.profile, name) is None}
         settings = self.model_dump(mode="json", exclude=excluded)
         canonical = json.dumps(settings, sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(canonical.encode()).hexdigest()

@@ -109,9 +109,10 @@ class ParkingConfig(Settings):
     """Parked cars and the equipment of stalls: occupancy, chargers, accessible stalls, bodies, paints and poses."""
 
     occupancy: float = Field(0.6, ge=0, le=1)
-    """Share of the stalls that hold a car."""
+    """Share of the stalls that hold a car, and of those for motorcycles that hold one."""
     occupied_stalls: tuple[str, ...] | None = None
-    """Ids of the stalls that hold a car, such as ``Stall_r03_c07_2``; all others are free, whatever the occupancy."""
+    """Ids of the stalls that hold a car or motorcycle, such as ``Stall_r03_c07_2``; all others are free, whatever the
+    occupancy."""
     empty_stalls: tuple[str, ...] = ()
     """Ids of stalls that are free, whatever the occupancy."""
     ev_share: float = Field(0.08, ge=0, le=1)

@@ -6,7 +6,7 @@ from pydantic import Field, ValidationInfo, field_validator
 
 from garage2usd.common.settings import Settings
 
-__all__ = ["DriveConfig", "GridConfig", "Leg", "MapsConfig", "ScenarioConfig"]
+__all__ = ["DriveConfig", "GridConfig", "Leg", "MapsConfig", "ParkingAreas", "ScenarioConfig", "SumoConfig"]
 
 
 class Leg(StrEnum):
@@ -15,6 +15,17 @@ class Leg(StrEnum):
     BOTH = "both"
     IN = "in"
     OUT = "out"
+
+
+class ParkingAreas(StrEnum):
+    """Which stalls are one parking area of SUMO."""
+
+    BAY = "bay"
+    """Those before one lane node: vehicles stop close to their space."""
+    ROW = "row"
+    """All along a lane from one junction to the next."""
+    STALL = "stall"
+    """Each by itself, so that a vehicle can be sent to a certain stall."""
 
 
 class GridConfig(Settings):
@@ -72,6 +83,16 @@ class ScenarioConfig(Settings):
     """The car arrives (``"in"``), leaves (``"out"``), or arrives, parks and leaves (``"both"``)."""
 
 
+class SumoConfig(Settings):
+    """The parking areas of SUMO."""
+
+    areas: ParkingAreas = ParkingAreas.BAY
+    """Which stalls are one parking area: of a bay (``"bay"``), of a row (``"row"``), or each stall (``"stall"``)."""
+    badges: bool = True
+    """Whether only vehicles with the badge of its use (attribute ``parkingBadges``) may park in a stall that is
+    accessible, for EVs or for motorcycles."""
+
+
 class MapsConfig(Settings):
     """Maps, scenarios and grids that are exported from the stage."""
 
@@ -87,3 +108,5 @@ class MapsConfig(Settings):
     """Driving limits of the car in scenarios."""
     scenario: ScenarioConfig = ScenarioConfig()
     """The drive of an OpenSCENARIO scenario."""
+    sumo: SumoConfig = SumoConfig()
+    """The parking areas of SUMO."""

@@ -132,6 +132,9 @@ class BayConfig(Settings):
     """Length of one stall from its entry on the lane to its rear line."""
     column_size_m: float = Field(0.6, ge=0.2, le=1.2)
     """Side of the square structural columns between bays."""
+    column_setback_m: float = Field(0, ge=0, le=3)
+    """How far the columns between two bays of stalls stand back from the mouths, so that cars turn in more easily.
+    Those that cannot, beside lanes on two sides or with a stall in the way, stay at the corner."""
     wall_gap_m: float = Field(0.3, ge=0, le=3)
     """Least gap between a wall and the line of the adjacent stall; half a column leaves at least as much."""
     dimensioned: bool = True

@@ -12,8 +12,8 @@ from garage2usd.garage.kinds import StallKind
 __all__ = ["GivenRun", "SizeClass", "StallsConfig"]
 
 Share = Annotated[float, Field(ge=0, le=1)]
-WidthM = Annotated[float, Field(ge=1.8, le=6)]
-LengthM = Annotated[float, Field(ge=3.5, le=12)]
+WidthM = Annotated[float, Field(ge=0.8, le=6)]
+LengthM = Annotated[float, Field(ge=1.8, le=12)]
 AngleDeg = Annotated[float, Field(ge=30, le=85)]
 
 
@@ -25,10 +25,25 @@ class SizeClass(StrEnum):
     COMPACT = "compact"
     LARGE = "large"
     VAN = "van"
+    MOTORCYCLE = "motorcycle"
+    """For motorcycles alone, perpendicular to the lane."""
+
+    @property
+    def takes_cars(self) -> bool:
+        """True if cars park in stalls of the class."""
+        return self is not SizeClass.MOTORCYCLE
 
 
-_SIZES_M = {SizeClass.COMPACT: (2.3, 4.9), SizeClass.LARGE: (2.6, 5.5), SizeClass.VAN: (3.0, 6.0)}
-"""Usual widths and lengths; assumptions, except that of compact stalls, which is near the 8 by 16 ft of US towns."""
+_SIZES_M = {
+    SizeClass.COMPACT: (2.3, 4.9),
+    SizeClass.LARGE: (2.6, 5.5),
+    SizeClass.VAN: (3.0, 6.0),
+    SizeClass.MOTORCYCLE: (1.2, 2.5),
+}
+"""Usual widths and lengths; assumptions, except those of compact stalls, near the 8 by 16 ft of US towns, and of stalls
+for motorcycles, of AS/NZS 2890.1."""
+_LEAST_CAR_M = (1.8, 3.5)
+"""Least width and length of a stall for cars."""
 
 
 class GivenRun(Settings):
@@ -56,6 +71,8 @@ class GivenRun(Settings):
             raise ValueError(f"squares from first to last along one {'row' if axis else 'column'}")
         if (self.kind is StallKind.ANGLED) != (self.angle_deg is not None):
             raise ValueError("angle_deg for angled stalls, and for these only")
+        if not self.size.takes_cars and self.kind is not StallKind.PERPENDICULAR:
+            raise ValueError("kind = 'perpendicular' for stalls for motorcycles")
         return self
 
 
@@ -68,7 +85,8 @@ class StallsConfig(Settings):
     angles_deg: tuple[AngleDeg, ...] = Field((60.0, 45.0, 75.0), min_length=1)
     """Angles of angled stalls to the lane, from which each run of stalls draws one."""
     sizes: dict[SizeClass, Share] = Field({SizeClass.STANDARD: 1.0})
-    """Share of the stalls of each size class, 'standard', 'compact', 'large' and 'van', likewise."""
+    """Share of the stalls of each size class, 'standard', 'compact', 'large', 'van' and 'motorcycle', likewise. Those
+    for motorcycles are perpendicular, whatever the kinds of the others."""
     sizes_m: dict[SizeClass, tuple[WidthM, LengthM]] = Field({})
     """Width and length of a class, instead of the usual ones; those of the standard class are in `bay`."""
     parallel_length_m: float | None = Field(None, ge=4.5, le=10)
@@ -88,6 +106,14 @@ class StallsConfig(Settings):
             raise ValueError("bay.stall_width_m and bay.stall_length_m for the size of standard stalls")
         if self.only_runs and not self.runs:
             raise ValueError("some runs where only_runs is true")
+        if not any(share for size, share in self.sizes.items() if size.takes_cars):
+            raise ValueError("sizes with a share above 0 for a class of cars, beside that of motorcycles")
+        if self.only_runs and not any(run.size.takes_cars for run in self.runs):
+            raise ValueError("some runs for cars where only_runs is true")
+        for size, sides_m in self.sizes_m.items():
+            if size.takes_cars and (sides_m[0] < _LEAST_CAR_M[0] or sides_m[1] < _LEAST_CAR_M[1]):
+                least = " by ".join(map(str, _LEAST_CAR_M))
+                raise ValueError(f"sizes_m.{size} of at least {least} m")
         return self
 
     @property
@@ -104,9 +130,12 @@ class StallsConfig(Settings):
     def shares(self) -> dict[tuple[StallKind, SizeClass], float]:
         """Share of the stalls of each kind and size; their sum is 1."""
         total = sum(self.kinds.values()) * sum(self.sizes.values())
-        return {
+        shares = {
             (kind, size): of_kind * of_size / total
             for kind, of_kind in self.kinds.items()
             for size, of_size in self.sizes.items()
-            if of_kind and of_size
+            if of_kind and of_size and size.takes_cars
         }
+        if of_motorcycles := self.sizes.get(SizeClass.MOTORCYCLE):
+            shares[StallKind.PERPENDICULAR, SizeClass.MOTORCYCLE] = of_motorcycles / sum(self.sizes.values())
+        return shares

@@ -28,7 +28,7 @@ from garage2usd.view.raster import to_image, write_png
 __all__ = ["key_of", "make_scene"]
 
 _DIGITS = 8
-_TEXTS = {".json", ".osm", ".xodr", ".xosc", ".yaml"}
+_TEXTS = {".json", ".netccfg", ".osm", ".xml", ".xodr", ".xosc", ".yaml"}
 
 
 def key_of(shard: str, number: int) -> str:

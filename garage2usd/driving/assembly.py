@@ -7,7 +7,7 @@ import shapely
 
 from garage2usd.driving.garage import DrivenGarage
 from garage2usd.driving.obstacles import Obstacles
-from garage2usd.garage import LaneGraph, Stall
+from garage2usd.garage import LaneGraph, Stall, StallUse
 from garage2usd.objects import CAR_LABELS
 
 __all__ = ["BELONGINGS", "StandingThing", "assembled"]
@@ -43,14 +43,17 @@ def assembled(stalls: Iterable[Stall], lanes: LaneGraph, standing: Iterable[Stan
     Parameters
     ----------
     stalls
-        All stalls.
+        All stalls. Those for motorcycles are obstacles: the car's proof is none for them.
     lanes
         The lanes.
     standing
         Obstacles, including the parked cars.
     """
+    stalls = tuple(stalls)
+    # cars keep off stalls for motorcycles, taken or not
+    kept_off = [StandingThing(at.name, at.use, at.polygon) for at in stalls if at.use is StallUse.MOTORCYCLE]
     # the proof names what is in the way in the order of the obstacles, and cars last
-    things = sorted(standing, key=lambda thing: thing.label in CAR_LABELS)
+    things = sorted([*standing, *kept_off], key=lambda thing: thing.label in CAR_LABELS)
     own: dict[str, tuple[str, ...]] = {}
     for thing in things:
         if thing.label in BELONGINGS and thing.home is not None:

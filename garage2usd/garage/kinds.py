@@ -19,10 +19,17 @@ class StallUse(StrEnum):
     """Hatched access aisle for wheelchairs, kept free beside accessible stalls."""
     UNREACHABLE = "unreachable"
     """Hatched stall, kept free because cars cannot drive into it and out of it."""
+    MOTORCYCLE = "motorcycle"
+    """Stall of the size class for motorcycles."""
 
     @property
     def takes_cars(self) -> bool:
         """True if cars park in a stall of this use."""
+        return self.is_parked_in and self is not StallUse.MOTORCYCLE
+
+    @property
+    def is_parked_in(self) -> bool:
+        """True if vehicles of any kind park in a stall of this use."""
         return self not in {StallUse.TURNING, StallUse.ACCESS_AISLE, StallUse.UNREACHABLE}
 
 

@@ -110,6 +110,11 @@ class Stall:
         return self.use.takes_cars
 
     @property
+    def is_parked_in(self) -> bool:
+        """True if cars or motorcycles park in the stall."""
+        return self.use.is_parked_in
+
+    @property
     def width_m(self) -> float:
         """Width in metres of the rectangle for a car between the stall's lines."""
         return self._rectangle_m[0]

@@ -40,13 +40,14 @@ from garage2usd.layout.parking.number_plates import number_plates
 from garage2usd.layout.parking.open_boots import opened
 from garage2usd.layout.parking.own_cars import with_own_cars
 from garage2usd.layout.parking.parked_cars import park_cars
+from garage2usd.layout.parking.parked_motorbikes import park_motorbikes
 from garage2usd.layout.parking.stall_table import STALL_USES, StallTable
 from garage2usd.layout.parking.stalls import stall_panels, stalls_of, wheel_stops, with_turning_stalls
 from garage2usd.layout.parking.tight import tight_stalls
 from garage2usd.layout.parking.zones import Zones, with_numbers
 from garage2usd.layout.placement import PlacedStall, Placement
 from garage2usd.layout.shell.boards import with_boards
-from garage2usd.layout.shell.building import columns, ground_inside, outer_walls
+from garage2usd.layout.shell.building import columns, corner_columns, ground_inside, outer_walls
 from garage2usd.layout.shell.mounts import mounted_objects
 from garage2usd.layout.shell.ramps import barriers, ramp_lights, with_ramps
 from garage2usd.layout.shell.zone_plates import zone_plates
@@ -181,17 +182,23 @@ class Layout:
         return plates, self._cars_at(self.placements.square[plates], self.placements.ordinal[plates])
 
     def cars_in_stalls(self) -> NDArray[np.intp]:
-        """Row in `placements` of the car in each stall, -1 where none stands; shape (stalls,)."""
+        """Row in `placements` of the car or motorbike in each stall, -1 where none stands; shape (stalls,)."""
         return self._cars_at(self.stalls.square, self.stalls.ordinal)
 
+    def parked_motorbikes(self) -> NDArray[np.intp]:
+        """Rows in `placements` of the motorbikes in stalls, apart from those that stand about; shape (n,)."""
+        rows = self.placements.rows_of("motorbike")
+        parked: NDArray[np.intp] = rows[self.placements.square[rows, 0] >= 0]
+        return parked
+
     def are_occupied(self) -> NDArray[np.bool_]:
-        """Whether a car stands in each stall: its own, or a misparked one that blocks it; bool, shape (stalls,)."""
+        """Whether a vehicle stands in each stall: its own, or a misparked one that blocks it; bool, shape (stalls,)."""
         occupied: NDArray[np.bool_] = self.cars_in_stalls() >= 0
         return occupied | np.isin(self.stalls.names(), list(self.blocked)) if self.blocked else occupied
 
     def _cars_at(self, square: NDArray[np.integer[Any]], ordinal: NDArray[np.integer[Any]]) -> NDArray[np.intp]:
-        """Row in `placements` of the car at each of some stalls, by their squares and numbers there; -1 without one."""
-        rows = self.placements.rows_of("car")
+        """Row in `placements` of the vehicle at each of some stalls, by squares and numbers there; -1 without one."""
+        rows = np.concatenate([self.placements.rows_of("car"), self.parked_motorbikes()])
         cars = self._stall_keys(self.placements.square[rows], self.placements.ordinal[rows])
         order = np.argsort(cars)
         keys, rows = np.append(cars[order], -1), np.append(rows[order], -1)
@@ -219,15 +226,21 @@ class Layout:
         return self.structure.floor_m2 / self.parking_stalls if self.parking_stalls else math.inf
 
     def uses_in_words(self) -> str:
-        """How many stalls are for what, those that cars park in first."""
+        """How many stalls are for what, those that cars park in first, then those for motorcycles."""
         counts = Counter(STALL_USES[use] for use in self.stalls.use.tolist())
+        for_motorcycles = counts.pop(StallUse.MOTORCYCLE, 0)
         told = [
             ", ".join(
                 f"{count} {use.replace('_', ' ')}" for use, count in counts.most_common() if use.takes_cars is taken
             )
             for taken in (True, False)
         ]
+        told[0] += f"; {for_motorcycles} for motorcycles" if for_motorcycles else ""
         return "; kept free: ".join(filter(None, told))
+
+    def columns_at_mouths(self) -> tuple[str, ...]:
+        """Names of the columns on corners between stalls and lanes, which are not set back from the mouths."""
+        return corner_columns(self.structure, self.of_kind("column"))
 
     def of_kind(self, kind: str) -> tuple[Placement, ...]:
         """All objects of one kind, by its name."""
@@ -309,6 +322,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     )
 
     cars = [opened(car) if car.stall in open_boots else car for car in parked.cars]
+    motorbikes = park_motorbikes(stalls, config.parking, draws)
 
     def parts() -> Iterator[Iterable[Placement]]:
         # what lies on the lanes decides what is painted there
@@ -322,7 +336,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         # a coat on the stalls covers what was painted before it
         yield stall_panels(stalls, look.markings, grid, drawn.ghosts if look.floor.bays == AISLE else {})
         yield wheel_stops(stalls, fittings, config.standard)
-        yield [*cars, *number_plates(stalls, cars, draws, country)]
+        yield [*cars, *motorbikes, *number_plates(stalls, cars, draws, country)]
         yield (closing := cones(grid, stalls, parked.touched, fittings, draws, built_on=core_on))
         yield stall_numbers(stalls, grid, look, fittings)
         yield (charging := chargers(stalls))
@@ -331,7 +345,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
 
         yield (ceiling_panel(tile, fittings) for tile in grid)
         yield lamps
-        yield beams(structure, bay, ceiling, levels.beam_depth_m)
+        yield beams(structure, bay, ceiling, levels.beam_depth_m, pillars)
         yield ducts(grid, ceiling, levels, look.ceiling)
         yield cable_trays(grid, ceiling, levels)
         yield sprinklers(grid, ceiling, levels)
@@ -348,7 +362,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield zone_plates(pillars, walls, blocks, stalls, zones) if zones else ()
         yield hung
         if kept_clear is not None:
-            standing = [*pillars, *walls, *blocks, *cars, *closing, *charging, *signs, *gates]
+            standing = [*pillars, *walls, *blocks, *cars, *motorbikes, *closing, *charging, *signs, *gates]
             yield clutter(grid, stalls, cores, standing, hung, config, kept_clear=kept_clear)
 
     return Layout(

@@ -8,7 +8,7 @@ import shapely
 from numpy.typing import NDArray
 
 from garage2usd.as_built import BuiltGarage
-from garage2usd.garage import Stall, StallKind
+from garage2usd.garage import Stall, StallKind, StallUse
 from garage2usd.layout.grounds import Grounds, grounds_of
 from garage2usd.maps.frame import map_points
 from garage2usd.maps.lane_bounds import Bound, LaneBounds
@@ -24,6 +24,8 @@ _MOST_ASIDE = 2.0
 _GRID_M = 1e-4
 """Grid in metres to which outlines are rounded before their union."""
 _GAP_M, _WRITTEN_DIGITS = 2e-3, 3
+_VEHICLES = "participant:vehicle"
+_PARTICIPANTS = {StallUse.MOTORCYCLE: "participant:vehicle:motorcycle"}
 _BEHIND_M = 1e-3
 """Distance inside the stall from which the lane is searched, for entries that touch the lane."""
 
@@ -143,7 +145,7 @@ def add_stalls(osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds]) -
     """
     taken = garage.taken_stalls
     feet = Feet(lanes)
-    parking = [stall for stall in garage.stalls if stall.takes_cars]
+    parking = [stall for stall in garage.stalls if stall.is_parked_in]
     mouths = map_points([stall.corners[:2] for stall in parking]).reshape(-1, 2, 2)
     outwards = map_points([stall.outwards for stall in parking]).reshape(-1, 2)
     before_of = dict(zip(parking, feet.before(mouths, outwards), strict=True))
@@ -158,11 +160,12 @@ def add_stalls(osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds]) -
     for stall, corners, ends, width_m in zip(garage.stalls, corners_of.tolist(), ends_of, widths_m, strict=True):
         points = [osm.point((x, y, 0.0)) for x, y in corners]
         tags = _stall_tags(stall, is_taken=stall in taken)
-        if not stall.takes_cars:
+        if not stall.is_parked_in:
             osm.polygon(points, {"type": "hatched_road_markings", **tags})
             continue
         sides = [_side(osm, points[index], points[(index + 1) % 4], is_open=index == 0) for index in range(4)]
-        _area(osm, sides, {"subtype": "parking", **tags})
+        participant = _PARTICIPANTS.get(stall.use, _VEHICLES)
+        _area(osm, sides, {"subtype": "parking", **tags}, participant)
         middle = [osm.point((x, y, 0.0)) for x, y in ends]
         osm.new_way(middle, {"type": "parking_space", "width": number_text(width_m), **tags})
         grounds.append(corners)
@@ -171,7 +174,7 @@ def add_stalls(osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds]) -
         around = [(points[0], points[1]), (points[1], lane[0]), lane, (lane[-1], points[0])] if lane else []
         ways = [_side(osm, *line, is_open=True) for line in around if len(set(line)) > 1]
         if len(ways) > 2:  # noqa: PLR2004 - else the mouth lies on the lane
-            _area(osm, ways, {"subtype": "parking_access"})
+            _area(osm, ways, {"subtype": "parking_access"}, participant)
             grounds.append([*corners[:2], *(place[:2] for place in before)])
     feet.grounds = grounds_of(grounds)
     return feet
@@ -216,6 +219,6 @@ def _side(osm: OsmFile, *points: int, is_open: bool) -> int:
     return osm.way(points, {"type": "virtual"} if is_open else {"type": "line_thin", "subtype": "solid"})
 
 
-def _area(osm: OsmFile, ways: Sequence[int], tags: dict[str, str]) -> None:
+def _area(osm: OsmFile, ways: Sequence[int], tags: dict[str, str], participant: str) -> None:
     members = [Member("way", way, "outer") for way in ways]
-    osm.relation(members, {"type": "multipolygon", **tags, "location": "urban", "participant:vehicle": "yes"})
+    osm.relation(members, {"type": "multipolygon", **tags, "location": "urban", participant: "yes"})

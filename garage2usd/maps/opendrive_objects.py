@@ -22,7 +22,14 @@ __all__ = ["MapObject", "Signal", "add_objects", "add_signals", "signals_of", "s
 
 Floats = NDArray[np.float64]
 
-_ACCESS = {StallUse.STANDARD: "car", StallUse.ACCESSIBLE: "handicapped", StallUse.EV: "electric"}
+_ACCESS = {
+    StallUse.STANDARD: "car",
+    StallUse.ACCESSIBLE: "handicapped",
+    StallUse.EV: "electric",
+    StallUse.MOTORCYCLE: "all",
+}
+_RESTRICTIONS = {StallUse.MOTORCYCLE: "motorcycles"}
+"""What the standard's list of accesses has no word for, as its free text for the application."""
 _LINE_WIDTH_M = 0.12
 _TYPES = {
     "column": ("pole", "column"),
@@ -113,7 +120,7 @@ def stalls_of(garage: BuiltGarage, places: RoadPlaces, network: Network) -> Iter
         data += [] if stall.number is None else [("number", str(stall.number))]
         data += [("accessRoad", str(access.number))] if access is not None else []
         data += [("accessJunction", str(meeting[stall.access]))] if stall.access in meeting else []
-        kind = "parkingSpace" if stall.takes_cars else "none"
+        kind = "parkingSpace" if stall.is_parked_in else "none"
         yield MapObject(
             road,
             s_m,
@@ -178,8 +185,10 @@ def add_objects(parent: ET.Element, objects: Iterable[tuple[int, MapObject]]) ->
         outline = child(child(element, "outlines"), "outline", id="0", outer="true", closed="true")
         for index, (u, v) in enumerate(thing.corners_m.tolist()):
             child(outline, "cornerLocal", id=str(index), u=u, v=v, z=0, height=thing.height_m)
-        if thing.stall is not None and thing.stall.takes_cars:
-            child(element, "parkingSpace", access=_ACCESS.get(thing.stall.use, "car"))
+        if thing.stall is not None and thing.stall.is_parked_in:
+            restrictions = _RESTRICTIONS.get(thing.stall.use)
+            restricted = {} if restrictions is None else {"restrictions": restrictions}
+            child(element, "parkingSpace", access=_ACCESS.get(thing.stall.use, "car"), **restricted)
             _add_markings(element, thing.corners_m)
         for code, value in thing.data:
             child(element, "userData", code=code, value=value)

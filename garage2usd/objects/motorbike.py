@@ -5,12 +5,12 @@ from dataclasses import dataclass
 from garage2usd.assets.faces import box_faces, limb_faces, loft_faces, moved, rectangle_ring
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
 from garage2usd.objects.bicycle import wheel_faces
-from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.kind import Kind, Spec, TilePart
 from garage2usd.objects.outline import Polygon, rectangle
 
 __all__ = ["KIND", "MOTORBIKE_COLOURS", "MotorbikeSpec"]
 
-KIND = Kind("motorbike", number=41, label="motorbike", cityscapes="motorcycle", group="Clutter")
+KIND = Kind("motorbike", number=41, label="motorbike", cityscapes="motorcycle", group="Clutter", part=TilePart.PARKING)
 
 MOTORBIKE_COLOURS = ("black", "red", "blue", "white", "grey", "orange")
 _SIDE = (1.0, 0.0, 0.0)

@@ -14,6 +14,7 @@ from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.config.stalls import GivenRun, SizeClass
 from garage2usd.garage import StallKind
 from garage2usd.planning.dimensions import lines_with_aisles, lines_with_doors
+from garage2usd.planning.motorcycle_runs import split_for_motorcycles
 from garage2usd.planning.plan import Plan
 from garage2usd.planning.score import evaluate
 from garage2usd.profiles import Length
@@ -111,6 +112,7 @@ def settings_of_runs(runs: Iterable[StallRun], directions: LaneDirections = BOTH
 
 
 _Option = tuple[StallKind, SizeClass]
+_FOR_MOTORCYCLES: _Option = StallKind.PERPENDICULAR, SizeClass.MOTORCYCLE
 
 
 class _Draw:
@@ -124,10 +126,12 @@ class _Draw:
         rng = generator(config.seed, Step.STALL_KINDS)
         angles_deg = config.stalls.angles_deg
         bare = [] if config.stalls.only_runs else _bare_runs(plan, config.bay, self._given)
+        bare, for_motorcycles = self._without_motorcycles(structure, bare, rng)
         mixed = [bare[index] for index in rng.permutation(len(bare)).tolist()]
         # the longest first, so that the short ones even out what is left of the shares
         mixed.sort(key=lambda run: -len(run.squares))
         self._options = [self._options_of(run, angles_deg[int(rng.integers(len(angles_deg)))]) for run in mixed]
+        self._options += [{_FOR_MOTORCYCLES: run} for run in for_motorcycles]
         self._backed = {squares for squares, count in Counter(run.squares for run in bare).items() if count > 1}
         self._chosen = self._drawn(structure)
 
@@ -164,8 +168,26 @@ class _Draw:
 
     def _options_of(self, run: StallRun, angle_deg: float) -> dict[_Option, StallRun]:
         return {
-            (kind, size): replace(run, shape=_shape(self._config, kind, size, angle_deg)) for kind, size in self._shares
+            (kind, size): replace(run, shape=_shape(self._config, kind, size, angle_deg))
+            for kind, size in self._shares
+            if size.takes_cars
         }
+
+    def _without_motorcycles(
+        self, structure: Structure, bare: list[StallRun], rng: np.random.Generator
+    ) -> tuple[list[StallRun], list[StallRun]]:
+        """Split runs into those for cars and those for motorcycles."""
+        if _FOR_MOTORCYCLES not in self._shares:
+            return bare, []
+        backs = Counter(run.squares for run in bare)
+        return split_for_motorcycles(
+            bare,
+            _shape(self._config, *_FOR_MOTORCYCLES, PERPENDICULAR_DEG),
+            self._shares[_FOR_MOTORCYCLES],
+            rng,
+            count=lambda run: _count(_deepened(structure, self._bay, run), self._bay, run, is_backed=False),
+            is_whole=lambda run: backs[run.squares] > 1,
+        )
 
     def _drawn(self, structure: Structure) -> list[_Option]:
         """Give each run the option furthest below its share that fits, or the first one if none does."""
@@ -216,6 +238,9 @@ def _shape(config: GarageConfig, kind: StallKind, size: SizeClass, angle_deg: fl
     if size is SizeClass.COMPACT and size not in stalls.sizes_m:
         width_m = max(width_m, _rounded_up_m(profile.compact_stall_width))
         length_m = max(length_m, _rounded_up_m(profile.compact_stall_length))
+    if size is SizeClass.MOTORCYCLE and size not in stalls.sizes_m:
+        width_m = max(width_m, _rounded_up_m(profile.motorcycle_stall_width))
+        length_m = max(length_m, _rounded_up_m(profile.motorcycle_stall_length))
     if kind is StallKind.PARALLEL:
         longer_m = length_m - bay.stall_length_m
         standard_m = stalls.parallel_length_m or _rounded_up_m(profile.parallel_stall_length) or _PARALLEL_LENGTH_M
@@ -303,7 +328,7 @@ class _Fitting:
         shapes = {
             run.shape
             for run in (self._runs[number] for number in self._of_line[axis, line])
-            if run.edge.along_x != (axis == 0)
+            if run.edge.along_x != (axis == 0) and SizeClass(run.shape.size).takes_cars
         }
         # parallel stalls alone would ask for spans that no other row needs
         spanned = {shape for shape in shapes if shape.kind is not StallKind.PARALLEL} or shapes

@@ -63,6 +63,10 @@ class Profile(Settings):
     """Least length of a stall for compact cars at right angles to its aisle."""
     compact_share: Ratio | None = None
     """Greatest share of stalls for compact cars."""
+    motorcycle_stall_width: Length | None = None
+    """Least width of a stall for motorcycles."""
+    motorcycle_stall_length: Length | None = None
+    """Least length of it."""
     wall_clearance: Length | None = None
     """Least distance of the design car's sides from walls."""
     end_clearance: Length | None = None

@@ -172,6 +172,7 @@ class Report(Record):
     not_designed_to: tuple[UnmetClause, ...] | None = None
     lane_kinds: dict[str, int] | None = None
     object_counts: dict[str, int] | None = None
+    columns_at_mouths: tuple[str, ...] | None = None
     unreachable_stalls: tuple[str, ...] = ()
     undecided_stalls: tuple[str, ...] = ()
     stair_cores: tuple[StairCore, ...] = ()

@@ -71,7 +71,8 @@ class InstanceWriter:
         self._car_of[stalls] = cars
         plates, wearers = layout.cars_with_plates()
         self._car_of[plates] = wearers
-        self._headers: dict[tuple[int, int, bool], str] = {}
+        self._parked = frozenset(layout.parked_motorbikes().tolist())
+        self._headers: dict[tuple[int, int, bool, bool], str] = {}
 
     def texts(self, rows: NDArray[np.intp], origins_m: NDArray[np.float64] | float = 0.0) -> Iterator[str]:
         """Yield the instances of objects by row, each relative to an origin (x, z); origins have shape (n, 2)."""
@@ -91,7 +92,10 @@ class InstanceWriter:
         ):
             stall, shape, has_car = self._stalls.get(row), objects.specs[spec], car >= 0
             is_taken = stall is not None and (has_car or stall.blocked_by is not None)
-            header = self._headers.get((kind, spec, is_taken)) or self._header(kind, spec, is_taken=is_taken)
+            is_parked = row in self._parked
+            header = self._headers.get((kind, spec, is_taken, is_parked)) or self._header(
+                kind, spec, is_taken=is_taken, is_parked=is_parked
+            )
             prim = names[name].decode("ascii")
             said = "" if stall is None else _stall_text(stall, self._node_squares[stall.access], is_taken=is_taken)
             if has_car:
@@ -105,9 +109,10 @@ class InstanceWriter:
             else:
                 yield _placed_text(prim, header, x, y, z, yaw)
 
-    def _header(self, kind: int, spec: int, *, is_taken: bool) -> str:
+    def _header(self, kind: int, spec: int, *, is_taken: bool, is_parked: bool) -> str:
         prototype = self._prototypes[spec]
-        switch = SWITCHES.get(KINDS[kind].name)
+        # motorbikes in stalls come and go with the cars, those that stand about stay
+        switch = SWITCHES.get("car" if is_parked else KINDS[kind].name)
         name = OCCUPIED_STALL if is_taken else switch.class_name if switch else None
         base = f"{self._classes}/{name}" if name else None
         layer, root = prototype.place(*self._assets)
@@ -116,7 +121,7 @@ class InstanceWriter:
             header = reference_text(layer, root, base=base)
         else:
             header = header_text(layer, root, look=prototype.look, base=base)
-        self._headers[kind, spec, is_taken] = header
+        self._headers[kind, spec, is_taken, is_parked] = header
         return header
 
 

@@ -29,6 +29,7 @@ STALL_COLOUR: dict[StallUse, Colour] = {
     StallUse.ACCESS_AISLE: (232, 226, 196),
     StallUse.TURNING: (240, 212, 140),
     StallUse.UNREACHABLE: (226, 178, 170),
+    StallUse.MOTORCYCLE: (222, 206, 238),
 }
 _STALL_WORDS = {
     StallUse.STANDARD: "stall",
@@ -109,11 +110,14 @@ def _legend(layout: Layout, found: MeasuredCirculation | None, *, with_route: bo
     entries = lane_legend(layout, found)
     entries += [(STALL_COLOUR[use], _stall_words(use)) for use in StallUse if use in uses]
     entries += [(_CAR, "parked car")] if counts["car"] else []
+    motorbikes = len(layout.parked_motorbikes())
+    entries += [(_CAR, "parked motorcycle")] if motorbikes and not counts["car"] else []
     entries += [(FREE, "free")]
     entries += [(RAMP, "ramp")] if counts["ramp"] else []
     entries += [(SOLID, "obstacle")] if counts["obstacle"] else []
     entries += [(_ON_FOOT, "door of a stair core")] if layout.cores else []
-    entries += [(_STANDING, "people and things")] if any(counts[kind.name] for kind in _CLUTTER) else []
+    standing = sum(counts[kind.name] for kind in _CLUTTER) - motorbikes
+    entries += [(_STANDING, "people and things")] if standing else []
     entries += [(INK, "column, wall")]
     return entries + ([(_IN, "way in"), (_OUT, "way out")] if with_route else [])
 
@@ -124,9 +128,10 @@ def _stall_words(use: StallUse) -> str:
 
 def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
     cars = {car.stall: car for car in layout.of_kind("car")}
+    taken = {*cars, *(place.stall for place in layout.of_kind("motorbike") if place.square is not None)}
     for stall in layout.quads:
         corners = stall.corners
-        said = " blocked" if stall.blocked_by else " occupied" if stall.name in cars else ""
+        said = " blocked" if stall.blocked_by else " occupied" if stall.name in taken else ""
         kind = f"stall {stall.use}{said}"
         yield Region(corners, STALL_COLOUR[stall.use], kind, stall.name)
         yield Line([corners[0], corners[3], corners[2], corners[1]], PAPER, LINE_M)
@@ -136,14 +141,21 @@ def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
         for car in cars.values()
         if isinstance(car.spec, CarSpec)
     )
-    yield from (_number(stall, str(stall.number)) for stall in layout.quads if stall.number)
+    yield from (_number(stall, _short_number(stall)) for stall in layout.quads if stall.number)
+
+
+def _short_number(stall: Stall) -> str:
+    """The number of a stall, without its zone where it would reach into the next stall."""
+    number = str(stall.number)
+    return number.rpartition("-")[2] if stall.use is StallUse.MOTORCYCLE else number
 
 
 def _clutter(layout: Layout) -> Iterator[Region]:
     """Draw people and loose objects."""
     for kind in _CLUTTER:
         for place in layout.of_kind(kind.name):
-            yield from (Region(outline, _STANDING, kind.name, place.name) for outline in place.outlines())
+            colour = _STANDING if place.square is None else _CAR
+            yield from (Region(outline, colour, kind.name, place.name) for outline in place.outlines())
 
 
 def _car_outline(car: Placement, body: CarBody) -> list[Point]:

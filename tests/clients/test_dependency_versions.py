@@ -29,7 +29,7 @@ height_cells = 5
 [garage.plan]
 episodes = 100
 [make]
-exports = ["glb", "osm", "xodr", "xosc", "yaml"]
+exports = ["add.xml", "glb", "osm", "xodr", "xosc", "yaml"]
 """
 RIG = """
 name = "top"

@@ -84,6 +84,16 @@ KINDS = {
         {"sizes": {"compact": 1}},
         {"compact_stall_length": {"value": 5.0, **M}},
     ),
+    "wider stalls for motorcycles": (
+        "motorcycle-stall-width",
+        {"sizes": {"standard": 0.6, "motorcycle": 0.4}, "sizes_m": {"motorcycle": (1.1, 2.5)}},
+        {"motorcycle_stall_width": {"value": 1.2, **M}},
+    ),
+    "longer stalls for motorcycles": (
+        "motorcycle-stall-length",
+        {"sizes": {"standard": 0.6, "motorcycle": 0.4}},
+        {"motorcycle_stall_length": {"value": 2.6, **M}},
+    ),
     "fewer stalls for compact cars": (
         "compact-share",
         {"sizes": {"compact": 1}},

@@ -19,6 +19,7 @@ LEAST_IN_SQUARE_M = 1.0
 """Of a lane that crosses a square: others reach a little into those of junctions."""
 STRAIGHT_RAD = 0.1
 PORTALS = {"entrance", "exit"}
+PARKED_IN = {"standard", "accessible", "ev", "motorcycle"}
 SIGNS = {"barrier": "stop_sign", "speed_bump": "de112"}
 ORIGIN = 49.0, 9.0
 
@@ -182,9 +183,7 @@ class Lanelet2Judge:
                     yield f"no lanelet leads over {thing['path']}"
 
     def _parking(self):
-        return {
-            name: stall for name, stall in self.lanes.stalls.items() if stall["use"] in {"standard", "accessible", "ev"}
-        }
+        return {name: stall for name, stall in self.lanes.stalls.items() if stall["use"] in PARKED_IN}
 
     def _stalls(self):
         taken, parking = self.judged.taken, self._parking()

@@ -70,7 +70,7 @@ def carla_map(path, folder):
 def sumo_spaces(path, folder):
     """Corners (x, z) of each parking space of SUMO's network, by its number, from its degrees back to metres."""
     net, polygons = folder / "sumo.net.xml", folder / "sumo.poly.xml"
-    home = _run(JUDGES / "bin/python", "-c", "import sumo; print(sumo.SUMO_HOME)", folder=folder).strip()
+    home = _sumo_home(folder)
     options = ["--precision", 6, "--precision.geo", 13, "--opendrive.import-all-lanes"]
     command = ["--opendrive-files", path, "-o", net, "--polygon-output", polygons, *options]
     _run(JUDGES / "bin/netconvert", *command, folder=folder, SUMO_HOME=home)
@@ -83,6 +83,33 @@ def sumo_spaces(path, folder):
             x, y = to_metres.transform(*degrees.T)
             spaces[int(polygon.get("id"))] = np.stack([x, -np.asarray(y)], axis=1)[:4]
     return spaces
+
+
+def _sumo_home(folder):
+    return _run(JUDGES / "bin/python", "-c", "import sumo; print(sumo.SUMO_HOME)", folder=folder).strip()
+
+
+def sumo_network(configuration, folder):
+    """Let netconvert make the network that its configuration tells of."""
+    _run(JUDGES / "bin/netconvert", "-c", configuration, folder=folder, SUMO_HOME=_sumo_home(folder))
+    return configuration.with_suffix(".net.xml")
+
+
+def sumo_parked(network, areas, routes, folder, *, expected, seconds=36000):
+    """Where vehicles stand that SUMO parks, and what it says; see `tests/clients/sumo_parking.py`."""
+    output = folder / "parked.json"
+    script = [JUDGES / "bin/python", CLIENTS / "sumo_parking.py", JUDGES / "bin/sumo"]
+    _run(*script, network, areas, routes, expected, seconds, output, folder=folder, SUMO_HOME=_sumo_home(folder))
+    return json.loads(output.read_text())
+
+
+def run_sumo(network, routes, folder, *options):
+    """What SUMO says to a network and vehicles that it may refuse, and whether it does."""
+    command = [JUDGES / "bin/sumo", "-n", network, "-r", routes, "--no-step-log", "--duration-log.disable", *options]
+    environment = {**os.environ, "SUMO_HOME": _sumo_home(folder)}
+    command = [str(part) for part in command]
+    run = subprocess.run(command, capture_output=True, text=True, timeout=600, env=environment, check=False)
+    return run.stderr, run.returncode != 0
 
 
 def run_python(text, folder):

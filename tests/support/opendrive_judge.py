@@ -19,7 +19,7 @@ GROOVE_M = 0.0125
 STILL_PARALLEL, NEARLY_PARALLEL = 1 - 1e-7, 0.9
 LEAST_SHARE = {"column": 0.75, "wall": 0.5, "barrier": 0.02, "speed_bump": 0.75, "obstacle": 0.5}
 """Of the bounds of what stands: walls have stripes and doors, and the arm of a gate is no part of what stands."""
-ACCESS = {"standard": "car", "accessible": "handicapped", "ev": "electric"}
+ACCESS = {"standard": "car", "accessible": "handicapped", "ev": "electric", "motorcycle": "all"}
 
 
 class MapJudge:

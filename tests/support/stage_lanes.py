@@ -54,8 +54,8 @@ class JudgedStage:
 
     @cached_property
     def taken(self):
-        """Ids of the stalls in which the origin of a car lies, by the table of labels and pxr, and of blocked ones."""
-        cars = [thing["path"] for thing in self.labelled if thing["class"] == "car"]
+        """Ids of stalls in which the origin of a vehicle lies, by the table of labels and pxr, and of blocked ones."""
+        cars = [thing["path"] for thing in self.labelled if thing["class"] in {"car", "motorbike"}]
         places = UsdGeom.XformCache()
         at = [places.GetLocalToWorldTransform(self.stage.GetPrimAtPath(path)).ExtractTranslation() for path in cars]
         tree = shapely.STRtree([shapely.Point(place[0], place[2]) for place in at])

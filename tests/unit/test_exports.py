@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from support.map_reader import read_map
 import garage2usd
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError, MissingExtraError, ReportError, StageError
+from garage2usd.config.maps import MapsConfig
 
 QUICK = "[plan]\nepisodes = 200\n"
 GRID_FILES = tuple(f"g{mask}.{suffix}" for mask in ("", "_keepout", "_speed") for suffix in ("yaml", "pgm"))
@@ -27,10 +29,10 @@ def made(tmp_path_factory):
     config = folder / "g.toml"
     config.write_text(f"{QUICK}[maps.grid]\nresolution_m = 0.1\nkeepout = true\nspeed = true\n")
     run = CliRunner().invoke(
-        main, ["build", str(config), "--with", "glb, osm, xodr, xosc, yaml", "-o", str(folder / "g.usdc")]
+        main, ["build", str(config), "--with", "add.xml, glb, osm, xodr, xosc, yaml", "-o", str(folder / "g.usdc")]
     )
     assert run.exit_code == 0, run.output
-    for name in ("g.glb", "g.osm", "g.xodr", "g.xosc", *GRID_FILES):
+    for name in ("g.add.xml", "g.netccfg", "g.glb", "g.osm", "g.xodr", "g.xosc", *GRID_FILES):
         assert f"export  {folder / name}" in run.output
     return folder
 
@@ -74,6 +76,20 @@ def test_the_command_writes_files_at_a_time_and_the_same(made, tmp_path):
     for name in written:
         by_three, by_one = ((tmp_path / workers / name).read_bytes() for workers in "31")
         assert by_three == by_one == (made / name).read_bytes()
+
+
+def test_parking_areas_bring_their_map_and_netconvert_s_configuration(made, tmp_path):
+    files = garage2usd.export(made / "g.usdc", [tmp_path / "G.Add.XML", tmp_path / "G.xosc"])
+    assert [file.name for file in files] == ["G.Add.XML", "G.netccfg", "G.xodr", "G.xosc"]
+    areas, configuration, road, _ = files
+    assert areas.read_bytes() == (made / "g.add.xml").read_bytes()
+    assert road.read_bytes() == (made / "g.xodr").read_bytes()
+    options = {element.tag: element.get("value") for element in ET.parse(configuration).getroot().iterfind("*/*")}
+    assert options["opendrive-files"] == "G.xodr"
+    assert options["offset.disable-normalization"] == "true"
+    by_row = garage2usd.export(made / "g.usdc", [tmp_path / "row.add.xml"], settings=MapsConfig(sumo={"areas": "row"}))
+    counts = [len(ET.parse(file).getroot()) for file in (areas, by_row[0])]
+    assert counts[1] < counts[0]
 
 
 def test_masks_keep_robots_off_hatched_ground_and_slow_on_ramps(made):
@@ -135,7 +151,10 @@ def test_an_edited_stage_is_exported_as_it_stands(made, tmp_path):
     ("source", "outputs", "error", "said"),
     [
         ("g.usdc", ["a.glb", "b.foo"], ConfigError, ".glb, .osm, .xodr, .xosc, .yaml"),
-        ("g.usdc", [".glb"], ConfigError, ".glb, .osm, .xodr, .xosc, .yaml"),
+        ("g.usdc", [".glb"], ConfigError, ".add.xml, .glb, .osm, .xodr, .xosc, .yaml"),
+        ("g.usdc", [".add.xml"], ConfigError, ".add.xml, .glb, .osm, .xodr, .xosc, .yaml"),
+        ("g.usdc", ["a.xml"], ConfigError, ".add.xml, .glb, .osm, .xodr, .xosc, .yaml"),
+        ("g.usdc", ["a.add.xml", "a.add.xml"], ConfigError, "each file once"),
         ("g.usdc", ["a.glb", "a.glb"], ConfigError, "each file once"),
         ("g.usdc", [], ConfigError, "one or more"),
         ("g.toml", ["a.glb"], ConfigError, ".usdz, .json"),
@@ -145,6 +164,7 @@ def test_an_edited_stage_is_exported_as_it_stands(made, tmp_path):
         ("empty.usda", ["b.yaml"], StageError, "floor"),
         ("empty.usda", ["b.osm"], StageError, "lane graph"),
         ("empty.usda", ["b.xodr"], StageError, "lane graph"),
+        ("empty.usda", ["b.add.xml"], StageError, "lane graph"),
     ],
 )
 def test_what_cannot_be_exported_leaves_no_file(made, tmp_path, source, outputs, error, said):
@@ -159,7 +179,7 @@ def test_what_cannot_be_exported_leaves_no_file(made, tmp_path, source, outputs,
 def test_build_refuses_formats_before_it_works(tmp_path):
     run = CliRunner().invoke(main, ["build", "--with", "glb,ifc", "-o", str(tmp_path / "g.usdz")])
     assert run.exit_code == 2
-    assert "allowed: a path that ends in .glb, .osm, .xodr, .xosc, .yaml" in run.output
+    assert "allowed: a path that ends in .add.xml, .glb, .osm, .xodr, .xosc, .yaml" in run.output
     assert not list(tmp_path.iterdir())
 
 
@@ -178,6 +198,8 @@ def test_settings_of_maps_that_cannot_be_are_refused():
         garage2usd.GarageConfig(maps={"grid": {"high_m": 0.05}})
     with pytest.raises(ConfigError, match="latitude"):
         garage2usd.GarageConfig(maps={"latitude_deg": 91.0})
+    with pytest.raises(ConfigError, match=r"maps\.sumo\.areas.*'bay', 'row' or 'stall'"):
+        garage2usd.GarageConfig(maps={"sumo": {"areas": "lane"}})
 
 
 def test_what_a_scene_cannot_say_is_named_on_standard_error(tmp_path):

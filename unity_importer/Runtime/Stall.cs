@@ -40,7 +40,7 @@ namespace Garage.Unity
             get { return type; }
         }
 
-        /// <summary>"standard", "turning", "ev", "accessible", "access_aisle" or "unreachable".</summary>
+        /// <summary>"standard", "turning", "ev", "accessible", "access_aisle", "unreachable" or "motorcycle".</summary>
         public string Use
         {
             get { return use; }
@@ -52,7 +52,7 @@ namespace Garage.Unity
             get { return kind; }
         }
 
-        /// <summary>Size class: "standard", "compact", "large" or "van".</summary>
+        /// <summary>Size class: "standard", "compact", "large", "van" or "motorcycle".</summary>
         public string Size
         {
             get { return size; }
@@ -97,7 +97,7 @@ namespace Garage.Unity
         /// <summary>Whether cars park there.</summary>
         public bool TakesCars
         {
-            get { return use != "turning" && use != "access_aisle" && use != "unreachable"; }
+            get { return use != "turning" && use != "access_aisle" && use != "unreachable" && use != "motorcycle"; }
         }
 
         /// <summary>0 mouth left, 1 mouth right, 2 rear right, 3 rear left, as the stage has them; metres in the

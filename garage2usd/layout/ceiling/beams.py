@@ -1,6 +1,7 @@
 """Ceiling beams on the column lines, and the vertical layers of beams, cable trays, pipes and ducts."""
 
 import math
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
@@ -103,8 +104,19 @@ def ceiling_levels(fittings: FittingsConfig) -> CeilingLevels:
     )
 
 
-def beams(structure: Structure, bay: BayConfig, ceiling_m: float, depth_m: float) -> list[Placement]:
+def beams(
+    structure: Structure, bay: BayConfig, ceiling_m: float, depth_m: float, pillars: Iterable[Placement]
+) -> list[Placement]:
     """Place concrete beams under the borders of the squares, from column to column and from wall to wall.
+
+    Parameters
+    ----------
+    structure, bay
+        The squares, and the size of the columns.
+    ceiling_m, depth_m
+        Height of the ceiling, and depth of the beams.
+    pillars
+        The columns; at a corner whose column is set back, a node fills the gap.
 
     Notes
     -----
@@ -130,13 +142,19 @@ def beams(structure: Structure, bay: BayConfig, ceiling_m: float, depth_m: float
     for row, col in np.argwhere(inside[:-1] & inside[1:]).tolist():
         middle = (float(x[col] + x[col + 1]) / 2, float(z[row + 1]))
         found.append(beam("BeamDown", float(x[col + 1] - x[col]) - size, middle, _QUARTER_TURN, (row, col)))
-    return found + _node_beams(structure, size, width, ceiling_m, depth_m)
+    feet = {(place.position_m[0], place.position_m[2]) for place in pillars}
+    return found + _node_beams(structure, size, width, ceiling_m, depth_m, feet)
 
 
 def _node_beams(
-    structure: Structure, size_m: float, width_m: float, ceiling_m: float, depth_m: float
+    structure: Structure,
+    size_m: float,
+    width_m: float,
+    ceiling_m: float,
+    depth_m: float,
+    feet: Collection[Point],
 ) -> list[Placement]:
-    """Return the beam nodes at corners without columns: in the middle of lanes, and at walls."""
+    """Return the beam nodes at corners without columns: in the middle of lanes, at walls, and before set back ones."""
     cells = np.pad(structure.cells, 1, constant_values=Cell.OBSTACLE)
     rows, cols = structure.shape
     nodes: list[Placement] = []
@@ -144,7 +162,9 @@ def _node_beams(
         around = cells[row : row + 2, col : col + 2]
         inside = around != Cell.OBSTACLE
         boxes = _node_boxes(tuple(inside.ravel().tolist()), size_m, width_m)
-        if not boxes or (inside.all() and (around == Cell.FREE).any()):
+        has_column = inside.all() and (around == Cell.FREE).any()
+        corner = structure.column_edges_m[col], structure.row_edges_m[row]
+        if not boxes or (has_column and tuple(map(float, corner)) in feet):
             continue
         down, right = np.argwhere(inside)[0].tolist()
         name = f"BeamNode_{_CORNERS[down, right]}"

@@ -42,8 +42,9 @@ def with_designated_stalls(
     accessible stalls the width by which their standard, or that of vans, exceeds a stall's.
     """
     far_m = Points(list(anchors)).nearest_m(np.array([stall.centre_m for stall in stalls]).reshape(-1, 2)).tolist()
-    accessible = _accessible_count(len(stalls), parking, profile)
-    charging = round(parking.ev_share * len(stalls))
+    for_cars = sum(stall.use is not StallUse.MOTORCYCLE for stall in stalls)
+    accessible = _accessible_count(for_cars, parking, profile)
+    charging = round(parking.ev_share * for_cars)
     order = sorted(
         (index for index, stall in enumerate(stalls) if stall.use is StallUse.STANDARD),
         key=lambda index: (round(far_m[index], 6), index),
@@ -142,7 +143,37 @@ def use_symbol(use: StallUse) -> tuple[Marking, ...]:
         return (Marking(tuple((x, z + _SYMBOL_Z_M) for x, z in bolt), Surface.PAINT_WHITE, Paint.STALL_SYMBOL),)
     if use is StallUse.ACCESSIBLE:
         return tuple(Marking(shape, Surface.PAINT_WHITE, Paint.STALL_SYMBOL) for shape in _wheelchair())
+    if use is StallUse.MOTORCYCLE:
+        return tuple(Marking(shape, Surface.PAINT_WHITE, Paint.STALL_SYMBOL) for shape in _motorcycle())
     return ()
+
+
+def _motorcycle() -> list[tuple[Point, ...]]:
+    """The outlines of a motorcycle seen from its right, as polygons without holes."""
+    wheels = [shapely.Point(x, 0.16).buffer(0.16, quad_segs=4) for x in (-0.30, 0.30)]
+    lines = [
+        [(-0.30, 0.16), (-0.10, 0.12), (0.14, 0.12)],
+        [(0.30, 0.16), (0.17, -0.20), (0.06, -0.26)],
+        [(0.17, -0.20), (0.27, -0.24)],
+    ]
+    strokes = [shapely.LineString(line).buffer(0.035, cap_style="flat", join_style="mitre") for line in lines]
+    tank_and_seat = shapely.Polygon(
+        [
+            (0.19, -0.10),
+            (0.10, -0.19),
+            (-0.02, -0.17),
+            (-0.08, -0.09),
+            (-0.42, -0.15),
+            (-0.38, -0.03),
+            (-0.10, 0.14),
+            (0.14, 0.14),
+        ]
+    )
+    shapes = shapely.get_parts(shapely.union_all([*wheels, *strokes, tank_and_seat], grid_size=1e-4))
+    return [
+        tuple((round(x, 6), round(z - 0.1, 6)) for x, z in list(shape.exterior.coords)[:-1])
+        for shape in sorted(shapes, key=lambda shape: shape.bounds)
+    ]
 
 
 def _wheelchair() -> list[tuple[Point, ...]]:

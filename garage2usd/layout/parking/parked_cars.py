@@ -26,7 +26,7 @@ from garage2usd.objects.car import CarSpec
 from garage2usd.objects.wheel_stop import WHEEL_STOP_HEIGHT_M, WHEEL_STOP_WIDTH_M
 from garage2usd.structure.lane_graph import Square
 
-__all__ = ["ParkedCars", "fitting", "park_cars"]
+__all__ = ["ParkedCars", "fitting", "occupancy_of", "park_cars"]
 
 _END_CLEARANCE_M = 0.1
 """Distance between a car and the entry of its stall."""
@@ -232,7 +232,7 @@ def park_cars(
     states = draws.of_part(Step.CARS, "wheels and dust", most, _STATES)
     lamps = draws.of_part(Step.CARS, "lamps", most, 1)
     fleet = Fleet(parking, config.standard.country)
-    holds_car = _occupancy(stalls, parking)
+    holds_car = occupancy_of(stalls, parking)
     cars: dict[str, _Car] = {}
     for stall in stalls:
         drawn = numbers[stall.square][stall.ordinal - 1].tolist()
@@ -362,7 +362,7 @@ def _slant(car: _Car, share: float, towards: int) -> float:
     return math.copysign(min(low + share * (high - low), elementary.arcsin(min(room_m, 1.0))), towards)
 
 
-def _occupancy(stalls: tuple[PlacedStall, ...], parking: ParkingConfig) -> dict[str, bool]:
+def occupancy_of(stalls: tuple[PlacedStall, ...], parking: ParkingConfig) -> dict[str, bool]:
     """Occupancy of the stalls named in the configuration."""
     uses = {stall.name: stall.use for stall in stalls}
     named = {}
@@ -370,7 +370,7 @@ def _occupancy(stalls: tuple[PlacedStall, ...], parking: ParkingConfig) -> dict[
         for name in getattr(parking, field) or ():
             if name not in uses:
                 raise ConfigError(f"parking.{field}", name, f"ids of stalls of this garage, as {next(iter(uses))}")
-            if holds_car and not uses[name].takes_cars:
+            if holds_car and not uses[name].is_parked_in:
                 raise ConfigError(
                     f"parking.{field}",
                     name,

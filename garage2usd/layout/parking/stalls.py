@@ -9,6 +9,7 @@ import numpy as np
 
 from garage2usd.config import FittingsConfig
 from garage2usd.config.look import MarkingsLook
+from garage2usd.config.stalls import SizeClass
 from garage2usd.garage import StallKind
 from garage2usd.layout.floor.ghost_lines import ghosts_on_stall
 from garage2usd.layout.floor.markings import hatching
@@ -69,6 +70,7 @@ def stalls_of(grid: TileGrid, graph: LaneSquares) -> tuple[PlacedStall, ...]:
             angle_deg=place.row.shape.angle_deg,
             turn=turn_of(place.row),
             size=place.row.shape.size,
+            use=StallUse.STANDARD if SizeClass(place.row.shape.size).takes_cars else StallUse.MOTORCYCLE,
         )
         for tile in grid
         for place in grid.stall_places.get(tile.square, [])
@@ -158,7 +160,7 @@ def _stall_panel(
         lines = stall_lines(width_m, depth_m, look)
         if slope:
             lines = _moved(lines, lambda x, z: (x, z + slope * x))
-    if not use.takes_cars:
+    if not use.is_parked_in:
         lines += hatching(width_m / 2, length_m / 2, margin_m=_HATCH_MARGIN_M, surface=_HATCHES[use])
     return StallSpec(width_m, depth_m, _COATINGS.get(use, Surface.STALL), (*lines, *use_symbol(use)), slope=slope)
 

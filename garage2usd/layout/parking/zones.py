@@ -44,12 +44,12 @@ class Zones:
 def with_numbers(stalls: Iterable[PlacedStall], zones: Zones | None) -> tuple[PlacedStall, ...]:
     """Number the stalls, for example ``B2-07`` by zone, or ``007`` in a garage without zones.
 
-    Stalls that take no cars have no number.
+    Stalls in which nobody parks have no number.
     """
     counts: Counter[Zone | None] = Counter()
     numbered = []
     for stall in stalls:
-        if not stall.use.takes_cars:
+        if not stall.use.is_parked_in:
             numbered.append(stall)
             continue
         zone = zones.of(stall.square) if zones else None

@@ -1,10 +1,12 @@
 """Outer walls along the contour, vehicle doors, wall posts and columns."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 from itertools import product
 
 import numpy as np
 import shapely
+import shapely.affinity
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, FittingsConfig
@@ -12,7 +14,7 @@ from garage2usd.config.look import ColumnSection, ColumnsLook, WallsLook
 from garage2usd.config.site import DOOR_FRAME_M, DOOR_JAMB_M
 from garage2usd.layout.clearance import check_clear_width
 from garage2usd.layout.placement import Placement, edge_yaw_rad, placed
-from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.layout.tiles import Tile, TileGrid, stall_outline
 from garage2usd.objects.column import ColumnSpec
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.wall import WallPostSpec, WallSpec
@@ -20,10 +22,12 @@ from garage2usd.structure.doors import door_edges
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure, outside_squares
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["DOOR_FRAME_M", "columns", "ground_inside", "outer_walls"]
+__all__ = ["DOOR_FRAME_M", "columns", "corner_columns", "ground_inside", "outer_walls"]
 
 _MAX_DOOR_WIDTH_M = 6.0
 _DOOR_HEAD_M = 0.3
+_TOUCH_M2 = 1e-4
+"""Ground of a stall that rounding may have in common with the column beside it."""
 
 
 def columns(
@@ -32,7 +36,8 @@ def columns(
     """Place a column on every inner corner of the squares, except in the middle of lanes and in walls.
 
     A quarter of a column is on each of the squares around its corner; stalls and carriageways keep half a column width
-    clear for any section. A rectangular column is long parallel to the adjacent stalls.
+    clear for any section. A rectangular column is long parallel to the adjacent stalls. Columns between two squares of
+    stalls that open to the same side stand `bay.column_setback_m` behind the mouths, unless a stall is in the way.
     """
     structure = grid.structure
     cells = np.pad(structure.cells, 1, constant_values=Cell.OBSTACLE)
@@ -53,10 +58,66 @@ def columns(
         Placement(
             f"Column_r{row:02d}_c{col:02d}",
             replace(spec, is_long_along_x=True) if is_turned and _stalls_along_x(grid, row, col) else spec,
-            (float(structure.column_edges_m[col]), 0.0, float(structure.row_edges_m[row])),
+            _column_position_m(grid, bay, row, col),
         )
         for row, col in np.argwhere(inner & off_lane).tolist()
     ]
+
+
+def corner_columns(structure: Structure, pillars: Iterable[Placement]) -> tuple[str, ...]:
+    """Return the names of the columns that stand on a corner of squares beside a lane."""
+    cells = np.pad(structure.cells, 1, constant_values=Cell.OBSTACLE)
+    rows = {float(z): row for row, z in enumerate(structure.row_edges_m)}
+    cols = {float(x): col for col, x in enumerate(structure.column_edges_m)}
+    names = []
+    for place in pillars:
+        row, col = rows.get(place.position_m[2]), cols.get(place.position_m[0])
+        if row is not None and col is not None and (cells[row : row + 2, col : col + 2] != Cell.FREE).any():
+            names.append(place.name)
+    return tuple(names)
+
+
+def _column_position_m(grid: TileGrid, bay: BayConfig, row: int, col: int) -> tuple[float, float, float]:
+    """The place of the column of a corner: the corner itself, or set back from the mouths of the stalls beside it."""
+    x, z = float(grid.structure.column_edges_m[col]), float(grid.structure.row_edges_m[row])
+    back = _back_of_mouths(grid, row, col) if bay.column_setback_m else None
+    if back is None:
+        return x, 0.0, z
+    step_row, step_col = NEIGHBOUR_STEPS[back]
+    moved = x + step_col * bay.column_setback_m, z + step_row * bay.column_setback_m
+    half = bay.column_size_m / 2
+    foot = shapely.box(moved[0] - half, moved[1] - half, moved[0] + half, moved[1] + half)
+    way = shapely.union(foot, shapely.box(x - half, z - half, x + half, z + half)).convex_hull
+    for square in product((row - 1, row), (col - 1, col)):
+        tile = grid.tiles[square]
+        grounds = [
+            shapely.Polygon(stall_outline(tile, place.row, place.slot)) for place in grid.stall_places.get(square, ())
+        ]
+        x_m, z_m = tile.middle_m
+        if any(shapely.affinity.translate(ground, x_m, z_m).intersection(way).area > _TOUCH_M2 for ground in grounds):
+            return x, 0.0, z
+        is_behind = tile.cell is Cell.FREE
+        if is_behind and bay.column_setback_m + half > (tile.depth_m if back.along_x else tile.width_m) - half:
+            return x, 0.0, z
+    return round(moved[0], 6), 0.0, round(moved[1], 6)
+
+
+def _back_of_mouths(grid: TileGrid, row: int, col: int) -> Edge | None:
+    """The direction away from the lane, at a corner between two squares whose stalls open to the same side."""
+    for mouth in Edge:
+        step_row, step_col = NEIGHBOUR_STEPS[mouth]
+        along = (0, 1) if step_row else (1, 0)
+        # the two squares behind the corner as seen from the lane
+        first = (row if step_row < 0 else row - 1, col - 1) if step_row else (row - 1, col if step_col < 0 else col - 1)
+        bays = [first, (first[0] + along[0], first[1] + along[1])]
+        opens = [
+            grid.tiles[mouth.beyond(square)].cell is not Cell.FREE
+            and any(place.row.edge is mouth for place in grid.stall_places.get(square, ()))
+            for square in bays
+        ]
+        if all(opens):
+            return mouth.opposite
+    return None
 
 
 def _stalls_along_x(grid: TileGrid, row: int, col: int) -> bool:

@@ -13,6 +13,7 @@ import shapely
 from numpy.typing import NDArray
 
 from garage2usd.common.version import VERSION
+from garage2usd.garage import Stall, StallUse
 from garage2usd.reading.labels import Labels
 from garage2usd.sensors.slots import CORNERS, PLACES_PX, SlotRecord, Visibility
 
@@ -40,7 +41,7 @@ STUFF = frozenset(
 """Semantic classes with one panoptic segment a picture; objects of all other classes have one segment each."""
 
 _LEAST_AREA_PX = 16.0
-_SLOT, _KEPT_FREE = 1, 2
+_SLOT, _KEPT_FREE, _MOTORCYCLE_SLOT = 1, 2, 3
 _CATEGORIES = [
     {
         "id": number,
@@ -49,7 +50,7 @@ _CATEGORIES = [
         "keypoints": list(CORNERS),
         "skeleton": [[1, 2], [2, 3], [3, 4], [4, 1]],
     }
-    for number, name in ((_SLOT, "parking_slot"), (_KEPT_FREE, "kept_free"))
+    for number, name in ((_SLOT, "parking_slot"), (_KEPT_FREE, "kept_free"), (_MOTORCYCLE_SLOT, "motorcycle_slot"))
 ]
 
 
@@ -87,6 +88,7 @@ def coco_keypoints(frames: Iterable[tuple[CocoImage, Iterable[SlotRecord]]], *, 
     Notes
     -----
     Slots of the category ``parking_slot`` take cars; those of ``kept_free`` are hatched or otherwise kept free.
+    Those of ``motorcycle_slot`` are for motorcycles; the category is listed only where there are any.
     `segmentation`, `bbox` and `area` cover the whole ground of the slot within the picture, hidden or not. Coordinates
     count from the picture's left and upper edge, so that the middle of the first pixel is (0.5, 0.5). The extension
     `attributes` holds name, number, use, type, angle, occupancy, and the number of pixels that show the slot's ground.
@@ -101,12 +103,13 @@ def coco_keypoints(frames: Iterable[tuple[CocoImage, Iterable[SlotRecord]]], *, 
         found = [(record, ground) for record, ground in grounds if ground.area >= _LEAST_AREA_PX]
         for record, ground in found:
             annotations.append({"id": len(annotations) + 1, "image_id": number, **_annotation(record, ground)})
+    listed = {_SLOT, _KEPT_FREE, *(annotation["category_id"] for annotation in annotations)}
     return {
         "info": _info(description),
         "licenses": [],
         "images": images,
         "annotations": annotations,
-        "categories": _CATEGORIES,
+        "categories": [category for category in _CATEGORIES if category["id"] in listed],
     }
 
 
@@ -196,6 +199,12 @@ def _info(description: str) -> dict[str, str]:
     return {"description": description, "version": VERSION}
 
 
+def _category_of(stall: Stall) -> int:
+    if stall.use is StallUse.MOTORCYCLE:
+        return _MOTORCYCLE_SLOT
+    return _SLOT if stall.takes_cars else _KEPT_FREE
+
+
 def _ground(record: SlotRecord) -> shapely.MultiPolygon:
     return shapely.MultiPolygon([shapely.Polygon(part) for part in record.outline_px])
 
@@ -208,7 +217,7 @@ def _annotation(record: SlotRecord, ground: shapely.MultiPolygon) -> dict[str, A
         is_there = visibility != Visibility.NOT_IN_PICTURE
         keypoints += [round(column, PLACES_PX), round(row, PLACES_PX), visibility] if is_there else [0, 0, 0]
     return {
-        "category_id": _SLOT if slot.stall.use.takes_cars else _KEPT_FREE,
+        "category_id": _category_of(slot.stall),
         "iscrowd": 0,
         "segmentation": [np.round(part, PLACES_PX).ravel().tolist() for part in record.outline_px],
         "bbox": [round(value, PLACES_PX) for value in (left, top, right - left, bottom - top)],

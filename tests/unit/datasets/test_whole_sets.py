@@ -14,9 +14,10 @@ from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
 from garage2usd.datasets import cluster, make_dataset, verify_dataset
 
-ALL = ["glb", "osm", "xodr", "xosc", "yaml"]
+ALL = ["add.xml", "glb", "osm", "xodr", "xosc", "yaml"]
 MASKS = {"maps": {"grid": {"resolution_m": 0.5, "keepout": True, "speed": True}}}
-TEXTS = {"difficulty.json", "keepout.yaml", "labels.json", "osm", "report.json", "speed.yaml", "xodr", "xosc", "yaml"}
+TEXTS = {"add.xml", "difficulty.json", "keepout.yaml", "labels.json", "netccfg", "osm", "report.json", "speed.yaml"}
+TEXTS |= {"xodr", "xosc", "yaml"}
 PICTURES = {"pgm", "keepout.pgm", "speed.pgm"}
 
 
@@ -60,7 +61,7 @@ def test_every_file_belongs_to_its_garage_and_a_fresh_set_verifies(
     made = make_dataset(recipe, folder)
     assert not made.failed
     assert verify_dataset(folder) == []
-    brought = {"yaml": PICTURES | {"keepout.yaml", "speed.yaml"}, "xosc": {"xodr"}}
+    brought = {"yaml": PICTURES | {"keepout.yaml", "speed.yaml"}, "xosc": {"xodr"}, "add.xml": {"netccfg", "xodr"}}
     expected = {"report.json", "difficulty.json", "labels.json", "plan.png", *exports}
     expected |= {"usdz"} if is_self_contained else {"usdc", "Drive.usdc", "LaneGraph.usdc"}
     expected |= {name for each in exports for name in brought.get(each, ())}
