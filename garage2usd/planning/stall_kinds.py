@@ -13,6 +13,7 @@ from garage2usd.common.randomness import Step, generator
 from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.config.stalls import GivenRun, SizeClass
 from garage2usd.garage import StallKind
+from garage2usd.planning.aisle_widths import narrow_aisles_m
 from garage2usd.planning.dimensions import lines_with_aisles, lines_with_doors
 from garage2usd.planning.plan import Plan
 from garage2usd.planning.score import evaluate
@@ -23,7 +24,7 @@ from garage2usd.structure.stall_runs import StallRun, depth_needed_m, lean_of_tr
 from garage2usd.structure.stall_shapes import PARALLEL_DEG, PERPENDICULAR_DEG, StallShape
 from garage2usd.structure.stalls import Edge, stall_rows
 
-__all__ = ["runs_of_settings", "settings_of_runs", "with_stall_kinds"]
+__all__ = ["runs_of_settings", "settings_of_runs", "with_runs", "with_stall_kinds"]
 
 _MM_PER_M = 1000
 _STEP_MM = 10
@@ -61,24 +62,57 @@ def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
     Runs are visited by length, equal ones in random order. Each takes the option furthest below its share of the stalls
     so far, among those that fit: squares whose sides are not chosen must be deep enough. Lines of squares without
     traffic along them then get the sides with the least floor per stall, and single runs change their option while the
-    shares on these sides gain by it.
+    shares on these sides gain by it. One-way lines between angled or parallel stalls are narrower where that needs less
+    floor per stall. Where kinds are free, the garage is laid out with each kind and angle alone, and gets the one with
+    the least floor per stall; of equal ones the first in the order perpendicular, angled, parallel.
     """
+    if config.stalls.is_free:
+        return _least_floor(plan, config)
     if config.stalls.is_uniform:
         return plan
-    bay, spacing = config.bay, config.standard.column_spacing
-    longest_span_m = spacing.bounds[1] if spacing else math.inf
     draw = _Draw(plan, config)
     for _ in range(_ROUNDS):
-        structure = _Fitting(plan.structure, bay, draw.runs, longest_span_m).fitted()
-        draw.even_out(structure)
-    structure = _Fitting(plan.structure, bay, draw.runs, longest_span_m).fitted()
-    runs = sorted(draw.runs, key=lambda run: (run.first, run.edge))
-    return replace(
-        plan,
-        structure=structure,
-        score=evaluate(structure, bay=bay, plan=config.plan, runs=runs),
-        runs=tuple(runs),
-    )
+        draw.even_out(_Fitting(plan, config, draw.runs).fitted())
+    return with_runs(plan, config, draw.runs)
+
+
+def _least_floor(plan: Plan, config: GarageConfig) -> Plan:
+    """Return the plan whose stalls are of the kind with the least floor per stall."""
+    stalls = config.stalls
+    every = [
+        stalls.of_kind(StallKind.PERPENDICULAR),
+        *(stalls.of_kind(StallKind.ANGLED, angle_deg) for angle_deg in stalls.angles_deg),
+        stalls.of_kind(StallKind.PARALLEL),
+    ]
+    plans = (with_stall_kinds(plan, config.model_copy(update={"stalls": of_one})) for of_one in every)
+    return min(plans, key=_floor_per_stall_m2)
+
+
+def _floor_per_stall_m2(plan: Plan) -> float:
+    return round(plan.structure.floor_m2 / plan.score.stalls, 9) if plan.score.stalls else math.inf
+
+
+def with_runs(plan: Plan, config: GarageConfig, runs: Iterable[StallRun]) -> Plan:
+    """Give a plan the runs of its stalls.
+
+    Parameters
+    ----------
+    plan
+        Lanes with their directions, and R and C for perpendicular stalls of the standard size.
+    config
+        Which sides are chosen, and the weights of the score.
+    runs
+        All stalls, in any order.
+
+    Returns
+    -------
+    Plan
+        The same S and directions. R and C, where they are chosen, and the score are those of the runs.
+    """
+    ordered = sorted(runs, key=lambda run: (run.first, run.edge))
+    structure = _Fitting(plan, config, ordered).fitted()
+    score = evaluate(structure, bay=config.bay, plan=config.plan, runs=ordered)
+    return replace(plan, structure=structure, score=score, runs=tuple(ordered))
 
 
 def runs_of_settings(
@@ -242,10 +276,11 @@ def _deepened(structure: Structure, bay: BayConfig, run: StallRun) -> Structure:
 
 
 class _Fitting:
-    """Sides of lines without traffic along them, each chosen by the least floor per stall."""
+    """Sides of lines without traffic along them and of narrow aisles, each chosen by the least floor per stall."""
 
-    def __init__(self, structure: Structure, bay: BayConfig, runs: Sequence[StallRun], longest_span_m: float) -> None:
-        self._longest_span_mm = longest_span_m * _MM_PER_M
+    def __init__(self, plan: Plan, config: GarageConfig, runs: Sequence[StallRun]) -> None:
+        structure, bay, spacing = plan.structure, config.bay, config.standard.column_spacing
+        self._longest_span_mm = (spacing.bounds[1] if spacing else math.inf) * _MM_PER_M
         self._cells, self._bay, self._runs = structure.cells, bay, runs
         self._sides_mm = [structure.row_depths_mm.copy(), structure.column_widths_mm.copy()]
         self._least_mm = [
@@ -253,12 +288,18 @@ class _Fitting:
         ]
         self._backs = Counter((square, run.edge.along_x) for run in runs for square in run.squares)
         with_aisles = lines_with_aisles(structure)
+        self._aisles_mm = {
+            line: _rounded_mm(clear_m + 2 * bay.carriageway_setback_m)
+            for line, clear_m in narrow_aisles_m(structure, bay, config.standard, runs, plan.directions).items()
+            if bay.chosen_sides[line[0]]
+        }
         self._lines = [
             (axis, line)
             for axis, is_chosen in enumerate(bay.chosen_sides)
             if is_chosen
             for line in range(structure.shape[axis])
-            if not with_aisles[axis][line] and (structure.cells.take(line, axis=axis) == Cell.FREE).any()
+            if (axis, line) in self._aisles_mm
+            or (not with_aisles[axis][line] and (structure.cells.take(line, axis=axis) == Cell.FREE).any())
         ]
         self._of_line = {line: self._runs_on(*line) for line in self._lines}
         for axis, line in self._lines:
@@ -298,6 +339,8 @@ class _Fitting:
     def _choices_mm(self, axis: int, line: int) -> list[int]:
         """Sides to try: as deep as the runs along the line need, and as wide as some stalls of the runs across it."""
         deep = max(self._needed_mm(axis, line), int(self._least_mm[axis][line]))
+        if (axis, line) in self._aisles_mm:
+            return sorted({max(self._aisles_mm[axis, line], deep), int(self._sides_mm[axis][line])})
         half_column_m = self._bay.column_size_m / 2
         found = {deep, deep + _rounded_mm(half_column_m)} if deep else set()
         shapes = {
@@ -330,7 +373,7 @@ class _Fitting:
 
     def _floor_per_stall(self, counts: Sequence[int]) -> float:
         stalls = sum(counts)
-        return round(self._structure().floor_m2 / stalls, 9) if stalls else np.inf
+        return round(self._structure().floor_m2 / stalls, 9) if stalls else math.inf
 
 
 def _count(structure: Structure, bay: BayConfig, run: StallRun, *, is_backed: bool) -> int:
