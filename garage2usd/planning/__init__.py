@@ -5,7 +5,7 @@ from garage2usd.planning.dimensions import area_per_stall_m2, dimension, dimensi
 from garage2usd.planning.optimum import Optimum, counting_bound, find_optimum
 from garage2usd.planning.orientation import DrivenLengths, driven_lengths, with_directions
 from garage2usd.planning.plan import ArchivedPlan, Plan, given_plan
-from garage2usd.planning.plan_tape import is_of_lanes_alone, plan_tape_of, play_plan, play_tail, tail_of
+from garage2usd.planning.plan_tape import is_of_lanes_alone, plan_tape_of, play_plan, read_tail, tail_of
 from garage2usd.planning.planner import plan_lanes
 from garage2usd.planning.principles import Principles, principles
 from garage2usd.planning.score import Score, evaluate, is_feasible
@@ -36,9 +36,9 @@ __all__ = [
     "plan_tape_of",
     "play",
     "play_plan",
-    "play_tail",
     "principles",
     "rank_of",
+    "read_tail",
     "runs_of_settings",
     "settings_of_runs",
     "tail_of",

@@ -31,11 +31,12 @@ from garage2usd.planning.orientation import driven_lengths
 from garage2usd.planning.plan import Plan, given_plan
 from garage2usd.planning.stall_kinds import runs_of_settings, settings_of_runs, with_runs
 from garage2usd.planning.tape import ACTIONS, play, tape_of
-from garage2usd.structure.directions import LaneDirections, stretches_of
+from garage2usd.structure.directions import BOTH_WAYS, LaneDirections, stretches_of
 from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.stall_runs import StallRun
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["is_of_lanes_alone", "plan_tape_of", "play_plan", "play_tail", "tail_of"]
+__all__ = ["is_of_lanes_alone", "plan_tape_of", "play_plan", "read_tail", "tail_of"]
 
 _VERSION = 1
 _END, _DIGITS = ACTIONS[4], ACTIONS[:4]
@@ -116,41 +117,46 @@ def play_plan(site: Structure, tape: str, config: GarageConfig) -> Plan:
     plan = given_plan(play(site, tape[:end]), bay=config.bay, plan=config.plan)
     if end == len(tape):
         return plan
-    return play_tail(plan, tape[end:], config, before=end)
+    tail = tape[end:]
+    directions, runs = read_tail(plan.structure, tail, config, before=end)
+    turned = replace(plan, directions=directions)
+    if not np.isfinite(driven_lengths(turned, config, directions).directed_m):
+        reason = "not every stall is reached from an entrance and reaches an exit along the directions of the tape"
+        raise GenerationError("plan", reason, seed=config.seed, attempts=1)
+    complete = with_runs(turned, config, runs) if runs else turned
+    if tail_of(complete) != tail:
+        raise ConfigError("tape", tail, "the canonical form of its directions and stalls behind the tape of the lanes")
+    return complete
 
 
-def play_tail(plan: Plan, tail: str, config: GarageConfig, *, before: int = 0) -> Plan:
-    """Give a plan of lanes alone the directions and stalls of a tape; the inverse of `tail_of`.
+def read_tail(
+    structure: Structure, tail: str, config: GarageConfig, *, before: int = 0
+) -> tuple[LaneDirections, tuple[StallRun, ...]]:
+    """Read directions and stalls behind the tape of the lanes; the inverse of `tail_of`.
 
     Parameters
     ----------
-    plan
-        Lanes, two-way and with the usual stalls.
+    structure
+        With the lanes.
     tail
-        What follows the tape of the lanes.
+        What follows their tape.
     config
-        Sizes of stalls and squares.
+        Sizes of stalls.
     before
         Number of letters before the tail, for errors.
 
     Raises
     ------
-    ConfigError, GenerationError
-        As `play_plan`.
+    ConfigError
+        If a letter or a number is not one of these lanes.
     """
     if not tail:
-        return plan
+        return BOTH_WAYS, ()
     reader = _Reader(tail, before)
-    directions, runs = _played(plan.structure, reader)
+    directions, runs = _played(structure, reader)
     reader.close()
-    turned = replace(plan, directions=directions)
-    if not np.isfinite(driven_lengths(turned, config, directions).directed_m):
-        reason = "not every stall is reached from an entrance and reaches an exit along the directions of the tape"
-        raise GenerationError("plan", reason, seed=config.seed, attempts=1)
-    complete = with_runs(turned, config, runs_of_settings(runs, config, directions)) if runs else turned
-    if tail_of(complete) != tail:
-        raise ConfigError("tape", tail, "the canonical form of its directions and stalls behind the tape of the lanes")
-    return complete
+    found = runs_of_settings(runs, config, directions)
+    return directions, tuple(sorted(found, key=lambda run: (run.first, run.edge)))
 
 
 def _letters(number: int) -> str:
