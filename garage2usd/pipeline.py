@@ -23,12 +23,11 @@ from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.parking.tight import tight_stalls
 from garage2usd.planning import (
     Plan,
+    completed,
     given_plan,
     is_of_lanes_alone,
     plan_lanes,
     play_plan,
-    with_directions,
-    with_stall_kinds,
 )
 from garage2usd.reading.report import UnmetClause
 from garage2usd.report import make_report, write_report
@@ -292,8 +291,7 @@ def _plan(site: Structure, config: GarageConfig, *, tape: str | None, progress: 
         raise ConfigError("tape", tape, "no tape beside a structure that has lanes")
     if tape is not None and not is_of_lanes_alone(tape):
         return play_plan(site, tape, config)
-    plan = _lanes(site, config, tape=tape, progress=progress)
-    return with_stall_kinds(with_directions(plan, config), config)
+    return completed(_lanes(site, config, tape=tape, progress=progress), config)
 
 
 def _lanes(site: Structure, config: GarageConfig, *, tape: str | None, progress: Progress) -> Plan:

@@ -1,6 +1,7 @@
 """Lanes on a site: the score, Sarsa, and the archive of the best plans."""
 
 from garage2usd.planning.circulation import MeasuredCirculation, measured_circulation, neither_share
+from garage2usd.planning.completion import completed
 from garage2usd.planning.dimensions import area_per_stall_m2, dimension, dimensioned
 from garage2usd.planning.optimum import Optimum, counting_bound, find_optimum
 from garage2usd.planning.orientation import DrivenLengths, driven_lengths, with_directions
@@ -21,6 +22,7 @@ __all__ = [
     "Principles",
     "Score",
     "area_per_stall_m2",
+    "completed",
     "counting_bound",
     "dimension",
     "dimensioned",
