@@ -9,6 +9,7 @@ and two-way aisles, with one-way aisles, and with angled stalls on these.
 """
 
 import argparse
+import math
 import statistics
 
 import numpy as np
@@ -25,6 +26,7 @@ from garage2usd.structure.stalls import Edge
 
 ANGLES_DEG = (90.0, 75.0, 60.0, 45.0, 0.0)
 USUAL_SIDE_M = 8.1
+SIDES_M = [round(float(side), 2) for side in np.arange(5.0, 12.01, 0.05)]
 SQUARES = 12
 SITES = {
     "two-way, perpendicular": {},
@@ -67,24 +69,30 @@ def floor_per_stall_m2(shape: StallShape, bay: BayConfig, side_m: float, clear_a
     return min(found, default=np.inf)
 
 
+def best_modules(profile: Profile, bay: BayConfig) -> dict[StallShape, tuple[float, float]]:
+    """Return the least floor per stall of each stall of a profile, and the side of the squares that has it."""
+    found = {}
+    for angle_deg in ANGLES_DEG:
+        shape = shape_of(profile, bay, angle_deg)
+        clear_m = aisle_m(profile, shape)
+        if clear_m is not None:
+            found[shape] = min((floor_per_stall_m2(shape, bay, side, clear_m), side) for side in SIDES_M)
+    return found
+
+
 def modules() -> None:
     """Print the floor per stall of endless modules."""
     print("| profile | stall | aisle (m) | m2 a stall at 8.1 m | best m2 a stall | at (m) |\n|---|---|---|---|---|---|")
     for name in PROFILE_NAMES:
         profile = load_profile(name)
         bay = GarageConfig(profile=name).bay
-        for angle_deg in ANGLES_DEG:
-            shape = shape_of(profile, bay, angle_deg)
-            clear_m = aisle_m(profile, shape)
-            if clear_m is None:
-                continue
-            sides = [round(float(side), 2) for side in np.arange(5.0, 12.01, 0.05)]
-            by_side = {side: floor_per_stall_m2(shape, bay, side, clear_m) for side in sides}
-            best = min(by_side, key=by_side.__getitem__)
-            kind = shape.kind.value if shape.kind is not StallKind.ANGLED else f"{angle_deg:.0f} degrees"
+        for shape, (least_m2, best_m) in best_modules(profile, bay).items():
+            clear_m = aisle_m(profile, shape) or math.nan
+            usual_m2 = floor_per_stall_m2(shape, bay, USUAL_SIDE_M, clear_m)
+            kind = shape.kind.value if shape.kind is not StallKind.ANGLED else f"{shape.angle_deg:.0f} degrees"
             print(
                 f"| {name} | {kind} {shape.width_m:.2f} x {shape.length_m:.2f} | {clear_m:.2f} "
-                f"| {by_side[USUAL_SIDE_M]:.1f} | {by_side[best]:.1f} | {best:.2f} |"
+                f"| {usual_m2:.1f} | {least_m2:.1f} | {best_m:.2f} |"
             )
 
 

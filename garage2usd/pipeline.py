@@ -21,7 +21,14 @@ from garage2usd.driving import DesignCar, with_clutter, with_truth_of_misparked,
 from garage2usd.driving.refusal import refuse_undrivable
 from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.parking.tight import tight_stalls
-from garage2usd.planning import Plan, given_plan, plan_lanes, play, with_directions, with_stall_kinds
+from garage2usd.planning import (
+    Plan,
+    completed,
+    given_plan,
+    is_of_lanes_alone,
+    plan_lanes,
+    play_plan,
+)
 from garage2usd.reading.report import UnmetClause
 from garage2usd.report import make_report, write_report
 from garage2usd.site import make_site
@@ -119,7 +126,8 @@ def generate(
     seed
         Takes the place of the configuration's seed.
     tape
-        The tape of a plan, as its report has it: its lanes are made again on the site instead of learnt.
+        The tape of a plan, as its report has it: its lanes, directions and stalls are made again on the site instead of
+        learnt and drawn. Where it has lanes alone, the settings decide the rest.
     plan
         What was planned before with these settings and this seed, which takes the place of tape and learning.
     progress
@@ -138,7 +146,7 @@ def generate(
 
 
 def generate_plan(config: GarageConfig, *, progress: Progress = silent) -> Plan:
-    """Make a garage as far as its plan; raises as `generate`, which takes the plan from there."""
+    """Make a garage as far as its plan, directions and stalls included; raises as `generate`, which goes on from it."""
     plan = _plan(_site(config), config, tape=None, progress=progress)
     _graph(plan, config)
     return plan
@@ -251,7 +259,6 @@ def _generate(
     clock.append(time.perf_counter())
     if plan is None:
         plan = _plan(site, config, tape=tape, progress=progress)
-        plan = with_stall_kinds(with_directions(plan, config), config)
     clock.append(time.perf_counter())
     graph = _graph(plan, config)
     layout = lay_out(plan.structure, graph, config)
@@ -279,13 +286,20 @@ def _graph(plan: Plan, config: GarageConfig) -> LaneSquares:
 
 
 def _plan(site: Structure, config: GarageConfig, *, tape: str | None, progress: Progress) -> Plan:
+    """Plan lanes, directions and stalls: take the given ones, replay a tape, or learn and draw."""
+    if tape is not None and (site.cells == Cell.LANE).any():
+        raise ConfigError("tape", tape, "no tape beside a structure that has lanes")
+    if tape is not None and not is_of_lanes_alone(tape):
+        return play_plan(site, tape, config)
+    return completed(_lanes(site, config, tape=tape, progress=progress), config)
+
+
+def _lanes(site: Structure, config: GarageConfig, *, tape: str | None, progress: Progress) -> Plan:
     """Plan the lanes: take the given ones, replay a tape, or learn."""
     if (site.cells == Cell.LANE).any():
-        if tape is not None:
-            raise ConfigError("tape", tape, "no tape beside a structure that has lanes")
         return given_plan(site, bay=config.bay, plan=config.plan)
     if tape is not None:
-        return given_plan(play(site, tape), bay=config.bay, plan=config.plan)
+        return play_plan(site, tape, config)
     return plan_lanes(site, plan=config.plan, bay=config.bay, seed=config.seed, progress=progress)
 
 

@@ -22,10 +22,10 @@ from garage2usd.planning import (
     evaluate,
     measured_circulation,
     neither_share,
+    plan_tape_of,
     principles,
     rank_of,
     settings_of_runs,
-    tape_of,
 )
 from garage2usd.planning.circulation import rules_of
 from garage2usd.reading.report import (
@@ -85,7 +85,7 @@ def make_report(
     column and by row, stall centres are (x, z) in metres.
     """
     structure = plan.structure
-    tape = _tape(structure)
+    tape = _tape(plan)
     return Report(
         version=VERSION,
         seed=config.seed,
@@ -233,8 +233,8 @@ def _circulation(structure: Structure, config: GarageConfig) -> CirculationFigur
     )
 
 
-def _tape(structure: Structure) -> str | None:
+def _tape(plan: Plan) -> str | None:
     try:
-        return tape_of(structure)
+        return plan_tape_of(plan)
     except ConfigError:  # for lanes given by the user in several pieces
         return None

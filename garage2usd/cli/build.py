@@ -26,7 +26,9 @@ _RULES_NAMED, _COLUMNS_NAMED = 3, 3
 @seed_option
 @profile_option("The standard to design to, in place of the configuration's")
 @click.option(
-    "--tape", metavar="TAPE", help="The tape of a plan, as its report has it: make its lanes again instead of learning."
+    "--tape",
+    metavar="TAPE",
+    help="The tape of a plan, as its report has it: make its lanes, directions and stalls again instead of planning.",
 )
 @click.option("--learning-curve", is_flag=True, help="Draw the return of each episode as well (a_learning.png).")
 @click.option(

@@ -3,18 +3,27 @@
 from enum import StrEnum
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from garage2usd.common.settings import Settings
 from garage2usd.config.site import SquareIndex
 from garage2usd.garage.kinds import StallKind
 
-__all__ = ["GivenRun", "SizeClass", "StallsConfig"]
+__all__ = ["FREE", "GivenRun", "SizeClass", "StallsConfig"]
+
+FREE = "free"
+"""Kinds that planning chooses."""
 
 Share = Annotated[float, Field(ge=0, le=1)]
 WidthM = Annotated[float, Field(ge=0.8, le=6)]
 LengthM = Annotated[float, Field(ge=1.8, le=12)]
 AngleDeg = Annotated[float, Field(ge=30, le=85)]
+
+
+def _free_or_shares(value: object) -> object:
+    if isinstance(value, str) and value != FREE:
+        raise ValueError(f"{FREE!r}, or the share of each kind")
+    return value
 
 
 class SizeClass(StrEnum):
@@ -79,11 +88,14 @@ class GivenRun(Settings):
 class StallsConfig(Settings):
     """Shares of the kinds and sizes of stalls. By default all stalls are perpendicular and of one size."""
 
-    kinds: dict[StallKind, Share] = Field({StallKind.PERPENDICULAR: 1.0})
+    kinds: Annotated[dict[StallKind, Share] | Literal["free"], BeforeValidator(_free_or_shares)] = Field(
+        {StallKind.PERPENDICULAR: 1.0}
+    )
     """Share of the stalls of each kind, 'perpendicular', 'angled' and 'parallel'; in proportion to their sum. A kind
-    that does not fit a place takes no part there."""
+    that does not fit a place takes no part there. 'free': the kind with the least floor per stall in this garage."""
     angles_deg: tuple[AngleDeg, ...] = Field((60.0, 45.0, 75.0), min_length=1)
-    """Angles of angled stalls to the lane, from which each run of stalls draws one."""
+    """Angles of angled stalls to the lane, from which each run of stalls draws one; where kinds are 'free', those from
+    which the garage gets one."""
     sizes: dict[SizeClass, Share] = Field({SizeClass.STANDARD: 1.0})
     """Share of the stalls of each size class, 'standard', 'compact', 'large', 'van' and 'motorcycle', likewise. Those
     for motorcycles are perpendicular, whatever the kinds of the others."""
@@ -99,7 +111,7 @@ class StallsConfig(Settings):
 
     @model_validator(mode="after")
     def _some_of_each(self) -> Self:
-        for name, shares in (("kinds", self.kinds), ("sizes", self.sizes)):
+        for name, shares in (("kinds", self._kinds), ("sizes", self.sizes)):
             if not sum(shares.values()) > 0:
                 raise ValueError(f"{name} with a share above 0")
         if SizeClass.STANDARD in self.sizes_m:
@@ -117,9 +129,24 @@ class StallsConfig(Settings):
         return self
 
     @property
+    def is_free(self) -> bool:
+        """True if planning chooses the kind of the stalls that are not given."""
+        return self.kinds == FREE and not self.only_runs
+
+    @property
+    def _kinds(self) -> dict[StallKind, float]:
+        """Shares of the kinds; perpendicular stalls alone where the kind is to be chosen."""
+        return {StallKind.PERPENDICULAR: 1.0} if isinstance(self.kinds, str) else self.kinds
+
+    def of_kind(self, kind: StallKind, angle_deg: float | None = None) -> "StallsConfig":
+        """Return the settings with all drawn stalls of one kind, angled ones at one angle."""
+        angles = {} if angle_deg is None else {"angles_deg": (angle_deg,)}
+        return self.model_copy(update={"kinds": {kind: 1.0}, **angles})
+
+    @property
     def is_uniform(self) -> bool:
         """True if all stalls are perpendicular and of the standard class."""
-        drawn = tuple({key for key, share in shares.items() if share} for shares in (self.kinds, self.sizes))
+        drawn = tuple({key for key, share in shares.items() if share} for shares in (self._kinds, self.sizes))
         return drawn == ({StallKind.PERPENDICULAR}, {SizeClass.STANDARD}) and not self.runs
 
     def size_m(self, size: SizeClass, standard_m: tuple[float, float]) -> tuple[float, float]:
@@ -129,10 +156,10 @@ class StallsConfig(Settings):
     @property
     def shares(self) -> dict[tuple[StallKind, SizeClass], float]:
         """Share of the stalls of each kind and size; their sum is 1."""
-        total = sum(self.kinds.values()) * sum(self.sizes.values())
+        total = sum(self._kinds.values()) * sum(self.sizes.values())
         shares = {
             (kind, size): of_kind * of_size / total
-            for kind, of_kind in self.kinds.items()
+            for kind, of_kind in self._kinds.items()
             for size, of_size in self.sizes.items()
             if of_kind and of_size and size.takes_cars
         }

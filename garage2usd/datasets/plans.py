@@ -14,7 +14,7 @@ from garage2usd.config import GarageConfig
 from garage2usd.datasets.difficulty import Level, garage_difficulty, stall_difficulties
 from garage2usd.datasets.recipe import Distinct, Recipe
 from garage2usd.pipeline import generate, generate_plan
-from garage2usd.planning import Plan, evaluate
+from garage2usd.planning import Plan, evaluate, read_tail, tail_of
 from garage2usd.reading.report import LearningFigures
 from garage2usd.report import learning_figures
 from garage2usd.structure.grid import Structure, cells_from_text
@@ -53,6 +53,9 @@ class DrawnPlan(Record):
         S with lanes, one string of symbols per row (see `garage2usd.structure.grid.Cell`); empty if drawing failed.
     column_widths_mm, row_depths_mm
         R and C in millimetres.
+    tail
+        Directions of aisles and kinds of stalls, as in the tape of a plan (`garage2usd.planning.tail_of`); empty if
+        aisles are two-way and stalls of the usual kind.
     digest
         Digest of S, equal for rotations and reflections (`garage2usd.structure.symmetry.plan_digest`).
     gave_way
@@ -72,6 +75,7 @@ class DrawnPlan(Record):
     rows: tuple[str, ...] = ()
     column_widths_mm: tuple[int, ...] = ()
     row_depths_mm: tuple[int, ...] = ()
+    tail: str = ""
     digest: str = ""
     gave_way: dict[str, str] = Field(default_factory=dict)
     learning: LearningFigures | None = None
@@ -117,6 +121,7 @@ def _planned(recipe: Recipe, number: int, attempt: int) -> DrawnPlan:
         rows=tuple(str(structure).splitlines()),
         column_widths_mm=tuple(structure.column_widths_mm.tolist()),
         row_depths_mm=tuple(structure.row_depths_mm.tolist()),
+        tail=tail_of(plan),
         digest=plan_digest(structure.cells),
         gave_way=dict(plan.gave_way),
         learning=learning_figures(plan, config),
@@ -137,7 +142,9 @@ def error_line(error: Exception) -> str:
 def replanned(drawn: DrawnPlan, config: GarageConfig) -> Plan:
     """Replan a drawn garage, without the intermediate plans of learning."""
     structure = drawn.structure
-    return Plan(structure, evaluate(structure, bay=config.bay, plan=config.plan), gave_way=drawn.gave_way)
+    directions, runs = read_tail(structure, drawn.tail, config)
+    score = evaluate(structure, bay=config.bay, plan=config.plan, runs=runs)
+    return Plan(structure, score, gave_way=drawn.gave_way, runs=runs, directions=directions)
 
 
 class PlanDraw:
@@ -249,6 +256,7 @@ _SCHEMA = pa.schema(
         pa.field("rows", pa.list_(pa.string()), nullable=False),
         pa.field("column_widths_mm", pa.list_(pa.int32()), nullable=False),
         pa.field("row_depths_mm", pa.list_(pa.int32()), nullable=False),
+        pa.field("tail", pa.string(), nullable=False),
         pa.field("digest", pa.string(), nullable=False),
         pa.field("gave_way", pa.map_(pa.string(), pa.string()), nullable=False),
         pa.field("learning", pa.string(), nullable=False),
@@ -259,7 +267,11 @@ _SCHEMA = pa.schema(
 
 
 def plan_table(plans: Sequence[DrawnPlan]) -> pa.Table:
-    """Convert plans to a table, the inverse of `plans_of`; results of learning are JSON."""
+    """Convert plans to a table, the inverse of `plans_of`; results of learning are JSON.
+
+    The column ``tail`` is left out where no plan has one.
+    """
+    schema = _SCHEMA if any(drawn.tail for drawn in plans) else _SCHEMA.remove(_SCHEMA.get_field_index("tail"))
     rows = []
     for drawn in plans:
         row = drawn.model_dump(mode="json")
@@ -267,7 +279,7 @@ def plan_table(plans: Sequence[DrawnPlan]) -> pa.Table:
             row[name] = sorted(row[name].items())
         row["learning"] = "" if drawn.learning is None else drawn.learning.model_dump_json()
         rows.append(row)
-    return pa.Table.from_pylist(rows, schema=_SCHEMA)
+    return pa.Table.from_pylist(rows, schema=schema)
 
 
 def plans_of(table: pa.Table) -> list[DrawnPlan]:

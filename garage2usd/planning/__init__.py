@@ -1,10 +1,12 @@
 """Lanes on a site: the score, Sarsa, and the archive of the best plans."""
 
 from garage2usd.planning.circulation import MeasuredCirculation, measured_circulation, neither_share
+from garage2usd.planning.completion import completed
 from garage2usd.planning.dimensions import area_per_stall_m2, dimension, dimensioned
 from garage2usd.planning.optimum import Optimum, counting_bound, find_optimum
 from garage2usd.planning.orientation import DrivenLengths, driven_lengths, with_directions
 from garage2usd.planning.plan import ArchivedPlan, Plan, given_plan
+from garage2usd.planning.plan_tape import is_of_lanes_alone, plan_tape_of, play_plan, read_tail, tail_of
 from garage2usd.planning.planner import plan_lanes
 from garage2usd.planning.principles import Principles, principles
 from garage2usd.planning.score import Score, evaluate, is_feasible
@@ -20,6 +22,7 @@ __all__ = [
     "Principles",
     "Score",
     "area_per_stall_m2",
+    "completed",
     "counting_bound",
     "dimension",
     "dimensioned",
@@ -28,14 +31,19 @@ __all__ = [
     "find_optimum",
     "given_plan",
     "is_feasible",
+    "is_of_lanes_alone",
     "measured_circulation",
     "neither_share",
     "plan_lanes",
+    "plan_tape_of",
     "play",
+    "play_plan",
     "principles",
     "rank_of",
+    "read_tail",
     "runs_of_settings",
     "settings_of_runs",
+    "tail_of",
     "tape_at",
     "tape_of",
     "with_directions",

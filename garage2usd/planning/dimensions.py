@@ -26,6 +26,7 @@ __all__ = [
     "area_per_stall_m2",
     "dimension",
     "dimensioned",
+    "driven_squares",
     "free_sides_mm",
     "lines_with_aisles",
     "lines_with_doors",
@@ -110,7 +111,7 @@ def dimensioned(structure: Structure, bay: BayConfig) -> Structure:
 
 def lines_with_aisles(structure: Structure) -> tuple[Mask, Mask]:
     """Mark the rows, and the columns, along which cars drive on some square."""
-    along_x, along_z = _driven(structure.cells)
+    along_x, along_z = driven_squares(structure.cells)
     return along_x.any(axis=1), along_z.any(axis=0)
 
 
@@ -214,7 +215,7 @@ def lines_with_doors(structure: Structure) -> tuple[Mask, Mask]:
     return rows, columns
 
 
-def _driven(cells: NDArray[np.int8]) -> tuple[Mask, Mask]:
+def driven_squares(cells: NDArray[np.int8]) -> tuple[Mask, Mask]:
     """Mark the lanes and portals on which cars drive along X, and along Z; a portal counts beside its lane."""
     lane, drivable = bordered(cells == Cell.LANE), bordered(cells >= Cell.LANE)
     here, here_lane = drivable[1:-1, 1:-1], lane[1:-1, 1:-1]

@@ -7,12 +7,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.randomness import Step, generator
 from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.config.stalls import GivenRun, SizeClass
 from garage2usd.garage import StallKind
+from garage2usd.planning.aisle_widths import narrow_aisles_m
 from garage2usd.planning.dimensions import lines_with_aisles, lines_with_doors
 from garage2usd.planning.motorcycle_runs import split_for_motorcycles
 from garage2usd.planning.plan import Plan
@@ -24,7 +26,9 @@ from garage2usd.structure.stall_runs import StallRun, depth_needed_m, lean_of_tr
 from garage2usd.structure.stall_shapes import PARALLEL_DEG, PERPENDICULAR_DEG, StallShape
 from garage2usd.structure.stalls import Edge, stall_rows
 
-__all__ = ["runs_of_settings", "settings_of_runs", "with_stall_kinds"]
+__all__ = ["floor_per_stall_m2", "runs_of_settings", "settings_of_runs", "with_runs", "with_stall_kinds"]
+
+Sides = NDArray[np.int64]
 
 _MM_PER_M = 1000
 _STEP_MM = 10
@@ -62,24 +66,63 @@ def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
     Runs are visited by length, equal ones in random order. Each takes the option furthest below its share of the stalls
     so far, among those that fit: squares whose sides are not chosen must be deep enough. Lines of squares without
     traffic along them then get the sides with the least floor per stall, and single runs change their option while the
-    shares on these sides gain by it.
+    shares on these sides gain by it. One-way lines between angled or parallel stalls are narrower where that needs less
+    floor per stall. Where kinds are free, the garage is laid out with each kind and angle alone, and gets the one with
+    the least floor per stall; of equal ones the first in the order perpendicular, angled, parallel.
     """
+    if config.stalls.is_free:
+        return _least_floor(plan, config)
     if config.stalls.is_uniform:
         return plan
-    bay, spacing = config.bay, config.standard.column_spacing
-    longest_span_m = spacing.bounds[1] if spacing else math.inf
-    draw = _Draw(plan, config)
+    counts = _Counts(plan.structure, config.bay)
+    draw = _Draw(plan, config, counts)
     for _ in range(_ROUNDS):
-        structure = _Fitting(plan.structure, bay, draw.runs, longest_span_m).fitted()
-        draw.even_out(structure)
-    structure = _Fitting(plan.structure, bay, draw.runs, longest_span_m).fitted()
-    runs = sorted(draw.runs, key=lambda run: (run.first, run.edge))
-    return replace(
-        plan,
-        structure=structure,
-        score=evaluate(structure, bay=bay, plan=config.plan, runs=runs),
-        runs=tuple(runs),
-    )
+        draw.even_out(_Fitting(plan, config, draw.runs, counts).fitted())
+    return _with_runs(plan, config, draw.runs, counts)
+
+
+def _least_floor(plan: Plan, config: GarageConfig) -> Plan:
+    """Return the plan whose stalls are of the kind with the least floor per stall."""
+    stalls = config.stalls
+    every = [
+        stalls.of_kind(StallKind.PERPENDICULAR),
+        *(stalls.of_kind(StallKind.ANGLED, angle_deg) for angle_deg in stalls.angles_deg),
+        stalls.of_kind(StallKind.PARALLEL),
+    ]
+    plans = (with_stall_kinds(plan, config.model_copy(update={"stalls": of_one})) for of_one in every)
+    return min(plans, key=floor_per_stall_m2)
+
+
+def floor_per_stall_m2(plan: Plan) -> float:
+    """Return the floor of a plan over its stalls, of whatever kind; infinite without stalls."""
+    return round(plan.structure.floor_m2 / plan.score.stalls, 9) if plan.score.stalls else math.inf
+
+
+def with_runs(plan: Plan, config: GarageConfig, runs: Iterable[StallRun]) -> Plan:
+    """Give a plan the runs of its stalls.
+
+    Parameters
+    ----------
+    plan
+        Lanes with their directions, and R and C for perpendicular stalls of the standard size.
+    config
+        Which sides are chosen, and the weights of the score.
+    runs
+        All stalls, in any order.
+
+    Returns
+    -------
+    Plan
+        The same S and directions. R and C, where they are chosen, and the score are those of the runs.
+    """
+    return _with_runs(plan, config, runs, _Counts(plan.structure, config.bay))
+
+
+def _with_runs(plan: Plan, config: GarageConfig, runs: Iterable[StallRun], counts: "_Counts") -> Plan:
+    ordered = sorted(runs, key=lambda run: (run.first, run.edge))
+    structure = _Fitting(plan, config, ordered, counts).fitted()
+    score = evaluate(structure, bay=config.bay, plan=config.plan, runs=ordered)
+    return replace(plan, structure=structure, score=score, runs=tuple(ordered))
 
 
 def runs_of_settings(
@@ -111,6 +154,37 @@ def settings_of_runs(runs: Iterable[StallRun], directions: LaneDirections = BOTH
     )
 
 
+class _Counts:
+    """Numbers of stalls of runs on the lanes of one plan, each counted once for the sides of its squares."""
+
+    def __init__(self, structure: Structure, bay: BayConfig) -> None:
+        self._cells, self._bay = structure.cells, bay
+        self._known: dict[tuple[StallRun, bool, int, bytes], int] = {}
+
+    def of(self, depths_mm: Sides, widths_mm: Sides, run: StallRun, *, is_backed: bool) -> int:
+        """Count the stalls of a run, whose squares another run shares if it is backed.
+
+        Parameters
+        ----------
+        depths_mm, widths_mm
+            Sides of the rows and of the columns.
+        run, is_backed
+            The run.
+        """
+        (row, col), (last_row, last_col) = run.first, run.last
+        if run.edge.along_x:
+            depth, along = int(depths_mm[row]), widths_mm[col : last_col + 1]
+        else:
+            depth, along = int(widths_mm[col]), depths_mm[row : last_row + 1]
+        key = run, is_backed, depth, along.tobytes()
+        if key not in self._known:
+            backs = [replace(run, edge=run.edge.opposite)] if is_backed else []
+            structure = Structure(self._cells, widths_mm, depths_mm)
+            rows = rows_of_runs(structure, self._bay, [run, *backs])
+            self._known[key] = sum(stalls.count for stalls in rows if stalls.edge is run.edge)
+        return self._known[key]
+
+
 _Option = tuple[StallKind, SizeClass]
 _FOR_MOTORCYCLES: _Option = StallKind.PERPENDICULAR, SizeClass.MOTORCYCLE
 
@@ -118,9 +192,9 @@ _FOR_MOTORCYCLES: _Option = StallKind.PERPENDICULAR, SizeClass.MOTORCYCLE
 class _Draw:
     """The kinds of the runs of one garage, by the shares of the stalls that they have so far."""
 
-    def __init__(self, plan: Plan, config: GarageConfig) -> None:
+    def __init__(self, plan: Plan, config: GarageConfig, counts: _Counts) -> None:
         structure = plan.structure
-        self._config, self._bay = config, config.bay
+        self._config, self._bay, self._counts = config, config.bay, counts
         self._shares = config.stalls.shares
         self._given = _checked_runs(plan, config)
         rng = generator(config.seed, Step.STALL_KINDS)
@@ -206,7 +280,8 @@ class _Draw:
         return chosen
 
     def _count(self, structure: Structure, run: StallRun) -> int:
-        return _count(structure, self._bay, run, is_backed=run.squares in self._backed)
+        sides = structure.row_depths_mm, structure.column_widths_mm
+        return self._counts.of(*sides, run, is_backed=run.squares in self._backed)
 
 
 def _checked_runs(plan: Plan, config: GarageConfig) -> list[StallRun]:
@@ -267,23 +342,31 @@ def _deepened(structure: Structure, bay: BayConfig, run: StallRun) -> Structure:
 
 
 class _Fitting:
-    """Sides of lines without traffic along them, each chosen by the least floor per stall."""
+    """Sides of lines without traffic along them and of narrow aisles, each chosen by the least floor per stall."""
 
-    def __init__(self, structure: Structure, bay: BayConfig, runs: Sequence[StallRun], longest_span_m: float) -> None:
-        self._longest_span_mm = longest_span_m * _MM_PER_M
-        self._cells, self._bay, self._runs = structure.cells, bay, runs
+    def __init__(self, plan: Plan, config: GarageConfig, runs: Sequence[StallRun], counts: _Counts) -> None:
+        structure, bay, spacing = plan.structure, config.bay, config.standard.column_spacing
+        self._longest_span_mm = (spacing.bounds[1] if spacing else math.inf) * _MM_PER_M
+        self._cells, self._bay, self._runs, self._known = structure.cells, bay, runs, counts
+        self._inside = (structure.cells != Cell.OBSTACLE).astype(np.int64)
         self._sides_mm = [structure.row_depths_mm.copy(), structure.column_widths_mm.copy()]
         self._least_mm = [
             np.where(has_door, round(bay.portal_side_m * _MM_PER_M), 0) for has_door in lines_with_doors(structure)
         ]
         self._backs = Counter((square, run.edge.along_x) for run in runs for square in run.squares)
         with_aisles = lines_with_aisles(structure)
+        self._aisles_mm = {
+            line: _rounded_mm(clear_m + 2 * bay.carriageway_setback_m)
+            for line, clear_m in narrow_aisles_m(structure, bay, config.standard, runs, plan.directions).items()
+            if bay.chosen_sides[line[0]]
+        }
         self._lines = [
             (axis, line)
             for axis, is_chosen in enumerate(bay.chosen_sides)
             if is_chosen
             for line in range(structure.shape[axis])
-            if not with_aisles[axis][line] and (structure.cells.take(line, axis=axis) == Cell.FREE).any()
+            if (axis, line) in self._aisles_mm
+            or (not with_aisles[axis][line] and (structure.cells.take(line, axis=axis) == Cell.FREE).any())
         ]
         self._of_line = {line: self._runs_on(*line) for line in self._lines}
         for axis, line in self._lines:
@@ -295,9 +378,6 @@ class _Fitting:
         for _ in range(_PASSES):
             if not sum(self._improve(*line) for line in self._lines):
                 break
-        return self._structure()
-
-    def _structure(self) -> Structure:
         return Structure(self._cells, self._sides_mm[1], self._sides_mm[0])
 
     def _runs_on(self, axis: int, line: int) -> list[int]:
@@ -305,7 +385,8 @@ class _Fitting:
         return [number for number, run in enumerate(self._runs) if any(square[axis] == line for square in run.squares)]
 
     def _count(self, run: StallRun) -> int:
-        return _count(self._structure(), self._bay, run, is_backed=self._backs[run.first, run.edge.along_x] > 1)
+        depths_mm, widths_mm = self._sides_mm
+        return self._known.of(depths_mm, widths_mm, run, is_backed=self._backs[run.first, run.edge.along_x] > 1)
 
     def _needed_mm(self, axis: int, line: int) -> int:
         """Depth that the runs along a line need."""
@@ -323,6 +404,8 @@ class _Fitting:
     def _choices_mm(self, axis: int, line: int) -> list[int]:
         """Sides to try: as deep as the runs along the line need, and as wide as some stalls of the runs across it."""
         deep = max(self._needed_mm(axis, line), int(self._least_mm[axis][line]))
+        if (axis, line) in self._aisles_mm:
+            return sorted({max(self._aisles_mm[axis, line], deep), int(self._sides_mm[axis][line])})
         half_column_m = self._bay.column_size_m / 2
         found = {deep, deep + _rounded_mm(half_column_m)} if deep else set()
         shapes = {
@@ -355,14 +438,9 @@ class _Fitting:
 
     def _floor_per_stall(self, counts: Sequence[int]) -> float:
         stalls = sum(counts)
-        return round(self._structure().floor_m2 / stalls, 9) if stalls else np.inf
-
-
-def _count(structure: Structure, bay: BayConfig, run: StallRun, *, is_backed: bool) -> int:
-    """Count the stalls of a run, whose squares another run shares if it is backed."""
-    backs = [replace(run, edge=run.edge.opposite)] if is_backed else []
-    rows = rows_of_runs(structure, bay, [run, *backs])
-    return sum(row.count for row in rows if row.edge is run.edge)
+        depths_mm, widths_mm = self._sides_mm
+        floor_m2 = float(depths_mm @ self._inside @ widths_mm) / _MM_PER_M**2
+        return round(floor_m2 / stalls, 9) if stalls else math.inf
 
 
 def _rounded_mm(length_m: float) -> int:

@@ -193,6 +193,8 @@ class Report(Record):
         sizes = {"column_widths_m": self.R, "row_depths_m": self.C, "dimensioned": False}
         site = {"structure": "\n".join(self.S)}
         stalls = {**settings["stalls"], "runs": self.stall_runs, "only_runs": bool(self.stall_runs)}
+        if self.config.stalls.is_free and not self.stall_runs:  # the choice was the usual stall
+            stalls["kinds"] = {StallKind.PERPENDICULAR: 1}
         bay = {**settings["bay"], **sizes}
         plan = {**settings["plan"], "one_way": self.one_way}
         changed = {"seed": self.seed, "bay": bay, "stalls": stalls, "plan": plan, "site": site}

@@ -128,6 +128,20 @@ def test_a_tape_rebuilds_the_very_structure(tmp_path, config):
     assert not (tmp_path / "c.usdz").exists()
 
 
+def test_a_tape_rebuilds_directions_and_stalls(tmp_path, config):
+    mixed = "[stalls]\nkinds = { angled = 0.7, parallel = 0.3 }\n" + QUICK + 'aisles = "one-way"\n'
+    run("build", config(mixed), "--seed", 8, "--output", tmp_path / "a.usdz")
+    first = json.loads((tmp_path / "a_report.json").read_text())
+    run("build", config(QUICK), "--seed", 8, "--tape", first["tape"], "--output", tmp_path / "b.usdz")
+    second = json.loads((tmp_path / "b_report.json").read_text())
+    assert first["stall_runs"]
+    for key in ("S", "R", "C", "stall_runs", "one_way", "directions", "tape", "rank", "score", "stalls"):
+        assert second[key] == first[key], key
+    cut = run("build", config(QUICK), "--seed", 8, "--tape", first["tape"][:-1], "--output", tmp_path / "c.usdz")
+    assert cut.exit_code == 1
+    assert "the tape ends here" in cut.output
+
+
 def test_a_stall_without_a_route_is_drawn(tmp_path, config):
     drawing = '[site]\nstructure = """\nE=X...\n......\n...===\n"""\n'
     result = run("build", config(drawing), "--output", tmp_path / "g.usda")

@@ -84,6 +84,24 @@ def test_plans_survive_their_table_and_become_the_same_garages_again():
         assert made.layout.counts() == again.layout.counts()
 
 
+def test_directions_and_kinds_of_stalls_survive_their_table():
+    mixed = {"plan": {"aisles": "one-way"}, "stalls": {"kinds": {"angled": 0.6, "parallel": 0.4}}}
+    recipe = small_recipe(garage=mixed)
+    drawn = plans_of(plan_table(planned(recipe, [(0, 0), (1, 0)])))
+    assert all(each.tail for each in drawn)
+    for each in drawn:
+        config, _ = recipe.drawn(each.seed)
+        made, again = generate(config), generate(config, plan=replanned(each, config))
+        assert made.plan.runs == again.plan.runs != ()
+        assert made.plan.directions == again.plan.directions
+        assert made.plan.structure == again.plan.structure
+        assert list(made.layout.stalls) == list(again.layout.stalls)
+
+
+def test_a_table_of_usual_plans_has_no_column_for_others():
+    assert "tail" not in plan_table(planned(small_recipe(), [(0, 0)])).column_names
+
+
 def test_levels_are_drawn_until_each_has_its_share():
     recipe = small_recipe(count=6, difficulty={"normal": 1, "extreme": 2}, attempts=8)
     levels = {0: "normal", 1: "complex", 2: "extreme"}
