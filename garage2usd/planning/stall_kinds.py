@@ -253,13 +253,18 @@ class _Draw:
         """Split runs into those for cars and those for motorcycles."""
         if _FOR_MOTORCYCLES not in self._shares:
             return bare, []
+
+        def alone(run: StallRun) -> int:
+            deepened = _deepened(structure, self._bay, run)
+            return self._counts.of(deepened.row_depths_mm, deepened.column_widths_mm, run, is_backed=False)
+
         backs = Counter(run.squares for run in bare)
         return split_for_motorcycles(
             bare,
             _shape(self._config, *_FOR_MOTORCYCLES, PERPENDICULAR_DEG),
             self._shares[_FOR_MOTORCYCLES],
             rng,
-            count=lambda run: _count(_deepened(structure, self._bay, run), self._bay, run, is_backed=False),
+            count=alone,
             is_whole=lambda run: backs[run.squares] > 1,
         )
 
