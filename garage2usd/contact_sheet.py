@@ -1,4 +1,4 @@
-"""Contact sheets: Blender pictures of many garages in a grid, each from inside and from above."""
+"""Contact sheets: a grid of rendered pictures of many garages, each from inside and from above."""
 
 import hashlib
 import json
@@ -28,11 +28,11 @@ __all__ = ["SHEET_SUFFIXES", "SheetGarage", "draw_contact_sheet"]
 
 _CAMERA = "Inside"
 _LEAN = 0.25
-"""How far the camera above stands before the middle of the garage, as a share of its height."""
+"""Horizontal offset of the upper camera from the centre of the garage, as a share of its height."""
 _ROOM = 1.12
-"""Around the floor in that picture, which the nearer side needs."""
+"""Margin factor around the floor in the picture from above."""
 _HALF_WIDTH = APERTURE_MM[0] / FOCAL_MM / 2
-"""What the cameras see to each side, at a distance of 1."""
+"""Half width of the cameras' field of view at a distance of 1."""
 _BRIGHT = 200
 SHEET_SUFFIXES = (".png", ".jpg", ".jpeg")
 _JPEG_QUALITY = 85
@@ -40,7 +40,7 @@ _PAPER, _INK, _QUIET = (24, 25, 27), (230, 230, 230), (150, 152, 155)
 _LETTERS_PX, _SMALL_PX, _GAP_PX = 15, 11, 8
 _CAPTION_PX = _LETTERS_PX + _SMALL_PX + 12
 _MOST_PX = 30_000
-"""Of a side of a sheet."""
+"""Greatest side of a sheet in pixels."""
 
 
 class SheetGarage(NamedTuple):
@@ -49,11 +49,11 @@ class SheetGarage(NamedTuple):
     Attributes
     ----------
     name
-        What its caption calls it.
+        Name in the caption.
     config
-        Its settings.
+        Settings of the garage.
     plan
-        What was planned before with them; None to plan it.
+        Plan made from these settings; None to plan it.
     """
 
     name: str
@@ -72,34 +72,34 @@ def draw_contact_sheet(
     progress: Progress = silent,
     announce: Announce = unheard,
 ) -> Path:
-    """Draw each garage from its entrance and from above, with a caption.
+    """Render each garage from its entrance and from above, with a caption.
 
     Parameters
     ----------
     garages
-        In the order in which they stand, row by row.
+        The garages, in reading order.
     output
-        The picture, PNG or JPEG by its name. Until it is finished, the garages that are stand in
-        ``<output>.unfinished``, and the same call goes on from there.
+        The picture, PNG or JPEG by its extension. An interrupted call keeps finished garages in
+        ``<output>.unfinished``, and the next equal call resumes.
     size_px
         Width and height of each of the two pictures of a garage.
     samples
-        Of each pixel.
+        Samples per pixel.
     columns
-        How many garages a row has.
+        Number of garages per row.
     device
-        What draws them.
+        Rendering device.
     progress
-        Told how many garages are drawn.
+        Called with the number of finished garages.
     announce
-        Told which garages are left out, as their settings allow none.
+        Called with the garages that are left out, as their settings are infeasible.
 
     Raises
     ------
     ConfigError
-        If the name or a size cannot be used.
+        If the name or a size is invalid.
     GenerationError
-        If none of the garages is possible.
+        If all garages are infeasible.
     MissingExtraError
         If Blender is not installed.
     OutputError, RenderError
@@ -170,7 +170,7 @@ def _draw(garage: SheetGarage, cell: Path, size_px: tuple[int, int], samples: in
 
 
 def _over(garage: Garage, size_px: tuple[int, int]) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-    """Where a camera stands that sees the whole floor, and the middle of it."""
+    """Position of a camera that sees the whole floor, and the centre of the floor."""
     structure, height_m = garage.layout.structure, garage.layout.ceiling_height_m
     width_m, depth_m = structure.column_widths_mm.sum() / 1000, structure.row_depths_mm.sum() / 1000
     half_height = _HALF_WIDTH * size_px[1] / size_px[0]
@@ -185,7 +185,7 @@ def _opened(path: Path) -> Image.Image:
 
 
 def _exposed(picture: Image.Image) -> Image.Image:
-    """A picture from above as bright as its brightest tenth allows, as nothing above the floor throws light back."""
+    """Expose a picture from above for its brightest tenth, as nothing above the floor reflects light."""
     bright = np.asarray(picture.convert("L"))
     lit = bright[bright > 0]
     gain = _BRIGHT / max(float(np.percentile(lit, 90)) if lit.size else _BRIGHT, 1.0)

@@ -1,6 +1,6 @@
-"""The decision process as a Gymnasium environment: importing this module registers ``garage2usd/Lanes-v0``.
+"""The decision process as a Gymnasium environment; importing this module registers ``garage2usd/Lanes-v0``.
 
-It needs the extra ``gymnasium``. ``gymnasium.make("garage2usd.environment:garage2usd/Lanes-v0", config=...)`` imports
+Requires the extra ``gymnasium``. ``gymnasium.make("garage2usd.environment:garage2usd/Lanes-v0", config=...)`` imports
 the module itself.
 """
 
@@ -48,15 +48,15 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
     Parameters
     ----------
     config
-        Its `site`, `bay` and `seed` make the site as a build makes it; its `plan` has the preset with the penalties and
-        what the agent sees and may do. The default garage if left out. Lanes of a given structure are taken off.
+        Settings: `site`, `bay` and `seed` define the site as in a build; `plan` defines penalties, observations and
+        allowed actions. The default garage if left out. Lanes of a given structure are removed.
     render_mode
-        ``"ansi"``, by which `render` draws the plan, or None.
+        ``"ansi"``, for which `render` draws the plan as text, or None.
 
     Raises
     ------
     ConfigError, GenerationError
-        If the site cannot be made, as for `garage2usd.generate`.
+        If the site is infeasible, as for `garage2usd.generate`.
 
     Notes
     -----
@@ -64,22 +64,22 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
 
     **Observations.** A ``Dict`` with the paper's ``S_t = (D, M, A_{t-1})``:
 
-    - ``distances``: int32, shape (4,), squares that the car could drive straight on, up, down, left and right; only
-      where the plan's ``sees_distances`` holds, as in the preset ``paper``.
+    - ``distances``: int32, shape (4,), number of free squares straight up, down, left and right; only if the plan's
+      ``sees_distances`` is true, as in the preset ``paper``.
     - ``window``: int8, shape (2 r + 1, 2 r + 1) for the plan's ``window_radius_squares`` r, values of
       `garage2usd.structure.grid.Cell` around the car.
-    - ``last_action``: ``Discrete(5)``, 4 at first.
+    - ``last_action``: ``Discrete(5)``, initially 4.
 
-    **Rewards.** Stalls gained by the action, less the penalties of `garage2usd.config.PlanConfig`.
+    **Rewards.** Stalls gained by the action, minus the penalties of `garage2usd.config.PlanConfig`.
 
-    **Episodes.** One starts at an entrance that is drawn. It is terminated when the car stays on its start, when it
-    fails (it drives against something, or on after it came back), or where it is walled in; it is truncated after
-    ``max_steps_per_square`` actions for each free square.
+    **Episodes.** An episode starts at a random entrance. It is terminated when the car stays on its start, fails (by a
+    collision, or by driving on after its return) or is enclosed; it is truncated after ``max_steps_per_square`` actions
+    for each free square.
 
-    **Info.** ``action_mask``: int8, shape (5,), 1 for actions that the preset allows, as ``action_space.sample`` takes
-    it; an action outside it is carried out all the same and may fail. ``score``: y' of the lanes so far.
-    ``is_feasible``: whether these are a plan, in one piece and beside every portal. ``structure``: the structure
-    matrix as text, which `garage2usd.config.GarageConfig` takes as ``site.structure``.
+    **Info.** ``action_mask``: int8, shape (5,), 1 for actions that the preset allows, for ``action_space.sample``;
+    other actions are executed too and may fail. ``score``: y' of the current lanes. ``is_feasible``: whether the lanes
+    are a plan: connected, and adjacent to every portal. ``structure``: the structure matrix as text, a valid
+    ``site.structure`` of `garage2usd.config.GarageConfig`.
     """
 
     metadata = {"render_modes": ["ansi"], "render_fps": 4}  # noqa: RUF012 - Gymnasium's own form
@@ -99,21 +99,21 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observed, dict[str, Any]]:
-        """Begin an episode on the site without lanes, at an entrance drawn by `seed`; `options` are not used."""
+        """Begin an episode on the site without lanes, at an entrance drawn by `seed`; `options` are ignored."""
         super().reset(seed=seed, options=options)
         entrances = self.process.entrances
         self._state, self._steps = initial(entrances[int(self.np_random.integers(len(entrances)))]), 0
         return self._observed(self._state), self._info(self._state)
 
     def step(self, action: np.int64 | int) -> tuple[Observed, float, bool, bool, dict[str, Any]]:
-        """Carry out an action.
+        """Execute an action.
 
         Raises
         ------
         gymnasium.error.InvalidAction
-            If there is no such action.
+            If the action does not exist.
         gymnasium.error.ResetNeeded
-            If no episode was begun, or the last one is over.
+            If no episode was begun, or the last one has ended.
         """
         if not self.action_space.contains(action):
             raise InvalidAction(f"action: got {action!r}; allowed: whole numbers 0 to {len(Action) - 1}")
@@ -128,7 +128,7 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
         return self._observed(following), earned, terminated, truncated, self._info(following)
 
     def render(self) -> str | None:
-        """Draw the plan with the car as ``@``, one line a row; None without a render mode."""
+        """Draw the plan with the car as ``@``, one line per row; None without a render mode."""
         if self.render_mode is None:
             return None
         lines = [list(line) for line in str(self.structure).splitlines()]
@@ -138,7 +138,7 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
 
     @property
     def structure(self) -> Structure:
-        """The site with the lanes of the episode, whether it is over or not."""
+        """The site with the lanes of the current episode, even if it has ended."""
         return structure_of(self.process, self._current)
 
     def action_mask(self) -> NDArray[np.int8]:

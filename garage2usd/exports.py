@@ -1,6 +1,6 @@
 """Export of a stage or a report to maps, scenarios, occupancy grids and glTF."""
 
-# Over 300 lines: every format is a few lines here, and what is asked for is checked, written and published as one.
+# Over 300 lines: a few lines for each format, and the common validation, writing and publication of outputs.
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property, partial
@@ -12,7 +12,7 @@ from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.extras import require
 from garage2usd.common.output import check_file, check_name, drafting, publish_at, staging_folder
-from garage2usd.common.processes import each_in_a_copy, without_collector
+from garage2usd.common.processes import run_in_forks, without_collector
 from garage2usd.common.progress import Progress, silent, unheard
 from garage2usd.config.maps import MapsConfig, ScenarioConfig
 from garage2usd.maps.drives import DrivePlanner
@@ -35,19 +35,19 @@ __all__ = ["EXPORT_SUFFIXES", "check_exports", "check_formats", "export"]
 
 _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO, _GRID = ".json", ".glb", ".osm", ".xodr", ".xosc", ".yaml"
 _OF_EXTRA = {_LANELET2: ("a Lanelet2 map", "pyproj"), _SCENARIO: ("a scenario", "scenariogeneration")}
-"""What needs a module of an extra, and which, by what its files end in."""
+"""Formats that need a module of an extra, with their description and that module, by extension."""
 Notice = Callable[[str], None]
-"""Takes a line on what a format cannot say."""
+"""Callback for a line on data that a format cannot represent."""
 
 
 class _Source:
-    """An open stage; its garage, objects and roads are read once for all formats."""
+    """An open stage; its garage, objects and road network are read once for all formats."""
 
     def __init__(self, stage: Path, name: str) -> None:
         self.name, self.stage = name, open_stage(stage)
 
     def read_for(self, formats: Sequence[str]) -> None:
-        """Read all that several files need, so that copies of this process share it."""
+        """Read the data that several files need, so that forks of this process share it."""
         of_lanes = [suffix for suffix in formats if suffix != _SCENE]
         if len(formats) > 1:
             _ = self.objects
@@ -58,7 +58,7 @@ class _Source:
 
     @cached_property
     def objects(self) -> list[PlacedObject]:
-        """All drawn objects of the stage, in metres, Y up."""
+        """All visible objects of the stage, in metres, Y up."""
         return placed_objects(self.stage, metres_y_up(self.stage))
 
     @cached_property
@@ -78,13 +78,13 @@ class _Asked(NamedTuple):
     Attributes
     ----------
     place
-        Where it goes.
+        Path of the file.
     settings
-        How it is made.
+        Settings of the export.
     joint
-        What stands between its stem and the names of the masks of a grid.
+        Separator between the stem and the names of a grid's masks.
     road_file
-        Name of the map that stands beside it, which a scenario refers to.
+        Name of the map beside it to which a scenario refers.
     """
 
     place: Path
@@ -98,7 +98,7 @@ class _Asked(NamedTuple):
         return _format_of(self.place)
 
     def files(self, folder: Path) -> tuple[Path, ...]:
-        """The file, and what it brings, in a folder."""
+        """Paths in `folder` of the file and of files that are written with it."""
         path = folder / self.place.name
         return grid_files(path, self.settings.grid, joint=self.joint) if self.format == _GRID else (path,)
 
@@ -150,16 +150,16 @@ _WRITERS: dict[str, _Write] = {
     _GRID: _grid,
     _MAP: _opendrive,
 }
-"""The longest first: so files are begun, so that those that are written at a time end together."""
+"""Writers by extension, the slowest first, so that parallel tasks finish together."""
 
 
 def _write(source: _Source, folder: Path, asked: _Asked) -> tuple[tuple[Path, ...], list[str]]:
-    """Write a file that is asked for, with what it brings, into a folder that is made.
+    """Write a requested file, and the files that accompany it, into a new folder.
 
     Returns
     -------
     tuple
-        The files, and what their format cannot say.
+        The files, and lines on data that the format cannot represent.
     """
     remarks = Remarks()
     with drafting(asked.place):
@@ -169,7 +169,7 @@ def _write(source: _Source, folder: Path, asked: _Asked) -> tuple[tuple[Path, ..
 
 
 EXPORT_SUFFIXES = tuple(sorted(_WRITERS))
-"""What the files that `export` makes end in: GLB scenes, Lanelet2 maps, OpenDRIVE maps, OpenSCENARIO scenarios, and
+"""Extensions of the files that `export` writes: GLB scenes, Lanelet2 maps, OpenDRIVE maps, OpenSCENARIO scenarios, and
 YAML files of occupancy grids."""
 
 
@@ -184,50 +184,50 @@ def export(
     notice: Notice = unheard,
     joint: str = "_",
 ) -> tuple[Path, ...]:
-    """Write a garage in other formats.
+    """Export a garage to other formats.
 
     Parameters
     ----------
     source
-        A stage, also one that other tools have edited, which is exported as it stands; or the report of a build
-        (``.json``), whose garage is made again.
+        A stage, whose current content is exported even if other tools have edited it; or the report of a build
+        (``.json``), whose garage is rebuilt.
     outputs
-        The files, one or more. What they end in says what they are: ``.glb`` a scene as binary glTF 2.0, ``.osm`` a
-        Lanelet2 map, ``.xodr`` an OpenDRIVE 1.8 map, ``.xosc`` an OpenSCENARIO 1.2 scenario with the map that it names,
-        a ``.xodr`` of the same stem beside it, ``.yaml`` an occupancy grid for robots with its picture (``.pgm``), and
-        the masks that the settings ask for, beside it.
+        One or more files, whose extensions select the formats: ``.glb`` a scene as binary glTF 2.0, ``.osm`` a Lanelet2
+        map, ``.xodr`` an OpenDRIVE 1.8 map, ``.xosc`` an OpenSCENARIO 1.2 scenario with a ``.xodr`` map of the same
+        stem beside it, ``.yaml`` an occupancy grid for robots with its image (``.pgm``) and, depending on the settings,
+        masks.
     settings
-        Cells and masks of the grid and the like; left out, those of a report's configuration, else the defaults.
+        Settings of maps, grids and drives; if left out, those of the report, else the defaults.
     scenario
-        What the car of a scenario drives, in place of what the settings say.
+        Drive of the scenario's car, which overrides the settings.
     progress
-        Told of each file, and how far the garage of a report is.
+        Called after each file, and during the rebuild of a report's garage.
     workers
-        How many files are written at a time, each by a copy of this process; one after the other where it has more than
-        one thread, as USD and NumPy start them, and where the system is not Linux. The files are the same.
+        Number of files written in parallel, each by a fork of this process; sequential if this process has several
+        threads, as USD and NumPy start them, or outside Linux. The files do not depend on it.
     notice
-        Told of what a format cannot say, a line for each reason: the file's name, the reason, how often it came up, and
-        the first few places.
+        Called with a line for each kind of data that a format cannot represent: the file's name, the reason, the number
+        of cases, and the first few places.
     joint
-        What stands between the stem of a grid and the names of its masks: ``a_keepout.yaml``.
+        Separator between the stem of a grid and the names of its masks: ``a_keepout.yaml``.
 
     Returns
     -------
     tuple of Path
-        All files that were written, in the order of `outputs`, the map of a scenario after it if it is not asked for as
-        well. They appear whole or not at all.
+        All files, in the order of `outputs`; the map of a scenario follows it if it is not an output itself. Either all
+        files appear or none.
 
     Raises
     ------
     ConfigError
-        If an output ends in something else, is asked for twice, is brought by another, or would be too large; if a
-        scenario's stall, entrance or exit is none of the garage's, or no drive is found for it.
+        If an output has an unknown extension, is listed twice, is already written with another output, or would be too
+        large; if a scenario's stall, entrance or exit does not exist, or no drive is found for it.
     StageError, ReportError
-        If the source cannot be read, or lacks what a format needs.
+        If the source cannot be read, or lacks data that a format needs.
     OutputError
         If the files cannot be written.
     MissingExtraError
-        If a Lanelet2 map or a scenario is asked for, and the extra ``maps`` is not installed.
+        If a Lanelet2 map or a scenario is requested, and the extra ``maps`` is not installed.
     """
     source, config = Path(source), None
     if source.suffix.lower() == _REPORT:
@@ -247,13 +247,13 @@ def export(
         if config is not None:
             stage = build(config, staging / "source" / "garage.usdc", progress=progress).stage
         order = sorted(range(len(files)), key=lambda number: [*_WRITERS].index(files[number].format))
-        drafts: dict[int, tuple[Path, ...]] = {}  # of each file that is asked for, by its number
+        drafts: dict[int, tuple[Path, ...]] = {}  # by index of the output
         with without_collector():
             opened = _Source(stage, str(source))
             opened.read_for([asked.format for asked in files])
             tasks = [partial(_write, opened, staging / str(number), files[number]) for number in order]
             progress("export", 0, len(files))
-            for number, (written, lines) in zip(order, each_in_a_copy(tasks, workers), strict=True):
+            for number, (written, lines) in zip(order, run_in_forks(tasks, workers), strict=True):
                 drafts[number] = written
                 for line in lines:
                     notice(f"{files[number].place.name}: {line}")
@@ -267,7 +267,7 @@ def export(
 def check_exports(
     outputs: Sequence[str | Path], *, settings: MapsConfig | None = None, joint: str = "_"
 ) -> tuple[Path, ...]:
-    """The paths of exports and of the maps that scenarios name, which can be written; raises as `export`."""
+    """Validate exports; return their paths and those of the maps of scenarios; raises as `export`."""
     asked = tuple(map(Path, outputs))
     if not asked:
         raise ConfigError("output", "", f"one or more paths that end in {', '.join(EXPORT_SUFFIXES)}")
@@ -290,12 +290,12 @@ def check_exports(
 
 
 def check_formats(suffixes: Iterable[str]) -> None:
-    """Find out whether what writes files that end so is installed, each format by itself.
+    """Check that the packages for the formats with these extensions are installed.
 
     Raises
     ------
     MissingExtraError
-        If not.
+        If one is missing.
     """
     wanted = {*suffixes}
     asked = [needed for suffix, needed in _OF_EXTRA.items() if suffix in wanted]

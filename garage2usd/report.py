@@ -1,4 +1,4 @@
-"""Writing of the JSON report of a build (its model is in `garage2usd.reading.report`)."""
+"""Writing of the JSON report of a build, whose model is in `garage2usd.reading.report`."""
 
 import math
 from collections import Counter
@@ -44,10 +44,10 @@ from garage2usd.structure.grid import Cell, Structure
 __all__ = ["learning_figures", "make_report", "write_report"]
 
 _CURVE_POINTS, _RETURN_DECIMALS = 500, 1
-"""Of the learning curve: of 5000 episodes, which would be half of a report, each point is the mean of ten, and differs
-by about ten from the next one."""
+"""Points of the learning curve, each the mean of ten of 5000 episodes (the whole curve would be half of a report), and
+decimals of returns, since neighbouring points differ by about ten."""
 _DECIMALS = 6
-"""Decimals of metres and radians of stalls."""
+"""Decimals of metres and radians in stalls."""
 
 
 def write_report(path: Path, report: Report) -> None:
@@ -71,18 +71,18 @@ def make_report(
     config, plan, layout
         The garage.
     seconds
-        What each step took.
+        Duration of each step in seconds.
     learning
-        What learning found, for a plan that no longer has it.
+        Results of learning, for a plan without its archive.
     unmet
-        The clauses of its profile that it is not designed to; None where that is not known.
+        Clauses of the profile that the design violates; None if unknown.
 
     Notes
     -----
-    ``tape`` and ``rank`` are null where no single agent makes the lanes (see `garage2usd.planning.tape`); the rank is a
-    hexadecimal number of any length. ``polish_gain`` is what polish added to the best y' that learning met. ``S`` is a
-    list of rows of symbols (see `garage2usd.structure.grid.Cell`), ``R`` and ``C`` are metres by column and by row,
-    stall centres are (x, z) in metres.
+    ``tape`` and ``rank`` are null if no single drive of an agent makes the lanes (see `garage2usd.planning.tape`); the
+    rank is a hexadecimal number of any length. ``polish_gain`` is the gain of hill climbing over the best y' of
+    learning. ``S`` is a list of rows of symbols (see `garage2usd.structure.grid.Cell`), ``R`` and ``C`` are metres by
+    column and by row, stall centres are (x, z) in metres.
     """
     structure = plan.structure
     tape = _tape(structure)
@@ -129,7 +129,7 @@ def make_report(
 
 
 def _reported(stall: Stall, access_square: tuple[int, int]) -> ReportedStall:
-    """The record of a stall, with the squares that name it and its lane in files."""
+    """Record of a stall, with the squares that identify it and its lane in files."""
     facts, (x, z) = dict(stall.facts), stall.centre
     return ReportedStall(
         name=stall.name,
@@ -151,14 +151,14 @@ def _reported(stall: Stall, access_square: tuple[int, int]) -> ReportedStall:
 
 
 def _mean_returns(plan: Plan) -> tuple[float, ...]:
-    """The learning curve in parts of as many episodes each, but for one, and not more than can be told apart."""
+    """Learning curve as means over groups of nearly equal size, at most `_CURVE_POINTS` of them."""
     returns = plan.learning_curve
     parts = np.array_split(returns, max(1, min(len(returns), _CURVE_POINTS)))
     return tuple(round(float(part.mean()), _RETURN_DECIMALS) for part in parts if len(part))
 
 
 def learning_figures(plan: Plan, config: GarageConfig) -> LearningFigures | None:
-    """Return the results of learning alone and the gain by polish; None if nothing was learnt."""
+    """Return the results of learning alone and the gain by hill climbing; None if nothing was learned."""
     if plan.learnt is None:
         return None
     found = dimensioned(plan.learnt.structure, config.bay)
@@ -194,7 +194,7 @@ def _compartments(layout: Layout) -> tuple[FireCompartment, ...]:
 
 
 def _directions(plan: Plan, config: GarageConfig) -> DirectionFigures | None:
-    """Figures of one-way aisles; None without any."""
+    """Figures of one-way aisles; None if there are none."""
     one_way, every = plan.one_way_stretches, plan.stretches
     if not one_way:
         return None
@@ -235,5 +235,5 @@ def _circulation(structure: Structure, config: GarageConfig) -> CirculationFigur
 def _tape(structure: Structure) -> str | None:
     try:
         return tape_of(structure)
-    except ConfigError:  # lanes drawn by hand in several pieces
+    except ConfigError:  # for lanes given by the user in several pieces
         return None

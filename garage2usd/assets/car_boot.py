@@ -1,4 +1,4 @@
-"""Open boots: a tailgate or a boot lid cut out of a car's body and swung up, and the boot that is seen then."""
+"""Open boots of cars: tailgate or boot lid, cut out of the body and swung up, and the load space behind it."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.assets.car_interior import behind_seats_m
-from garage2usd.assets.car_patches import Faces, flat
+from garage2usd.assets.car_patches import Faces, planar_faces
 from garage2usd.assets.car_shapes import SHAPES
 from garage2usd.assets.car_shell import Shell, both_sides, grid_quads
 from garage2usd.assets.cars import car
@@ -21,34 +21,34 @@ from garage2usd.config.vehicles import CarBody
 __all__ = ["has_boot", "open_boot_box", "with_open_boot", "with_rear_swung_up"]
 
 _Plane = tuple[tuple[float, float, float], float]
-"""Normal and distance: what is inside has `normal @ point >= distance`."""
+"""Normal and distance of a plane; a point inside has `normal @ point >= distance`."""
 _CUT_SKIN = ("Body", "Cabin", "Glass", "RearGlass", "Pillars")
 _CUT = frozenset((*_CUT_SKIN, "Seams", "Trim", "Bright", "TailLamps", "ReverseLamps", "LampHousings", "PlateHolders"))
-"""Parts of a car that a boot's shut line runs through."""
+"""Parts of a car that the shut line of a boot cuts."""
 _PANELS = ("Body", "Cabin")
-"""Those of them that have an inside."""
+"""Cut parts with an inner surface."""
 _CREASES_DEG = {"Body": 32.0, "Cabin": 40.0}
 _GATE_FROM = 0.93
-"""Share of length from which a rear window ends at the tail, in a tailgate; else there is a boot lid behind it."""
+"""Share of the length behind which the rear window ends in a tailgate; before it, there is a boot lid."""
 _OVER_SEAM_M = 0.012
 _BEFORE_ROOF_END_M, _BEHIND_DECK_M = 0.06, 0.035
 _WIDE = 0.715
-"""Half the width of a boot's lower part as a share of the body's: to the seam of the tailgate."""
+"""Half the width of a boot's lower part, up to the tailgate's seam, as a share of the body's."""
 _THICK = np.array((0.0, -0.03, -0.05))
-"""From the outer skin of a panel to its inner one."""
+"""Offset from the outer to the inner skin of a panel."""
 _RIM = np.array((0.0, -0.05, -0.10))
-"""The same around the opening."""
+"""Offset from the outer to the inner skin around the opening."""
 _FLOOR_M = 0.10
-"""Of a boot below its sill."""
+"""Depth of a boot's floor below its sill."""
 _UNDER_SHELF_M = 0.03
 _GATE_RISES, _LID_TURNS = np.radians(8.0), np.radians(76.0)
-"""How far an open tailgate points up; how far a boot lid turns."""
+"""Elevation of an open tailgate; rotation of an open boot lid."""
 _HIGHEST_M = 1.85
-"""Up to where the far end of a tailgate rises over its hinge."""
+"""Greatest height of the raised end of a tailgate above its hinge."""
 
 
 class _Boot(NamedTuple):
-    """The opening of a boot, in the car's axes: where it is cut, and what it turns about."""
+    """Geometry of a boot's opening in the car's axes: its cuts and its hinge."""
 
     shell: Shell
     is_gate: bool
@@ -64,12 +64,12 @@ class _Boot(NamedTuple):
 
     @property
     def hinge(self) -> tuple[float, float]:
-        """Y and Z of the axis that it turns about."""
+        """Y and Z of the hinge axis."""
         return float(self.shell.surface(self.start_m, 16.0)[1]) - 0.03, self.start_z
 
     @property
     def turn_rad(self) -> float:
-        """How far it is open."""
+        """Opening angle."""
         if not self.is_gate:
             return float(_LID_TURNS)
         y, z = self.hinge
@@ -78,7 +78,7 @@ class _Boot(NamedTuple):
         return float(np.arctan2(down, back) + min(_GATE_RISES, most))
 
     def regions(self) -> list[list[_Plane]]:
-        """Convex pieces of space whose faces belong to what swings up: beside the windows and below them."""
+        """Convex regions whose faces swing up: beside the windows and below them."""
         over: list[_Plane] = [((0.0, 0.0, 1.0), self.start_z), ((0.0, 1.0, 0.0), self.belt_m)]
         below: list[_Plane] = [
             ((0.0, 0.0, 1.0), self.start_z),
@@ -95,26 +95,26 @@ class _Boot(NamedTuple):
 
 
 def _both(plane: _Plane) -> tuple[_Plane, _Plane]:
-    """A plane on the right and its mirror image."""
+    """A plane on the right and its mirror image on the left."""
     (x, y, z), distance = plane
     return plane, ((-x, y, z), distance)
 
 
 def has_boot(body: CarBody) -> bool:
-    """Whether a body of the catalogue has a tailgate or a boot lid: pickups and panel vans have neither."""
+    """True if a body of the catalogue has a tailgate or a boot lid; pickups and panel vans have neither."""
     shape = SHAPES[body.name]
     return shape.bed is None and shape.glass_until is None
 
 
 def with_open_boot(asset: Asset, body: CarBody) -> Asset:
-    """The same car with its boot open.
+    """Open the boot of a car.
 
     Parameters
     ----------
     asset
-        A car of the catalogue that has a boot.
+        A car of the catalogue with a boot.
     body
-        Its measures.
+        Measures of the car.
     """
     boot = _boot(body)
     kept: list[Part] = []
@@ -137,7 +137,7 @@ def with_open_boot(asset: Asset, body: CarBody) -> Asset:
                 moved.append(_swung(lining, boot))
                 rim.append(_band(edges[:, ::-1], _RIM))
     moved = [replace(part, collider=Collider.CONVEX_HULL) if part.name == "BootBody" else part for part in moved]
-    well = make_part("BootWell", [*np.concatenate(rim), *flat(_well(boot))], "interior_dark", crease_deg=30.0)
+    well = make_part("BootWell", [*np.concatenate(rim), *planar_faces(_well(boot))], "interior_dark", crease_deg=30.0)
     uncut = {id(part) for part in asset.parts}
     parts = [part if id(part) in uncut else with_manifold_points(part) for part in (*kept, *moved, well)]
     return replace(asset, parts=tuple(parts))
@@ -145,7 +145,7 @@ def with_open_boot(asset: Asset, body: CarBody) -> Asset:
 
 @lru_cache(maxsize=64)
 def open_boot_box(body: CarBody) -> tuple[float, float, float]:
-    """What an open boot covers on the floor in metres: the farthest X on either side, the first and the last Z."""
+    """Footprint of an open boot in metres: greatest X on either side, first and last Z."""
     boot = _boot(body)
     cut = [np.concatenate(inside) for _, inside, _ in _cut(car(body), boot) if inside]
     points = _turned(np.concatenate([each + off for each in cut for off in (0.0, _THICK)]), boot)
@@ -153,7 +153,7 @@ def open_boot_box(body: CarBody) -> tuple[float, float, float]:
 
 
 def with_rear_swung_up(part: Part, body: CarBody) -> Part:
-    """Number plates of a car, of which the rear one goes with the open boot; each looks along Z."""
+    """Number plates of a car, of which the rear one follows the open boot; each faces along Z."""
     moved = _swung(part, _boot(body))
     is_rear, looks_back = part.points[:, 2:] > 0, part.normals[:, 2:] > 0
     return replace(
@@ -174,7 +174,7 @@ def _boot(body: CarBody) -> _Boot:
 
 
 def _turned(points: NDArray[np.float64], boot: _Boot) -> NDArray[np.float64]:
-    """Points turned about the hinge, the tail upwards."""
+    """Rotate points about the hinge, with the tail upwards."""
     y, z = boot.hinge
     cos, sin = np.cos(boot.turn_rad), np.sin(boot.turn_rad)
     up, back = points[:, 1] - y, points[:, 2] - z
@@ -182,7 +182,7 @@ def _turned(points: NDArray[np.float64], boot: _Boot) -> NDArray[np.float64]:
 
 
 def _cut(asset: Asset, boot: _Boot) -> Iterator[tuple[Part, list[Face], list[Face]]]:
-    """Each part of a car with its faces that belong to what swings up, and the others where there are such."""
+    """Split each cut part of a car into the faces that swing up and the remaining faces."""
     for part in asset.parts:
         if part.name == "Spoiler" and boot.is_gate:
             yield part, _faces(part), []
@@ -200,7 +200,7 @@ def _cut(asset: Asset, boot: _Boot) -> Iterator[tuple[Part, list[Face], list[Fac
 
 
 def _swung(part: Part, boot: _Boot) -> Part:
-    """A part that swings up with the boot."""
+    """Rotate a part with the boot."""
     hinge = np.array((0.0, *boot.hinge))
     points = _turned(part.points.astype(float), boot)
     normals = _turned(part.normals.astype(float) + hinge, boot) - hinge
@@ -212,7 +212,7 @@ def _faces(part: Part) -> list[Face]:
 
 
 def _divided(faces: Sequence[Face], regions: Sequence[Sequence[_Plane]]) -> tuple[list[Face], list[Face]]:
-    """The pieces of planar convex faces inside of any of some convex regions, and those outside of all."""
+    """Split planar convex faces into the pieces inside any of several convex regions and the pieces outside."""
     inside: list[Face] = []
     outside = list(faces)
     for region in regions:
@@ -226,7 +226,7 @@ def _divided(faces: Sequence[Face], regions: Sequence[Sequence[_Plane]]) -> tupl
 
 
 def _halves(face: Face, normal: NDArray[np.float64], distance: float) -> tuple[Face | None, Face | None]:
-    """What of a face lies on either side of a plane (Sutherland and Hodgman, 1974)."""
+    """Split a face at a plane (Sutherland and Hodgman, 1974)."""
     height = face @ normal - distance
     height[np.abs(height) < 1e-6] = 0.0  # noqa: PLR2004 - a micrometre
     if (height >= 0).all():
@@ -244,7 +244,7 @@ def _halves(face: Face, normal: NDArray[np.float64], distance: float) -> tuple[F
 
 
 def _border(part: Part) -> NDArray[np.float64]:
-    """The edges of a part that no other face shares, as its faces run; float64, shape (edges, 2, 3)."""
+    """Border edges of a part, in the direction of their faces; float64, shape (edges, 2, 3)."""
     after = next_corners(part.face_counts.astype(np.int64))
     edges = np.stack([part.face_indices, part.face_indices[after]], axis=1)
     known = set(map(tuple, edges.tolist()))
@@ -254,13 +254,13 @@ def _border(part: Part) -> NDArray[np.float64]:
 
 
 def _band(edges: NDArray[np.float64], inwards: NDArray[np.float64]) -> Faces:
-    """Quads from edges inwards, which go on where the faces of these edges end."""
+    """Quads from edges inwards, with the winding of the adjacent faces."""
     start, end = edges[:, 0], edges[:, 1]
     return np.stack([end, start, start + inwards, end + inwards], axis=1)
 
 
 def _well(boot: _Boot) -> Faces:
-    """Floor, sides, front and sill of the boot, seen from within, and its cover where a shelf lies over it."""
+    """Floor, sides, front and sill of the load space seen from within, and its cover if a shelf lies above."""
     shell = boot.shell
     half_length, x = shell.body.length_m / 2, boot.half_m - 0.005
     first = min(behind_seats_m(shell), boot.start_m - 0.1)

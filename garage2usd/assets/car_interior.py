@@ -1,4 +1,4 @@
-"""What is seen through the windows of a car: dashboard, steering wheel, seats, floor, door cards and headliner."""
+"""Interior of a car as seen through its windows: dashboard, steering wheel, seats, floor, door cards, headliner."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -21,21 +21,21 @@ _BACK_M, _BACK_LEAN_M, _BACK_THICK_M = 0.58, 0.20, 0.12
 _HEADREST_M = 0.19
 _ROW_PITCH_M = 0.86
 _LEGS_M = 1.05
-"""From the foot of the windscreen to the front backrests at least."""
+"""Least distance from the foot of the windscreen to the front backrests."""
 _ROOM_OVER_HEAD_M = 0.07
 _TRIM_M = 0.055
-"""Between the shell and what lines it."""
+"""Distance between the shell and its lining."""
 _BEVEL_M = 0.035
 _APART_M = 0.002
-"""Between sheets that would else touch in a point."""
+"""Gap between sheets that would otherwise touch in a point."""
 _HIGHEST_CUSHION_M, _LOWEST_CUSHION_M = 0.42, 0.16
-"""Of a seat over the floor."""
+"""Heights of a seat cushion above the floor."""
 _SEAT_UNDER_ROOF_M = 0.88
-"""From a cushion's top to the roof where there is room for it."""
+"""Distance from a cushion's top to the roof, if there is room."""
 _ROOF_POINT = 14.0
-"""A point of a ring over the front passengers' heads."""
+"""Ring point above the front passengers' heads."""
 _SILL_POINT, _MIDDLE_POINT = 4, 16
-"""The points of a ring from its sill to the middle of the roof, upwards."""
+"""Ring points from the sill to the centre of the roof."""
 
 Faces = NDArray[np.float64]
 """float64, shape (faces, 4, 3)."""
@@ -43,14 +43,14 @@ Faces = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class _Row:
-    """A row of seats: where the foot of its backrests is, in metres from the nose, and how high its cushions are."""
+    """A row of seats: distance of its backrests' foot from the nose, and height of its cushions, in metres."""
 
     s_m: float
     cushion_m: float
 
 
 def interior(shell: Shell) -> list[Part]:
-    """The parts inside a body, in its axes: what lines it, and its seats."""
+    """Make the parts inside a body in its axes: lining and seats."""
     rows = _rows(shell)
     lining = np.concatenate([_dashboard(shell, rows[0]), _tub(shell, rows), _headliner(shell)])
     wheel = _steering_wheel(shell, rows[0])
@@ -63,7 +63,7 @@ def interior(shell: Shell) -> list[Part]:
 
 
 def behind_seats_m(shell: Shell) -> float:
-    """Metres from the nose to behind the last row of seats."""
+    """Distance in metres from the nose to the back of the last row of seats."""
     return _rows(shell)[-1].s_m + _BACK_LEAN_M + _BACK_THICK_M
 
 
@@ -72,12 +72,12 @@ def _floor_m(shell: Shell) -> float:
 
 
 def _roof_m(shell: Shell, s: float) -> float:
-    """Height of the inside of the roof or of the rear window over a place beside the middle."""
+    """Height of the inside of the roof or rear window at a distance from the nose, beside the centre."""
     return float(shell.surface(s, _ROOF_POINT)[1]) - 0.03
 
 
 def _rows(shell: Shell) -> list[_Row]:
-    """The rows of seats, the front one before the first pillar, the others as far behind as heads have room."""
+    """Place the rows of seats: the first before the first pillar, the others as far back as headroom allows."""
     shape, length = shell.shape, shell.body.length_m
     floor, s = _floor_m(shell), max(shape.pillars[0] * length - 0.28, shell.cowl + _LEGS_M)
     rows: list[_Row] = []
@@ -95,13 +95,13 @@ def _rows(shell: Shell) -> list[_Row]:
 
 
 def _inner_m(shell: Shell, s: float, y: float) -> float:
-    """Half the width between the door cards, windows or edges of the roof at a height."""
+    """Half of the inner width between door cards, windows or roof edges at a height."""
     ring = np.array([shell.surface(s, t) for t in range(_SILL_POINT, _MIDDLE_POINT + 1)])
     return float(np.interp(y, ring[:, 1], ring[:, 0])) - _TRIM_M
 
 
 def _across(shell: Shell, line: Sequence[tuple[float, float]], half_m: float) -> Faces:
-    """A sheet across the car along a line of (metres from the nose, height), seen from where Z and Y turn to."""
+    """A sheet across the car along a line of (metres from the nose, height), visible from one side."""
     z = np.array([s - shell.body.length_m / 2 for s, _ in line])
     y = np.array([height for _, height in line])
     grid = np.stack([np.stack([np.full(len(line), x), y, z], axis=1) for x in (half_m, -half_m)], axis=1)
@@ -109,7 +109,7 @@ def _across(shell: Shell, line: Sequence[tuple[float, float]], half_m: float) ->
 
 
 def _dashboard(shell: Shell, front: _Row) -> Faces:
-    """From below the windscreen to before the front seats, down to the floor, with a console between the seats."""
+    """Dashboard from below the windscreen to before the front seats, down to the floor, with a centre console."""
     first = shell.cowl + _DASH_FROM_COWL_M
     last = max(first + 0.20, front.s_m - 0.92)
     top, floor = shell.shoulder(first) + 0.012, _floor_m(shell)
@@ -118,7 +118,7 @@ def _dashboard(shell: Shell, front: _Row) -> Faces:
     line = [*edge, (min(last - 0.15, foot + 0.05) if foot < last - 0.15 else foot, top - 0.34), (foot, floor)]
     half = min(_inner_m(shell, first, top + 0.012), _inner_m(shell, last, top + 0.012))
     dash = [_across(shell, line, half)]
-    # a hood over the instruments, a screen in the middle
+    # a hood over the instruments, a central screen
     z = last - shell.body.length_m / 2
     side = _driver_x(shell)
     dash.append(_pillow((side - 0.17, top - 0.03, z - 0.22), (side + 0.17, top + 0.045, z - 0.02), 0.02))
@@ -128,12 +128,12 @@ def _dashboard(shell: Shell, front: _Row) -> Faces:
 
 
 def _driver_x(shell: Shell) -> float:
-    """X of the middle of the driver's seat, which is on the left."""
+    """X of the centre of the driver's seat, on the left."""
     return -min(shell.body.width_m * 0.205, shell.body.width_m / 2 - 0.47)
 
 
 def _steering_wheel(shell: Shell, front: _Row) -> list[NDArray[np.float64]]:
-    """A ring with two spokes and a hub, turned to the driver."""
+    """Steering wheel: a ring with two spokes and a hub, facing the driver."""
     radius, tube = 0.18, 0.016
     turn = np.arange(5) * (2 * np.pi / 4) + np.pi / 4
     ring = level_lathe_faces([(tube * np.sin(a), radius + tube * np.cos(a)) for a in turn], segments=16)
@@ -146,7 +146,7 @@ def _steering_wheel(shell: Shell, front: _Row) -> list[NDArray[np.float64]]:
 
 
 def _tub(shell: Shell, rows: Sequence[_Row]) -> Faces:
-    """Floor and door cards as far as the last row, and behind it a shelf up to the rear window, or a bulkhead."""
+    """Floor and door cards up to the last row, and behind it a shelf to the rear window, or a bulkhead."""
     half_length = shell.body.length_m / 2
     first, floor = shell.cowl + _DASH_FROM_COWL_M, _floor_m(shell)
     last = min(rows[-1].s_m + _BACK_LEAN_M + 0.06, shell.deck - 0.08)
@@ -195,7 +195,7 @@ def _headliner(shell: Shell) -> Faces:
 
 
 def _pillow(low: Sequence[float], high: Sequence[float], bevel_m: float) -> Faces:
-    """A closed box with bevelled edges around, in front and behind; where it is thin, with narrower ones."""
+    """A closed box with bevelled edges, narrower ones on a thin box."""
     (x0, y0, z0), (x1, y1, z1) = low, high
     bevel_m = min(bevel_m, 0.24 * (x1 - x0), 0.24 * (y1 - y0))
     rings = []
@@ -212,7 +212,7 @@ def _pillow(low: Sequence[float], high: Sequence[float], bevel_m: float) -> Face
 
 
 def _seat(row: _Row, x: tuple[float, float], half_length_m: float) -> list[Faces]:
-    """Cushion and leaning backrest between two places across the car."""
+    """Cushion and inclined backrest between two positions across the car."""
     top, z = row.cushion_m, row.s_m - half_length_m
     low = (x[0], top - _CUSHION_THICK_M, z - _CUSHION_LENGTH_M + 0.06)
     cushion = _pillow(low, (x[1], top, z + 0.06), _BEVEL_M)
@@ -221,14 +221,14 @@ def _seat(row: _Row, x: tuple[float, float], half_length_m: float) -> list[Faces
 
 
 def _leant(faces: Faces, row: _Row, z: float) -> Faces:
-    """Faces over the foot of a backrest, leant back with it."""
+    """Incline faces above the foot of a backrest."""
     leant: Faces = faces + np.array((0.0, row.cushion_m - 0.03, z))
     leant[:, :, 2] += faces[:, :, 1] * (_BACK_LEAN_M / _BACK_M)
     return leant
 
 
 def _headrest(shell: Shell, row: _Row, x: float) -> Faces:
-    """Over a backrest, no higher than there is room under the roof."""
+    """Headrest above a backrest, limited by the roof."""
     z = row.s_m - shell.body.length_m / 2
     roof = _roof_m(shell, row.s_m + _BACK_LEAN_M + 0.08) - 0.02
     high = min(_BACK_M + 0.05 + _HEADREST_M, roof - row.cushion_m + 0.03)
@@ -245,7 +245,7 @@ def _front_seat(shell: Shell, row: _Row, side: float) -> Faces:
 
 
 def _bench(shell: Shell, row: _Row) -> Faces:
-    """A seat for three, with a headrest for each."""
+    """Bench for three, with a headrest for each."""
     top = row.s_m + _BACK_LEAN_M + _BACK_THICK_M / 2, row.cushion_m + _BACK_M
     half = min(_inner_m(shell, row.s_m, row.cushion_m + 0.2) - 0.05, _inner_m(shell, *top))
     seat = _seat(row, (-half, half), shell.body.length_m / 2)

@@ -1,4 +1,4 @@
-"""Lamps of car bodies: housings around the corners of nose and tail with lenses, reflectors and daytime lights."""
+"""Lamps of car bodies: housings at the corners of nose and tail, with lenses, reflectors and daytime lights."""
 
 from typing import NamedTuple
 
@@ -14,12 +14,12 @@ _HOUSING_SKIN_M = 0.0115
 _BEZEL_SKIN_M = 0.0135
 _LENS_SKIN_M = 0.0155
 _BEZEL_M = 0.009
-"""How much wider than its lens a reflector is."""
+"""Width of the reflector's rim around a lens."""
 _EDGE_M = 0.012
 
 
 class HeadLamps(NamedTuple):
-    """Faces of dark housings, of what shines white, and of the bright reflectors around lenses."""
+    """Faces of the front lamps: dark housings, white light sources, and bright reflectors around lenses."""
 
     housings: Faces
     lights: Faces
@@ -27,7 +27,7 @@ class HeadLamps(NamedTuple):
 
 
 class TailLamps(NamedTuple):
-    """Faces of dark housings, of red lenses and of reversing lamps."""
+    """Faces of the rear lamps: dark housings, red lenses and reversing lamps."""
 
     housings: Faces
     lenses: Faces
@@ -35,7 +35,7 @@ class TailLamps(NamedTuple):
 
 
 def head_lamps(shell: Shell) -> HeadLamps:
-    """The front lamps of a body's design."""
+    """Make the front lamps of a body's design."""
     half, top = shell.body.width_m / 2, shell.end_top(rear=False) - 0.022
     housings, strips, discs = _HEADS[shell.shape.head](half, top, 0.42 * shell.shape.bumper)
 
@@ -49,11 +49,11 @@ def head_lamps(shell: Shell) -> HeadLamps:
 
 
 _Design = tuple[list[list[Row]], list[list[Row]], list[tuple[float, float, float]]]
-"""Patches of housings, of strips of light, and lenses: X, Y and radius."""
+"""Patches of housings, patches of light strips, and lenses as X, Y and radius."""
 
 
 def _twin(half: float, top: float, low: float) -> _Design:
-    """Two lenses beside each other below a strip."""
+    """Two lenses side by side below a light strip."""
     del low
     housing = [
         (top - 0.135, at_x(0.60 * half), at_depth(0.17)),
@@ -66,7 +66,7 @@ def _twin(half: float, top: float, low: float) -> _Design:
 
 
 def _slim(half: float, top: float, low: float) -> _Design:
-    """A narrow slit that runs far back, with small lenses over a strip along its lower edge."""
+    """A narrow slit along the wing, with small lenses above a strip at its lower edge."""
     del low
     housing = [
         (top - 0.09, at_x(0.58 * half), at_depth(0.20)),
@@ -78,7 +78,7 @@ def _slim(half: float, top: float, low: float) -> _Design:
 
 
 def _round(half: float, top: float, low: float) -> _Design:
-    """One large round lens in a round housing, a small lamp below it."""
+    """One large round lens in a round housing, with a small lamp below it."""
     del low
     x, y, reach = 0.68 * half, top - 0.10, 0.098
     ring = [(y + reach * at, reach * wide) for at, wide in ((-1.0, 0.42), (-0.42, 1.0), (0.42, 1.0), (1.0, 0.42))]
@@ -88,7 +88,7 @@ def _round(half: float, top: float, low: float) -> _Design:
 
 
 def _block(half: float, top: float, low: float) -> _Design:
-    """A tall block with two lenses over each other in an angle of light."""
+    """A tall block with two lenses one above the other, in an angle of light."""
     del low
     housing = [
         (top - 0.195, at_x(0.66 * half), at_depth(0.15)),
@@ -104,7 +104,7 @@ def _block(half: float, top: float, low: float) -> _Design:
 
 
 def _split(half: float, top: float, low: float) -> _Design:
-    """A strip of light under the bonnet, the lenses in the bumper."""
+    """A light strip below the bonnet, with the lenses in the bumper."""
     slit = [(top - 0.052, at_x(0.52 * half), at_depth(0.28)), (top, at_x(0.50 * half), at_depth(0.37))]
     strip = [(top - 0.040, at_x(0.535 * half), at_depth(0.28)), (top - 0.014, at_x(0.52 * half), at_depth(0.34))]
     pod = [
@@ -119,7 +119,7 @@ _HEADS = {Head.TWIN: _twin, Head.SLIM: _slim, Head.ROUND: _round, Head.BLOCK: _b
 
 
 def tail_lamps(shell: Shell) -> TailLamps:
-    """The rear lamps of a body's design, and the reflectors in its bumper."""
+    """Make the rear lamps of a body's design, and the reflectors in its bumper."""
     half, y = shell.body.width_m / 2, shell.bumper_top(rear=True) - 0.045
     reflector = [(y, at_x(0.66 * half), at_x(0.82 * half)), (y + 0.028, at_x(0.66 * half), at_x(0.82 * half))]
     made = _TAILS[shell.shape.tail_lamps](shell)
@@ -128,7 +128,7 @@ def tail_lamps(shell: Shell) -> TailLamps:
 
 
 def _banded(shell: Shell) -> TailLamps:
-    """Red lenses around the corners, with a reversing lamp between: tall, or wide under a boot lid."""
+    """Red lenses at the corners with a reversing lamp between: tall, or wide below a boot lid."""
     half, top = shell.body.width_m / 2, shell.end_top(rear=True) - 0.03
     tall = shell.shape.tail_lamps is TailLamp.TALL
     room = top - shell.bumper_top(rear=True) - 0.02
@@ -136,7 +136,7 @@ def _banded(shell: Shell) -> TailLamps:
     wrap = shell.shape.bow_m[1] + (0.12 if tall else 0.20)
 
     def patch(low: float, high: float, edge_m: float, skin_m: float) -> Faces:
-        """Part of the lamps between two shares of their height, an edge's width within their outline."""
+        """Part of the lamps between two shares of their height, inset by an edge's width."""
         first, last = top - height + edge_m, top - edge_m
         rows = [
             (
@@ -164,7 +164,7 @@ def _reverse_in_bumper(shell: Shell) -> Faces:
 
 
 def _bar(shell: Shell) -> TailLamps:
-    """A band of light from one side to the other, wider at its ends."""
+    """A light band across the whole tail, wider at its ends."""
     half, top = shell.body.width_m / 2, shell.end_top(rear=True) - 0.025
     wrap, border = shell.shape.bow_m[1] + 0.22, 0.64 * half
     housing = [(y, at_left_depth(wrap), at_depth(wrap)) for y in (top - 0.105, top)]

@@ -1,11 +1,11 @@
-"""Slabs, discs and ribbons that are put on the shell of a car body."""
+"""Patches on the shell of a car body: slabs, discs and ribbons."""
 
 from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.assets.car_shell import Contour, Shell, both_sides, grid_quads, needed
+from garage2usd.assets.car_shell import Contour, Shell, both_sides, grid_quads, simplified
 from garage2usd.assets.mesh import Face
 
 __all__ = [
@@ -19,16 +19,16 @@ __all__ = [
     "at_x",
     "disc_patch",
     "end_patch",
-    "flat",
+    "planar_faces",
     "ribbon",
     "slab",
 ]
 
 SKIN_M = 0.006
-"""How far a patch stands out of the shell where nothing else is said."""
+"""Default distance by which a patch protrudes from the shell."""
 _SLAB_M = 0.012
 _COLUMN_M = 0.01
-"""Least width of the columns at the ends of what is put on nose or tail."""
+"""Least width of the columns at the ends of patches on nose or tail."""
 _ROW_M = 0.006
 _TURN_TOLERANCE_M = 0.0012
 _FLATNESS_M = 0.001
@@ -36,13 +36,13 @@ _FLATNESS_M = 0.001
 Faces = NDArray[np.float64]
 """float64, shape (faces, corners, 3)."""
 Place = Callable[[Contour], float]
-"""Where along a level cut through nose or tail, in metres from its middle."""
+"""Position along a level cut through nose or tail, in metres from its centre."""
 Row = tuple[float, Place, Place]
-"""Height, and from where to where."""
+"""Height of a row, and its ends."""
 
 
-def flat(quads: Faces) -> list[Face]:
-    """Quads whose corners lie in one plane as they are, others as two triangles."""
+def planar_faces(quads: Faces) -> list[Face]:
+    """Keep planar quads as they are, and split all others into two triangles."""
     a, b, c, d = quads.transpose(1, 0, 2)
     across = np.cross(c - a, d - b)
     size = np.linalg.norm(across, axis=1)
@@ -53,17 +53,17 @@ def flat(quads: Faces) -> list[Face]:
 
 
 def at_x(x_m: float) -> Place:
-    """Where a level cut has an X in metres."""
+    """Position where a level cut has an X in metres."""
     return lambda contour: contour.arc_at_x(x_m)
 
 
 def at_depth(depth_m: float) -> Place:
-    """Where a level cut is some metres behind its middle, on the right."""
+    """Position a distance behind the centre of a level cut, on the right."""
     return lambda contour: contour.arc_at_depth(depth_m)
 
 
 def slab(outer: NDArray[np.float64], inner: NDArray[np.float64]) -> Faces:
-    """A closed slab between two grids of points, shapes (rows, columns, 3); the outer one is seen counter-clockwise."""
+    """A closed slab between two grids of points, shapes (rows, columns, 3); the outer one is counter-clockwise."""
     quads = [grid_quads(outer).reshape(-1, 4, 3), grid_quads(inner).reshape(-1, 4, 3)[:, ::-1]]
     far, near = (np.concatenate([g[0], g[1:, -1], g[-1, -2::-1], g[-2::-1, 0]]) for g in (outer, inner))
     quads.append(np.stack([far[1:], far[:-1], near[:-1], near[1:]], axis=1))
@@ -71,7 +71,7 @@ def slab(outer: NDArray[np.float64], inner: NDArray[np.float64]) -> Faces:
 
 
 def end_patch(shell: Shell, rows: Sequence[Row], *, rear: bool, skin_m: float = SKIN_M) -> Faces:
-    """A slab that follows nose or tail around its corners; its rows go upwards."""
+    """A slab that follows nose or tail around its corners; rows in ascending order."""
     low, high = rows[0][0], rows[-1][0]
     wide = shell.contour(high, rear=rear)
     around_corner = rows[-1][2](wide) > wide.corner_m
@@ -94,7 +94,7 @@ def end_patch(shell: Shell, rows: Sequence[Row], *, rear: bool, skin_m: float = 
 
 
 def _ends_at(rows: Sequence[Row], y: float, contour: Contour) -> tuple[float, float]:
-    """From where to where a patch goes along a contour at a height, between the rows below and above."""
+    """Ends of a patch along a contour at a height, interpolated between rows."""
     above = min(next(i for i, row in enumerate(rows) if row[0] >= y), len(rows) - 1)
     low, high = rows[max(above - 1, 0)], rows[above]
     share = (y - low[0]) / (high[0] - low[0]) if high[0] > low[0] else 1.0
@@ -103,20 +103,20 @@ def _ends_at(rows: Sequence[Row], y: float, contour: Contour) -> tuple[float, fl
 
 
 def _turns(contour: Contour, first: float, last: float, skin_m: float) -> NDArray[np.int64]:
-    """Numbers of a contour's points between two places at which a patch needs columns so as not to cut corners."""
+    """Indices of the contour's points between two positions at which a patch needs columns to follow the corners."""
     numbers = np.arange(1 - len(contour.line), len(contour.line))
     arcs = contour.arc_at_points(numbers)
     numbers = numbers[(arcs > first + _COLUMN_M) & (arcs < last - _COLUMN_M)]
     arcs = np.array([first, *contour.arc_at_points(numbers), last])
-    kept = needed(arcs, contour.place(arcs, 0.0), skin_m / 4)
+    kept = simplified(arcs, contour.place(arcs, 0.0), skin_m / 4)
     chosen: NDArray[np.int64] = numbers[np.array(kept[1:-1], dtype=int) - 1]
     return chosen
 
 
 def ribbon(shell: Shell, line: Sequence[tuple[float, float]], width_m: float, *, lift_m: float = 0.003) -> Faces:
-    """A thin strip on both sides along places of the shell's surface: (metres from the nose, point of the ring)."""
+    """A thin strip on both sides along points of the shell's surface: (metres from the nose, ring point)."""
     places = np.array([shell.surface(s, t) for s, t in line])
-    kept = needed(np.sum(line, axis=1), places, _TURN_TOLERANCE_M)
+    kept = simplified(np.sum(line, axis=1), places, _TURN_TOLERANCE_M)
     places, normals = places[kept], np.array([shell.normal(*line[i]) for i in kept])
     across = np.cross(np.gradient(places, axis=0), normals)
     across *= width_m / 2 / np.linalg.norm(across, axis=1, keepdims=True)
@@ -127,7 +127,7 @@ def ribbon(shell: Shell, line: Sequence[tuple[float, float]], width_m: float, *,
 
 
 def disc_patch(shell: Shell, middle: tuple[float, float], radius_m: float, *, rear: bool, skin_m: float) -> Faces:
-    """A flat disc of eight corners on nose or tail, around (x, y)."""
+    """A flat octagonal disc on nose or tail, centred at (x, y)."""
     x, y = middle
     wide, narrow = radius_m, radius_m * 0.45
     rows = [
@@ -138,10 +138,10 @@ def disc_patch(shell: Shell, middle: tuple[float, float], radius_m: float, *, re
 
 
 def across(low: float, high: float, below_m: float, above_m: float) -> list[Row]:
-    """Two rows that reach as far to the left as to the right."""
+    """Two rows with symmetric ends."""
     return [(low, at_x(-below_m), at_x(below_m)), (high, at_x(-above_m), at_x(above_m))]
 
 
 def at_left_depth(depth_m: float) -> Place:
-    """Where a level cut is some metres behind its middle, on the left."""
+    """Position a distance behind the centre of a level cut, on the left."""
     return lambda contour: -contour.arc_at_depth(depth_m)

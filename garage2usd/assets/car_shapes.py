@@ -1,4 +1,4 @@
-"""How the bodies of the catalogue look: their side views, and the designs of their lamps, grilles and wheels."""
+"""Shapes of the catalogue's bodies: side views, and designs of lamps, grilles and wheels."""
 # Over 300 lines: a table of some rows for each body.
 
 from dataclasses import dataclass, replace
@@ -8,7 +8,7 @@ from typing import Any
 __all__ = ["SHAPES", "Grille", "Head", "Rim", "SideView", "TailLamp"]
 
 _BOOT_UNTIL = 0.9
-"""Share of length before which a rear window's foot has a boot lid behind it."""
+"""Share of the length before which the foot of a rear window has a boot lid behind it."""
 
 
 class Head(StrEnum):
@@ -31,7 +31,7 @@ class TailLamp(StrEnum):
 
 
 class Grille(StrEnum):
-    """Designs of what is between the front lamps."""
+    """Designs of grilles."""
 
     SLATS = "slats"
     CLOSED = "closed"
@@ -66,13 +66,13 @@ class SideView:
     pillars
         Shares of length of the pillars between side windows.
     tumblehome
-        How much narrower the roof is than the belt, as a share of the half width.
+        Narrowing of the roof against the belt, as a share of the half width.
     nose, tail
         Half width at the ends as a share of the largest.
     window_run_out_m
-        From the rear end of the side windows to the foot of the rear window.
+        Distance from the rear end of the side windows to the foot of the rear window.
     bow_m
-        How far the middles of nose and tail stand out before their corners.
+        Distance by which the centres of nose and tail protrude before their corners.
     bed
         Shares of length between which a pickup's bed is open.
     upright_tail
@@ -80,33 +80,33 @@ class SideView:
     rows
         Rows of seats.
     seats
-        Their covers: ``black``, ``grey`` or ``tan``.
+        Colour of the seats: ``black``, ``grey`` or ``tan``.
     clearance_m
         Height of the sills.
     glass_until
-        Share of length behind which there are no windows; None where they go all around.
+        Share of length behind which there are no windows; None for windows all around.
     glass
-        Of the windows behind the first pillar: ``glass`` or ``glass_dark``.
+        Material of the windows behind the first pillar: ``glass`` or ``glass_dark``.
     bumper
-        Factor of the heights of bumpers and of what is on them.
+        Factor on the heights of bumpers and of the parts on them.
     slab
-        How upright the sides are, from 0 for bulging ones to 1.
+        Steepness of the sides, from 0 (curved) to 1 (upright).
     crown_m
-        How far the middle of the bonnet stands over its edges.
+        Height of the bonnet's centre above its edges.
     doors
-        Of a side.
+        Number of doors on each side.
     head, tail_lamps, grille, rim
-        Designs of the lamps, of what is between the front ones, and of the wheels.
+        Designs of the lamps, the grille and the wheels.
     clad
-        Whether arches and sills are of black plastic.
+        Whether arches and sills have black plastic cladding.
     rails
-        Whether there are rails on the roof.
+        Whether the roof has rails.
     spoiler
-        Whether the roof goes on over the rear window.
+        Whether the roof extends over the rear window.
     soft_top
-        Whether the roof is of cloth.
+        Whether the roof is made of cloth.
     slides
-        Whether the rear doors slide.
+        Whether the rear doors are sliding doors.
     """
 
     shoulder: tuple[tuple[float, float], ...]
@@ -223,10 +223,10 @@ _USUAL = {
 
 
 def _changed(base: SideView, line: tuple[float, float, float, float, float], **changes: Any) -> SideView:  # noqa: ANN401 - of any field
-    """A side view like another one, with other heights of its shoulder and what else differs.
+    """Derive a side view from another one, with different shoulder heights and other changed fields.
 
-    The heights are shares of the body's: of the nose, the bonnet at the windscreen, the belt at half length and at the
-    rear, and the tail.
+    Heights are shares of the body's height: at the nose, the bonnet at the windscreen, the belt at half length and at
+    the rear, and the tail.
     """
     nose, bonnet, belt, rear, tail = line
     foot, deck = changes.get("roof", base.roof)[0][0], changes.get("roof", base.roof)[3][0]
@@ -245,7 +245,10 @@ def _changed(base: SideView, line: tuple[float, float, float, float, float], **c
 
 
 def _roof(foot: float, front: float, rear: float, deck: float, drop: float = 0.975) -> tuple[tuple[float, float], ...]:
-    """Shares of length of windscreen foot, roof front, roof rear and rear window foot, and of height at the third."""
+    """Points of a roof line as shares of length and height.
+
+    These are the windscreen foot, roof front, roof rear and rear window foot; `drop` is the height of the third.
+    """
     return (foot, 0.0), (front, 1.0), (rear, drop), (deck, 0.0)
 
 
@@ -731,4 +734,4 @@ SHAPES: dict[str, SideView] = _USUAL | {
         rim=Rim.Y_SPOKE,
     ),
 }
-"""How each body of the catalogue looks, by its name."""
+"""Shape of each body of the catalogue, by name."""

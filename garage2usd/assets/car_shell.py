@@ -1,4 +1,4 @@
-"""The shell of a car body: rings of points lofted along the car, and places on its surface."""
+"""Shell of a car body: rings of points lofted along the car, and points on its surface."""
 # Over 300 lines: the rings of a body are long rows of numbers, with the functions that read them.
 
 from itertools import pairwise
@@ -10,7 +10,7 @@ from garage2usd.assets.car_shapes import SideView
 from garage2usd.assets.monotone_curve import MonotoneCurve
 from garage2usd.config.vehicles import CarBody
 
-__all__ = ["Contour", "Shell", "both_sides", "grid_quads", "needed"]
+__all__ = ["Contour", "Shell", "both_sides", "grid_quads", "simplified"]
 
 _ARCH_GAP_M = 0.045
 _ARCH_STEPS = 9
@@ -18,7 +18,7 @@ _HALF_PILLAR_M = 0.045
 _MIN_STATION_STEP_M = 0.008
 _MAX_STATION_STEP_M = 0.30
 _END_INSET_M = 0.010
-"""Room for plates and lamps between the shell's ends and the footprint."""
+"""Space for plates and lamps between the shell's ends and the footprint."""
 _END_STEPS_M = (0.012, 0.03, 0.06, 0.11, 0.17)
 _END_RUN_M = 0.42
 _BED_FLOOR_M = 0.82
@@ -63,14 +63,14 @@ _TAIL_SETBACK_M = (*[0.035] * 4, 0.035, 0.006, 0.0, 0.003, 0.038, 0.042, 0.048, 
 
 
 class Contour:
-    """Nose or tail cut level: a line from the middle around the corner along the right side.
+    """Level cut through nose or tail: a line from the centre around the corner along the right side.
 
     Parameters
     ----------
     line
-        Shape (points, 2): X and Z.
+        X and Z of its points; shape (points, 2).
     rear
-        Whether it is the tail's.
+        Whether it cuts the tail.
     """
 
     def __init__(self, line: NDArray[np.float64], *, rear: bool) -> None:
@@ -78,7 +78,7 @@ class Contour:
         lengths = np.linalg.norm(steps, axis=1)
         self.line = line
         self.arc_m = np.concatenate(([0.0], np.cumsum(lengths)))
-        """Metres along the line of each of its points."""
+        """Arc length in metres of each point of the line."""
         outwards = steps[:, ::-1] * ((-1.0, 1.0) if rear else (1.0, -1.0)) / lengths[:, None]
         self._normals = np.concatenate([outwards[:1], outwards[:-1] + outwards[1:], outwards[-1:]])
         self._normals[0, 0] = 0.0
@@ -86,7 +86,7 @@ class Contour:
 
     @property
     def corner_m(self) -> float:
-        """Metres along the line to where the flat end becomes the side."""
+        """Arc length in metres at which the flat end becomes the side."""
         return float(self.arc_m[len(_BONNET)])
 
     def arc_at_x(self, x: float) -> float:
@@ -99,12 +99,12 @@ class Contour:
         return float(np.interp(depth_m, depths, self.arc_m))
 
     def arc_at_points(self, numbers: NDArray[np.int64]) -> NDArray[np.float64]:
-        """Metres along the line to points of it by number; negative on the left for negative ones."""
+        """Arc length in metres of points by index; negative on the left for negative indices."""
         arcs: NDArray[np.float64] = np.sign(numbers) * self.arc_m[np.abs(numbers)]
         return arcs
 
     def place(self, arc_m: NDArray[np.float64], skin_m: float) -> NDArray[np.float64]:
-        """X and Z, shape (n, 2), of places along the line, `skin_m` outside it."""
+        """X and Z, shape (n, 2), at arc lengths of the line, offset outwards by `skin_m`."""
         along = np.abs(arc_m)
         place: NDArray[np.float64] = np.stack(
             [np.interp(along, self.arc_m, self.line[:, axis]) for axis in (0, 1)], axis=1
@@ -116,7 +116,7 @@ class Contour:
 
 
 class Shell:
-    """Half rings along the car, each from the middle of the floor pan over the side to the middle of the roof."""
+    """Shell of a body as half rings along the car, from the centre of the floor pan over the side to the roof."""
 
     def __init__(self, body: CarBody, shape: SideView) -> None:
         self.body, self.shape = body, shape
@@ -144,7 +144,7 @@ class Shell:
         self._half_width = MonotoneCurve(stations, np.array(shares) * body.width_m / 2)
         self.stations = self._make_stations()
         self.points = self._make_rings()
-        """Shape (stations, points of a half ring, 3)."""
+        """Points of the half rings; shape (stations, points of a half ring, 3)."""
         self._caps = {rear: self._make_cap(rear=rear) for rear in (False, True)}
 
     @property
@@ -159,7 +159,7 @@ class Shell:
 
     @property
     def side_window(self) -> tuple[float, float]:
-        """Metres from the nose between which the side is windows and pillars."""
+        """Interval in metres from the nose in which the side consists of windows and pillars."""
         return min(self.cowl + 0.36, self.roof_front + 0.04), self.deck - self.shape.window_run_out_m
 
     def shoulder(self, s: float) -> float:
@@ -171,13 +171,13 @@ class Shell:
         return float(self.points[-1 if rear else 0, _BELT, 1])
 
     def end_heights(self, *, rear: bool, around_corner: bool) -> NDArray[np.float64]:
-        """Heights at which nose or tail bend, upwards; around their corners they are others."""
+        """Ascending heights at which the profile of nose or tail bends, which differ around the corners."""
         end, corner = (-1, -len(_END_STEPS_M)) if rear else (0, len(_END_STEPS_M))
         heights = [self.points[i, _SILL : _BELT + 1, 1] for i in ((end, corner) if around_corner else (end,))]
         return np.sort(np.concatenate(heights))
 
     def bumper_top(self, *, rear: bool) -> float:
-        """Height at which nose or tail begins to step back above the bumper."""
+        """Height at which nose or tail recedes above the bumper."""
         return float(self.points[-1 if rear else 0, _SILL + 3, 1])
 
     def side_place(self, s: float, y: float) -> tuple[float, float]:
@@ -186,14 +186,14 @@ class Shell:
         return float(np.interp(y, ring[:, 1], ring[:, 0])), float(np.interp(y, ring[:, 1], ring[:, 2]))
 
     def surface(self, s: float, t: float) -> NDArray[np.float64]:
-        """The point `s` metres from the nose at the ring's point `t`, which need not be whole."""
+        """Point of the surface `s` metres from the nose at the fractional ring index `t`."""
         ring = self._ring_at(s)
         low = min(int(t), len(ring) - 2)
         point: NDArray[np.float64] = ring[low] + (ring[low + 1] - ring[low]) * (t - low)
         return point
 
     def normal(self, s: float, t: float) -> NDArray[np.float64]:
-        """The unit normal of the surface at a place, outwards."""
+        """Outward unit normal of the surface at (s, t)."""
         along = self.surface(s + 0.01, t) - self.surface(s - 0.01, t)
         around = self.surface(s, min(t + 0.05, 16.0)) - self.surface(s, t - 0.05)
         normal = np.cross(around, along)
@@ -201,7 +201,7 @@ class Shell:
         return unit
 
     def contour(self, y: float, *, rear: bool) -> Contour:
-        """The level cut through nose or tail at a height of no more than its upper edge."""
+        """Level cut through nose or tail at a height up to its upper edge."""
         cap = self._caps[rear]
         rows = cap[:-1, 0, 1]
         row = int(np.clip(np.searchsorted(rows, y) - 1, 0, len(rows) - 2))
@@ -217,30 +217,30 @@ class Shell:
         return Contour(np.concatenate([front, side]), rear=rear)
 
     def regions(self) -> dict[str, NDArray[np.float64]]:
-        """The faces of the shell by what they are, each (n, 4, 3): body, cabin, glass, rear_glass, pillar or under."""
+        """Faces of the shell by region, each (n, 4, 3): body, cabin, glass, rear_glass, pillar or under."""
         kinds, quads = self._kinds(), grid_quads(self.points)
-        # doors need fewer stations than the windows over them
+        # doors need fewer stations than the windows above them
         middle = np.flatnonzero((self.stations >= self.cowl) & (self.stations <= self.deck))
         side = self.points[middle, _SILL : _BELT + 1]
-        doors = side[needed(self.stations[middle], side.reshape(len(side), -1), _SIDE_TOLERANCE_M)]
+        doors = side[simplified(self.stations[middle], side.reshape(len(side), -1), _SIDE_TOLERANCE_M)]
         kinds[middle[0] : middle[-1], _SILL:_BELT] = ""
         found = {kind: quads[kinds == kind] for kind in ("body", "cabin", "glass", "rear_glass", "pillar")}
         caps = [grid_quads(cap).reshape(-1, 4, 3) for cap in self._caps.values()]
         found["body"] = np.concatenate([found["body"], grid_quads(doors).reshape(-1, 4, 3), caps[0], caps[1][:, ::-1]])
         pan = self.points[:, : _SILL + 1]
-        kept = needed(self.stations, pan.reshape(len(pan), -1), _PAN_TOLERANCE_M)
+        kept = simplified(self.stations, pan.reshape(len(pan), -1), _PAN_TOLERANCE_M)
         found["under"] = grid_quads(pan[kept]).reshape(-1, 4, 3)
         return {kind: both_sides(faces) for kind, faces in found.items()}
 
     def _ring_at(self, s: float) -> NDArray[np.float64]:
-        """Half a ring anywhere, between two stations: shape (points, 3)."""
+        """Interpolated half ring between two stations: shape (points, 3)."""
         i = int(np.clip(np.searchsorted(self.stations, s) - 1, 0, len(self.stations) - 2))
         share = (s - self.stations[i]) / (self.stations[i + 1] - self.stations[i])
         ring: NDArray[np.float64] = self.points[i] + (self.points[i + 1] - self.points[i]) * share
         return ring
 
     def _make_stations(self) -> NDArray[np.float64]:
-        """Distances from the nose, close together at the ends, around wheel arches and windows."""
+        """Distances of the stations from the nose, dense at the ends and around wheel arches and windows."""
         length, first, last = self.body.length_m, self._first, self._last
         fixed = [first, last, *(first + step for step in _END_STEPS_M), *(last - step for step in _END_STEPS_M)]
         fixed += [self.cowl, self.cowl + 0.03, self.roof_front - 0.12, self.roof_front, self.roof_front + 0.12]
@@ -272,7 +272,7 @@ class Shell:
         return np.concatenate([*filled, stations[-1:]])
 
     def _make_rings(self) -> NDArray[np.float64]:
-        """The half rings at the stations: 0-4 pan and sill, 4-10 side, 10-11 window, 11-16 roof."""
+        """Half rings at the stations: points 0-4 pan and sill, 4-10 side, 10-11 window, 11-16 roof."""
         s = self.stations
         width, shoulder, sill, bottom = self._half_width(s), self._shoulder(s), self._sill(s), self._bottom(s)
         heights = bottom[:, None] + np.array(_SIDE_HEIGHT) * (shoulder - bottom)[:, None]
@@ -291,7 +291,7 @@ class Shell:
         return np.concatenate([flat, z[:, :, None]], axis=2)
 
     def _bowed_z(self, s: NDArray[np.float64], x: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Z of points `s` metres from the nose, shape (n,), and `x` off the middle, (n, m): the ends bow outwards."""
+        """Z of points at `s` from the nose, shape (n,), and `x` from the centre, (n, m), with ends bowed outwards."""
         length, (front, rear) = self.body.length_m, self.shape.bow_m
         back = [min(self.roof_rear, 0.86 * length), min(self.deck, 0.88 * length), 0.9 * length, self._last]
         knots = [self._first, 0.12 * length, self.cowl, self.roof_front, *back]
@@ -300,13 +300,13 @@ class Shell:
         return z
 
     def _set_back(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
-        """What the ends step back above and below their bumpers, in Z; shape (n, points of a half ring)."""
+        """Setback in Z of the ends above and below their bumpers; shape (n, points of a half ring)."""
         nose, tail = self._end_weights(s)
         step: NDArray[np.float64] = np.outer(nose, _NOSE_SETBACK_M) - np.outer(tail, _TAIL_SETBACK_M)
         return step
 
     def _end_weights(self, s: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """How much places belong to the nose and to the tail: 1 at its end, falling to 0."""
+        """Weights of nose and tail at points: 1 at the end, falling to 0."""
         nose, tail = (np.maximum(1.0 - away / _END_RUN_M, 0.0) for away in (s - self._first, self._last - s))
         return nose * nose, tail * tail
 
@@ -318,7 +318,7 @@ class Shell:
         return height
 
     def _bottom(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Height of the side's lower edge: the sill, raised over the wheels."""
+        """Height of the side's lower edge: the sill, raised above the wheels."""
         level: NDArray[np.float64] = self._sill(s)
         for axle in self.axles:
             inside = self.arch_radius_m**2 - (s - axle) ** 2
@@ -329,7 +329,7 @@ class Shell:
     def _top(
         self, s: NDArray[np.float64], width: NDArray[np.float64], shoulder: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """The rings above the belt line: cabin, bonnet, boot lid or open bed; X and Y."""
+        """X and Y of the rings above the belt line: cabin, bonnet, boot lid or open bed."""
         length, bed = self.body.length_m, self.shape.bed
         low = s >= self.cowl + 0.5 if bed else np.zeros(len(s), bool)
         crown = np.where(low, 0.012, self.shape.crown_m)
@@ -351,7 +351,7 @@ class Shell:
         return top
 
     def _make_cap(self, *, rear: bool) -> NDArray[np.float64]:
-        """What closes nose or tail: rows up the side's heights and the crown, columns from the side to the middle."""
+        """Cap that closes nose or tail: rows along the side's heights and the crown, columns from side to centre."""
         end = -1 if rear else 0
         crown, side = self.points[end, _BELT:], self.points[end, _SILL : _BELT + 1]
         x = np.outer(side[:, 0], crown[:, 0] / crown[0, 0])
@@ -360,7 +360,7 @@ class Shell:
         return np.concatenate([np.stack([x, np.broadcast_to(side[:, 1:2], x.shape), z], axis=2), crown[None]])
 
     def _kinds(self) -> NDArray[np.str_]:
-        """What the faces are made of, for each pair of stations and of ring points."""
+        """Region of the faces for each pair of stations and of ring points."""
         s = (self.stations[:-1] + self.stations[1:]) / 2
         kinds = np.full((len(s), self.points.shape[1] - 1), "body", dtype="<U10")
         kinds[:, :_SILL] = "under"
@@ -381,18 +381,18 @@ class Shell:
 
 
 def grid_quads(grid: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The quads of a grid of points, shape (rows, columns, 3), as (rows - 1, columns - 1, 4, 3)."""
+    """Quads of a grid of points, shape (rows, columns, 3), as (rows - 1, columns - 1, 4, 3)."""
     return np.stack([grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]], axis=2)
 
 
 def both_sides(quads: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Faces of the right side, shape (n, corners, 3), and their mirror images."""
+    """Faces of the right side, shape (n, corners, 3), followed by their mirror images."""
     back = np.roll(np.arange(quads.shape[1])[::-1], 1)
     return np.concatenate([quads, (quads * (-1.0, 1.0, 1.0))[:, back]])
 
 
-def needed(at: NDArray[np.float64], rows: NDArray[np.float64], tolerance: float) -> list[int]:
-    """Numbers of the rows that represent all rows within a tolerance, with straight lines between them.
+def simplified(at: NDArray[np.float64], rows: NDArray[np.float64], tolerance: float) -> list[int]:
+    """Simplify a polyline of rows: indices of the rows that approximate all others within a tolerance.
 
     Uses the Ramer-Douglas-Peucker algorithm (1972).
     """

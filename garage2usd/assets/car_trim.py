@@ -1,4 +1,4 @@
-"""What is black and what is bright at the ends of car bodies: grilles, air intakes, seams, badges."""
+"""Trim at the ends of car bodies: black grilles, intakes and seams, bright frames and badges."""
 
 import numpy as np
 
@@ -12,14 +12,14 @@ PLATE_M = (0.52, 0.11)
 """Width and height of a number plate."""
 _SEAM_M = 0.007
 _BORDER_M = 0.014
-"""Of the bright frame around a grille."""
+"""Width of the bright frame around a grille."""
 _BESIDE_ARCH_M = 0.025
 _BARS = 9
 _HALF_BAR_M = 0.009
 
 
 def end_trim(shell: Shell) -> Faces:
-    """Grille, air intakes, plate recess, lower edges of the bumpers, lines of bonnet and tailgate."""
+    """Black trim: grille, air intakes, plate recess, lower edges of the bumpers, shut lines of bonnet and tailgate."""
     half, top, high = shell.body.width_m / 2, shell.end_top(rear=False), shell.shape.bumper
     grille = shell.shape.grille
     faces = [end_patch(shell, _grille(shell), rear=False, skin_m=0.009 if grille is Grille.FRAME else 0.006)]
@@ -52,7 +52,7 @@ def end_trim(shell: Shell) -> Faces:
 
 
 def bright_trim(shell: Shell) -> Faces:
-    """Slats, bars or the frame of the grille, the strip over the rear plate, badges."""
+    """Bright trim: slats, bars or frame of the grille, the strip above the rear plate, badges."""
     half, top, grille = shell.body.width_m / 2, shell.end_top(rear=False), shell.shape.grille
     rows = _grille(shell)
     low, high = rows[0][0], rows[-1][0]
@@ -88,7 +88,7 @@ def rear_plate_m(shell: Shell) -> float:
 
 
 def _grille(shell: Shell) -> list[Row]:
-    """The black field of the grille."""
+    """Black panel of the grille."""
     half, top = shell.body.width_m / 2, shell.end_top(rear=False)
     match shell.shape.grille:
         case Grille.CLOSED:
@@ -104,7 +104,7 @@ def _grille(shell: Shell) -> list[Row]:
 
 
 def _framed(shell: Shell, border_m: float) -> list[Row]:
-    """A grille of six corners that reaches down to the lower edge of the bumper."""
+    """A hexagonal grille that reaches down to the lower edge of the bumper."""
     half, top, low = shell.body.width_m / 2, shell.end_top(rear=False) - 0.05, 0.30 * shell.shape.bumper
     middle = low + (top - low) * 0.62
     corners = ((low - border_m, 0.33), (middle, 0.46), (top + border_m, 0.42))

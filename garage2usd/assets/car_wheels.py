@@ -1,4 +1,4 @@
-"""Wheels of cars: tyres, and rims in several designs; the front ones may be turned."""
+"""Wheels of cars: tyres, and rims in several designs; front wheels may be steered."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -18,16 +18,16 @@ __all__ = ["MOST_STEER_DEG", "steered", "steered_box", "wheels"]
 
 _TYRE_WIDTH_M = 0.21
 _INSIDE_M = 0.012
-"""How far inside the body's width the outer sides of the wheels are."""
+"""Distance of the wheels' outer sides from the side of the body."""
 _HALF_M = _TYRE_WIDTH_M / 2
 _FACE_M, _BACK_M = _HALF_M - 0.012, _HALF_M - 0.045
-"""Across the wheel from its middle: where spokes have their faces and where their edges behind are."""
+"""Offsets across the wheel from its centre: faces of the spokes, and their rear edges."""
 MOST_STEER_DEG = 20.0
-"""As much as the front wheels turn and still stand no farther out than the mirrors."""
+"""Greatest steering angle at which the front wheels stay within the width of the mirrors."""
 
 
 def wheels(body: CarBody, design: Rim) -> list[Part]:
-    """Four wheels that stand on the floor: tyre, and a dished rim of some design."""
+    """Four wheels on the floor: tyre, and a dished rim of a design."""
     radius, half = body.wheel_radius_m, _HALF_M
     rim = radius * 0.69
     tread = [(-half, radius), (half - 0.03, radius), (half, radius - 0.03), (half, rim)]
@@ -47,26 +47,26 @@ def wheels(body: CarBody, design: Rim) -> list[Part]:
 
 
 def steered(asset: Asset, body: CarBody, steer_deg: float) -> Asset:
-    """A car whose front wheels are turned to the left.
+    """Steer the front wheels of a car to the left.
 
     Raises
     ------
     ConfigError
-        If the angle is more than `MOST_STEER_DEG` either way.
+        If the absolute angle exceeds `MOST_STEER_DEG`.
     """
     if not steer_deg:
         return asset
     if not abs(steer_deg) <= MOST_STEER_DEG:
         raise ConfigError("steer_deg", steer_deg, f"-{MOST_STEER_DEG:g} to {MOST_STEER_DEG:g} degrees")
     cos, sin = np.cos(np.radians(steer_deg)), np.sin(np.radians(steer_deg))
-    # about +Y, from a nose that looks to -Z
+    # about +Y; the nose faces -Z
     turn = np.array([(cos, 0.0, -sin), (0.0, 1.0, 0.0), (sin, 0.0, cos)])
     axle_m, x_m = _axles_m(body)[0], body.width_m / 2 - _HALF_M - _INSIDE_M
     return replace(asset, parts=tuple(_turned(part, turn, axle_m, x_m, body.wheelbase_m / 2) for part in asset.parts))
 
 
 def steered_box(body: CarBody, steer_deg: float) -> tuple[float, float, float]:
-    """What turned front wheels cover on the floor in metres: the farthest X on either side, the first and last Z."""
+    """Footprint of steered front wheels in metres: greatest X on either side, first and last Z."""
     angle = np.radians(abs(steer_deg))
     radius, (front, _) = body.wheel_radius_m, _axles_m(body)
     x_m = body.width_m / 2 - _HALF_M - _INSIDE_M + radius * np.sin(angle) + _HALF_M * np.cos(angle)
@@ -83,7 +83,7 @@ def _turned(part: Part, turn: NDArray[np.float64], axle_m: float, x_m: float, ne
         return part
     hubs = np.stack([np.sign(points[:, 0]) * x_m, points[:, 1], np.full(len(points), axle_m)], axis=1)
     moved = np.where(is_front[:, None], (points - hubs) @ turn + hubs, points)
-    # normals of front and rear wheels are told apart, as a rim's part holds those of all four
+    # front and rear wheels need separate normals, as one part holds the rims of all four
     both = np.concatenate([part.normals, (part.normals @ turn).astype(np.float32)])
     numbers = part.normal_indices + len(part.normals) * is_front[part.face_indices]
     used, indices = np.unique(numbers, return_inverse=True)
@@ -104,21 +104,21 @@ def _around(faces: Faces, angle: float) -> Faces:
 def _spoke(
     near: float, far: float, near_half: float, far_half: float, *, skew: float = 0.0, back_m: float = _BACK_M
 ) -> Faces:
-    """A wedge between two radii: its face, and two sides to an edge behind; its outer end is moved by a skew."""
+    """A wedge between two radii: its face, and two sides to a rear edge; the outer end is shifted by a skew."""
     left, right = ([(_FACE_M, far, skew + sign * far_half), (_FACE_M, near, sign * near_half)] for sign in (-1.0, 1.0))
     edge = [(back_m, far, skew), (back_m, near, 0.0)]
     return np.array([[*a, *b[::-1]] for a, b in ((right, left), (left, edge), (edge, right))])
 
 
 def _sector(near: float, far: float, half_angle: float, *, steps: int, face_m: float = _FACE_M) -> Faces:
-    """A plate between two radii around +Y, seen from outside."""
+    """An annular sector between two radii around +Y, seen from outside."""
     angles = np.linspace(-half_angle, half_angle, steps + 1)
     grid = np.array([[(face_m, r * np.cos(a), r * np.sin(a)) for r in (far, near)] for a in angles])
     return np.stack([grid[:-1, 0], grid[1:, 0], grid[1:, 1], grid[:-1, 1]], axis=1)
 
 
 def _hub(radius_m: float = 0.066, *, out_m: float = 0.0) -> Faces:
-    """A cap in the middle."""
+    """A central cap."""
     half = _HALF_M + out_m
     profile = [(half - 0.08, radius_m * 1.14), (half - 0.016, radius_m), (half - 0.004, radius_m * 0.6)]
     return np.array(lathe_faces([*profile, (half - 0.004, 0.0)], segments=12))
@@ -155,7 +155,7 @@ def _turbine(rim: float) -> list[Faces]:
 
 
 def _cover(rim: float) -> list[Faces]:
-    """A cover of plastic over a steel wheel: a disc with a wreath of slots."""
+    """Plastic cover of a steel wheel: a disc with a ring of slots."""
     inner = np.array(
         lathe_faces([(_FACE_M - 0.001, rim * 0.67), (_FACE_M + 0.008, rim * 0.3), (_FACE_M + 0.008, 0.0)], segments=20)
     )

@@ -1,4 +1,4 @@
-"""Car bodies: a lofted shell with glass, lamps, trim and the holders of plates, on four wheels."""
+"""Car bodies: a lofted shell with glass, lamps, trim and plate holders, on four wheels."""
 
 from dataclasses import replace
 from functools import lru_cache
@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from garage2usd.assets.car_interior import interior
 from garage2usd.assets.car_lamps import head_lamps, tail_lamps
-from garage2usd.assets.car_patches import Faces, flat, ribbon, slab
+from garage2usd.assets.car_patches import Faces, planar_faces, ribbon, slab
 from garage2usd.assets.car_shapes import SHAPES
-from garage2usd.assets.car_shell import Shell, both_sides, grid_quads, needed
+from garage2usd.assets.car_shell import Shell, both_sides, grid_quads, simplified
 from garage2usd.assets.car_trim import PLATE_M, bright_trim, end_trim, front_plate_m, rear_plate_m
 from garage2usd.assets.car_wheels import wheels
 from garage2usd.assets.faces import box_faces, lathe_faces
@@ -24,76 +24,78 @@ _ARCH_LIP_M = 0.03
 _ARCH_LIP_OUT_M = 0.01
 _SEAM_M = 0.007
 _PLATE_LIFT_M = 0.0012
-"""Of a plate over its holder."""
+"""Distance of a plate from its holder."""
 _HOLDER_RIM_M = 0.006
 _HATCH_FROM = 0.93
-"""Share of length from which a rear window ends at the tail."""
+"""Share of the length behind which the rear window ends at the tail."""
 _DUST_POINTS = slice(4, 9)
-"""Of a ring: from the sill to the handles of doors."""
+"""Ring points with dust: from the sill to the door handles."""
 _DUST_TOP = 0.97
 _CLEAN_END_M = 0.34
-"""Length of nose and tail that dust leaves out."""
+"""Length of nose and tail without dust."""
 _DUST_LIFT_M, _DUST_TOLERANCE_M = 0.0018, 0.0012
 _LIT = {"lamp_front": "lamp_front_lit", "lamp_rear": "lamp_rear_lit"}
 _RAIL_M = 0.034
-"""Height of a rail over the edge of the roof."""
+"""Height of a rail above the edge of the roof."""
 
 
 @lru_cache(maxsize=64)
 def car(body: CarBody) -> Asset:
-    """A parked car that takes every paint; origin in the middle of its footprint on the floor, nose to -Z."""
+    """Make a parked car for every paint; origin in the centre of its footprint on the floor, nose along -Z."""
     shell = Shell(body, SHAPES[body.name])
     regions, shape = shell.regions(), shell.shape
     head, tail = head_lamps(shell), tail_lamps(shell)
     roof = "soft_top" if shape.soft_top else "car_paint"
     lips = "trim_black" if shape.clad else "car_paint"
     parts = [
-        make_part("Body", flat(regions["body"]), "car_paint", collider=Collider.CONVEX_HULL, crease_deg=32),
-        make_part("Cabin", flat(regions["cabin"]), roof, collider=Collider.CONVEX_HULL, crease_deg=40),
-        make_part("Glass", flat(regions["glass"]), "glass", crease_deg=38),
-        make_part("Pillars", flat(regions["pillar"]), "trim_black", crease_deg=38),
-        make_part("Underbody", flat(regions["under"]), "trim_black"),
-        make_part("HeadLamps", flat(head.lights), "lamp_front", crease_deg=50),
-        make_part("TailLamps", flat(tail.lenses), "lamp_rear", crease_deg=50),
-        make_part("ReverseLamps", flat(tail.reverse), "lamp_front", crease_deg=50),
-        make_part("LampHousings", flat(np.concatenate([head.housings, tail.housings])), "lamp_housing", crease_deg=50),
-        make_part("Trim", flat(end_trim(shell)), "trim_black"),
-        make_part("Bright", flat(np.concatenate([head.bezels, bright_trim(shell)])), "chrome"),
-        make_part("Arches", flat(_arch_lips(shell)), lips, crease_deg=50),
-        make_part("Seams", flat(_seams(shell)), "trim_black"),
-        make_part("Handles", flat(_handles(shell)), "car_paint"),
-        make_part("Mirrors", flat(_mirrors(shell)), "car_paint", crease_deg=50),
+        make_part("Body", planar_faces(regions["body"]), "car_paint", collider=Collider.CONVEX_HULL, crease_deg=32),
+        make_part("Cabin", planar_faces(regions["cabin"]), roof, collider=Collider.CONVEX_HULL, crease_deg=40),
+        make_part("Glass", planar_faces(regions["glass"]), "glass", crease_deg=38),
+        make_part("Pillars", planar_faces(regions["pillar"]), "trim_black", crease_deg=38),
+        make_part("Underbody", planar_faces(regions["under"]), "trim_black"),
+        make_part("HeadLamps", planar_faces(head.lights), "lamp_front", crease_deg=50),
+        make_part("TailLamps", planar_faces(tail.lenses), "lamp_rear", crease_deg=50),
+        make_part("ReverseLamps", planar_faces(tail.reverse), "lamp_front", crease_deg=50),
+        make_part(
+            "LampHousings", planar_faces(np.concatenate([head.housings, tail.housings])), "lamp_housing", crease_deg=50
+        ),
+        make_part("Trim", planar_faces(end_trim(shell)), "trim_black"),
+        make_part("Bright", planar_faces(np.concatenate([head.bezels, bright_trim(shell)])), "chrome"),
+        make_part("Arches", planar_faces(_arch_lips(shell)), lips, crease_deg=50),
+        make_part("Seams", planar_faces(_seams(shell)), "trim_black"),
+        make_part("Handles", planar_faces(_handles(shell)), "car_paint"),
+        make_part("Mirrors", planar_faces(_mirrors(shell)), "car_paint", crease_deg=50),
         *interior(shell),
         *_plate_holders(shell),
         *wheels(body, shape.rim),
     ]
     if len(regions["rear_glass"]):
-        parts.append(make_part("RearGlass", flat(regions["rear_glass"]), "glass_dark", crease_deg=38))
+        parts.append(make_part("RearGlass", planar_faces(regions["rear_glass"]), "glass_dark", crease_deg=38))
     if shape.spoiler:
-        parts.append(make_part("Spoiler", flat(_spoiler(shell)), "car_paint", crease_deg=50))
+        parts.append(make_part("Spoiler", planar_faces(_spoiler(shell)), "car_paint", crease_deg=50))
     return Asset(tuple(parts), paints={paint: f"car_paint_{paint}" for paint in PAINTS})
 
 
 def dusty(asset: Asset, body: CarBody) -> Asset:
-    """A car whose flanks are covered with the dust of roads, thick over the sills and none at the door handles."""
+    """Cover the flanks of a car with road dust, thick above the sills and none at the door handles."""
     shell = Shell(body, SHAPES[body.name])
     stations = np.flatnonzero((shell.stations > _CLEAN_END_M) & (shell.stations < body.length_m - _CLEAN_END_M))
     side = shell.points[stations, _DUST_POINTS]
-    kept = needed(shell.stations[stations], side.reshape(len(side), -1), _DUST_TOLERANCE_M)
+    kept = simplified(shell.stations[stations], side.reshape(len(side), -1), _DUST_TOLERANCE_M)
     faces = grid_quads(side[kept] + np.array((_DUST_LIFT_M, 0.0, 0.0))).reshape(-1, 4, 3)
 
     def project(corners: NDArray[np.float64], _normals: NDArray[np.float64]) -> NDArray[np.float64]:
-        # short of the texture's upper edge, where it begins anew
+        # below the texture's upper edge, where it repeats
         most = _DUST_TOP * (MATERIALS["road_dust"].repeat_up_m or 1.0)
         high = np.clip(corners[:, 1] - shell.shape.clearance_m, 0.01, most)
         return np.stack([corners[:, 2], high], axis=1)
 
-    part = make_part("Dust", flat(both_sides(faces)), "road_dust", crease_deg=50, project=project)
+    part = make_part("Dust", planar_faces(both_sides(faces)), "road_dust", crease_deg=50, project=project)
     return replace(asset, parts=(*asset.parts, part))
 
 
 def lit(asset: Asset) -> Asset:
-    """A car whose head and tail lamps glow, whether it is of the catalogue or a model of one's own."""
+    """Light the head and tail lamps of a car, of the catalogue or of the user."""
     glowing = {part.name: key for end, key in _LIT.items() for part in lamps_of(asset, end)}
     return replace(
         asset, parts=tuple(replace(part, material=glowing.get(part.name, part.material)) for part in asset.parts)
@@ -101,20 +103,19 @@ def lit(asset: Asset) -> Asset:
 
 
 def lamps_of(asset: Asset, end: str) -> list[Part]:
-    """The parts of a car that are its ``lamp_front``, or its ``lamp_rear``, whether they glow or not."""
+    """Parts of a car that are its ``lamp_front`` or ``lamp_rear``, lit or not."""
     name = {"lamp_front": "HeadLamps", "lamp_rear": "TailLamps"}[end]
     own = {key for key, finish in asset.finishes.items() if finish.key == end} | {_LIT[end]}
     return [part for part in asset.parts if part.name == name or part.material in own]
 
 
 def plate_places(body: CarBody) -> list[tuple[float, float, float]]:
-    """Where the number plates of a car are, in its axes.
+    """Return the positions of a car's number plates in its axes.
 
     Returns
     -------
     list
-        Of the front plate and of the rear one: the way along Z that it looks, -1 or 1, and Y and Z of its middle in
-        metres.
+        Front and rear plate: its direction along Z, -1 or 1, and Y and Z of its centre in metres.
     """
     return list(body.plates) or _plate_places(Shell(body, SHAPES[body.name]))
 
@@ -135,14 +136,14 @@ def _arch_lips(shell: Shell) -> Faces:
 
 
 def _door_lines(shell: Shell) -> list[float]:
-    """Where doors begin and end, in metres from the nose."""
+    """Distances from the nose, in metres, at which doors begin and end."""
     front = max(shell.cowl + 0.30, shell.axles[0] + shell.arch_radius_m + 0.10)
     ends = [front, shell.shape.pillars[0] * shell.body.length_m, shell.axles[1] - shell.arch_radius_m - 0.04]
     return ends[: shell.shape.doors + 1]
 
 
 def _seams(shell: Shell) -> Faces:
-    """Shut lines of doors and bonnet, strips under the side windows, sills, rails of doors and roof, wipers."""
+    """Shut lines of doors and bonnet, strips below the side windows, sills, rails of doors and roof, wipers."""
     up = (4.8, 5.0, 6.0, 7.0, 8.0, 9.0, 9.85)
     faces = [ribbon(shell, [(s, t) for t in up], _SEAM_M) for s in _door_lines(shell)]
     stations = shell.stations
@@ -163,7 +164,7 @@ def _seams(shell: Shell) -> Faces:
 
 
 def _handles(shell: Shell) -> Faces:
-    """A handle at the rear end of each door, that stands out of the car's width by no more than wheel arches."""
+    """A handle at the rear end of each door, which protrudes no farther than the wheel arches."""
     faces: list[Faces] = []
     outermost = shell.body.width_m / 2 + _ARCH_LIP_OUT_M
     for s in _door_lines(shell)[1:]:
@@ -176,7 +177,7 @@ def _handles(shell: Shell) -> Faces:
 
 
 def _plate_holders(shell: Shell) -> list[Part]:
-    """What the number plates in front and behind are on, a little larger than they are."""
+    """Holders of front and rear plate, slightly larger than the plates."""
     half, high = PLATE_M[0] / 2 + _HOLDER_RIM_M, PLATE_M[1] / 2 + _HOLDER_RIM_M
     holder = np.array(box_faces((-half, -high, -0.03), (half, high, 0.0)))
     faces = [
@@ -186,7 +187,7 @@ def _plate_holders(shell: Shell) -> list[Part]:
 
 
 def _plate_places(shell: Shell) -> list[tuple[float, float, float]]:
-    """Of the plates in front and behind: -1 or 1 by the end where it is, and Y and Z of its middle."""
+    """Positions of front and rear plate: -1 or 1 by the end, and Y and Z of the centre."""
     half, high = PLATE_M[0] / 2, PLATE_M[1]
     places = []
     for rear, low in ((False, front_plate_m(shell)), (True, rear_plate_m(shell))):
@@ -215,7 +216,7 @@ def _mirrors(shell: Shell) -> Faces:
 
 
 def _wipers(shell: Shell) -> list[Faces]:
-    """Two wipers low on the windscreen, and one behind where there is no boot lid."""
+    """Two wipers on the windscreen, and one on the rear window if there is no boot lid."""
     foot = shell.cowl + 0.045
     arm = [(foot, 15.7), (foot + 0.01, 15.0), (foot + 0.03, 14.2), (foot + 0.06, 13.4)]
     found = [ribbon(shell, arm, 0.018, lift_m=0.010)]
@@ -227,7 +228,7 @@ def _wipers(shell: Shell) -> list[Faces]:
 
 
 def _door_rail(shell: Shell) -> Faces:
-    """What a sliding door runs on, along the side behind it."""
+    """Rail of a sliding door, along the side behind it."""
     first = shell.shape.pillars[1 if len(shell.shape.pillars) > 1 else 0] * shell.body.length_m
     y = shell.shoulder(first) - 0.10
     places = [shell.side_place(float(s), y) for s in np.linspace(first, shell.body.length_m - 0.32, 6)]
@@ -246,7 +247,7 @@ def _rails(shell: Shell) -> Faces:
 
 
 def _spoiler(shell: Shell) -> Faces:
-    """A lip in which the roof goes on over the rear window."""
+    """Spoiler: an extension of the roof over the rear window."""
     span = shell.roof_rear - 0.05, shell.roof_rear + 0.004
     reach = min(0.13, shell.body.length_m - shell.roof_rear - 0.03)
     rows = [[shell.surface(s, t) for t in (12.4, 13.0, 14.0, 15.0, 16.0)] for s in span]

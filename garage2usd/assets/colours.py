@@ -1,4 +1,4 @@
-"""Colours of materials: from sRGB to linear light, and the mean of a texture."""
+"""Colours of materials: conversion from sRGB to linear light, and mean colours of textures."""
 
 import io
 from functools import lru_cache
@@ -17,18 +17,18 @@ __all__ = ["linear_rgb", "material_colour", "mean_colour"]
 _OPAQUE = 255
 _SRGB = np.arange(_OPAQUE + 1) / _OPAQUE
 _LINEAR = np.where(_SRGB <= 0.04045, _SRGB / 12.92, ((_SRGB + 0.055) / 1.055) ** 2.4)  # noqa: PLR2004
-"""Linear value of each step of sRGB, by IEC 61966-2-1."""
+"""Linear value of each 8-bit sRGB value, by IEC 61966-2-1."""
 _PLACES = 3
 
 
 def linear_rgb(colour: str) -> Rgb:
-    """Linear red, green and blue of a colour ``#rrggbb``, to four decimals."""
+    """Linear red, green and blue of ``#rrggbb``, rounded to four decimals."""
     red, green, blue = (round(float(_LINEAR[int(colour[start : start + 2], 16)]), 4) for start in (1, 3, 5))
     return red, green, blue
 
 
 def material_colour(material: Material) -> Rgb:
-    """Linear colour of a material, the mean where a texture has its colours."""
+    """Linear colour of a material; the mean colour of its texture if it has one."""
     if material.colour_texture is None:
         return material.colour_rgb
     red, green, blue = (
@@ -40,7 +40,7 @@ def material_colour(material: Material) -> Rgb:
 
 @lru_cache(maxsize=256)
 def mean_colour(texture: Texture) -> Rgb:
-    """Linear mean of a texture, weighted by its opacity where it has one."""
+    """Linear mean colour of a texture, weighted by its opacity if it has one."""
     if isinstance(texture, PaintedTexture):
         worn = _mean_wear(texture.mask)
         red, green, blue = (
@@ -67,7 +67,7 @@ def _shipped(name: str) -> Path:
 
 @lru_cache(maxsize=16)
 def _mean_wear(mask: str) -> float:
-    """Mean share of the paint that is worn, 0 to 1."""
+    """Mean worn share of the paint in a wear mask, 0 to 1."""
     with Image.open(texture_folder(TextureQuality.LOW) / mask) as picture:
         entries = len(picture.getpalette() or ()) // 3
         return float(np.asarray(picture).mean()) / max(entries - 1, 1)

@@ -1,4 +1,4 @@
-"""Countries that signs and number plates are those of."""
+"""Countries whose signs and number plates are available."""
 
 from enum import StrEnum
 
@@ -9,7 +9,7 @@ class Country(StrEnum):
     """A country, by ISO 3166."""
 
     NONE = ""
-    """None of them: international."""
+    """No country: international."""
     CN = "CN"
     DE = "DE"
     GB = "GB"

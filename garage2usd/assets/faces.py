@@ -1,4 +1,4 @@
-"""Faces of boxes, solids of revolution, frames and rings: what parts are made of."""
+"""Polygon faces of boxes, solids of revolution, frames, rings and lofts."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -28,21 +28,21 @@ _STRAIGHT = 1e-9
 
 
 def moved(faces: Sequence[Face], by: ArrayLike) -> list[Face]:
-    """The same faces elsewhere, by a vector (x, y, z)."""
+    """Translate faces by a vector (x, y, z)."""
     return [face + np.asarray(by) for face in faces]
 
 
 def bent(faces: Sequence[Face], radius_m: float, *, segments: int) -> list[Face]:
-    """Faces before the plane z = 0, bent around a prism that is as good as round, whose edge touches it at x = 0.
+    """Bend faces before the plane z = 0 around a prism that approximates a cylinder and touches the plane at x = 0.
 
     Parameters
     ----------
     faces
-        Convex; X becomes the way around, Y stays, Z is how far out a point lies. Cut where an edge of the prism is.
+        Convex faces; X becomes the arc length, Y stays, Z is the distance outwards. They are cut at the prism's edges.
     radius_m
-        Of the prism's edges around its axis, which runs along Y behind the plane.
+        Circumradius of the prism, whose axis is parallel to Y behind the plane.
     segments
-        Sides of the prism.
+        Number of sides of the prism.
     """
     angle = 2 * np.pi / segments
     side_m = 2 * radius_m * np.sin(angle / 2)
@@ -61,7 +61,7 @@ def bent(faces: Sequence[Face], radius_m: float, *, segments: int) -> list[Face]
 
 
 def _beyond(face: Face, at: float, sign: float) -> Face:
-    """What of a convex face has an X of at least `at`, or of at most `at` where the sign is -1."""
+    """Clip a convex face to X of at least `at`, or at most `at` for a sign of -1."""
     kept = []
     for start, end in zip(face, np.roll(face, -1, axis=0), strict=True):
         near, far = sign * (start[0] - at), sign * (end[0] - at)
@@ -97,7 +97,7 @@ def box_faces(low: ArrayLike, high: ArrayLike, *, without: str = "") -> list[Fac
 
 
 def lathe_faces(profile: Sequence[tuple[float, float]], *, segments: int) -> list[Face]:
-    """Turn a profile of (x, radius) about the X axis; from left to right its outside is away from the axis."""
+    """Revolve a profile of (x, radius) about the X axis; with ascending x, its outside is away from the axis."""
     angles = np.arange(segments + 1) * (2 * np.pi / segments)
     angles[-1] = 0.0
     rings = [np.stack([np.full(segments + 1, x), r * np.cos(angles), r * np.sin(angles)], axis=1) for x, r in profile]
@@ -109,26 +109,26 @@ def lathe_faces(profile: Sequence[tuple[float, float]], *, segments: int) -> lis
 
 
 def level_lathe_faces(profile: Sequence[tuple[float, float]], *, segments: int) -> list[Face]:
-    """Turn a profile of (z, radius) about the Z axis, as `lathe_faces` does about X."""
-    # a cyclic change of the axes keeps the winding
+    """Revolve a profile of (z, radius) about the Z axis, as `lathe_faces` does about X."""
+    # a cyclic permutation of the axes keeps the winding
     return [face[:, [1, 2, 0]] for face in lathe_faces(profile, segments=segments)]
 
 
 def upright_lathe_faces(profile: Sequence[tuple[float, float]], *, segments: int) -> list[Face]:
-    """A closed solid of revolution about the Y axis from (height, radius) pairs, lowest first."""
+    """Revolve a profile of (height, radius) about the Y axis to a closed solid, lowest first."""
     capped = [(profile[0][0], 0.0), *profile, (profile[-1][0], 0.0)]
-    # from X to Y: a right-handed turn of the axes keeps the winding
+    # from X to Y: a rotation of the axes keeps the winding
     return [face[:, [1, 0, 2]] * (-1.0, 1.0, 1.0) for face in lathe_faces(capped, segments=segments)]
 
 
 def disc_faces(radius_m: float, back_m: float, front_m: float, centre_y_m: float) -> list[Face]:
-    """A closed disc that looks to +Z."""
+    """A closed disc that faces +Z."""
     profile = [(back_m, 0.0), (back_m, radius_m), (front_m, radius_m), (front_m, 0.0)]
     return moved(level_lathe_faces(profile, segments=28), (0.0, centre_y_m, 0.0))
 
 
 def tube_faces(points: Sequence[tuple[float, float, float]], radius_m: float, *, segments: int) -> list[Face]:
-    """A closed round tube along a line of points that bends in a plane, mitred where it bends."""
+    """A closed round tube along a planar polyline, mitred at bends."""
     line = np.array(points, dtype=float)
     ways = np.diff(line, axis=0)
     ways /= np.linalg.norm(ways, axis=1, keepdims=True)
@@ -152,9 +152,9 @@ def tube_faces(points: Sequence[tuple[float, float, float]], radius_m: float, *,
 
 
 def frame_faces(half_m: float, top_m: float, border_m: float, back_m: float, front_m: float) -> list[Face]:
-    """A door frame standing on y = 0, open below, from `back_m` to `front_m` along Z.
+    """A door frame on y = 0, open at the bottom, from `back_m` to `front_m` along Z.
 
-    Its opening is 2 `half_m` wide and `top_m` high, its border `border_m` wide on three sides.
+    The opening is 2 `half_m` wide and `top_m` high; the border is `border_m` wide on three sides.
     """
     inner = [(-half_m, 0.0), (-half_m, top_m), (half_m, top_m), (half_m, 0.0)]
     wide, high = half_m + border_m, top_m + border_m
@@ -175,7 +175,7 @@ def frame_faces(half_m: float, top_m: float, border_m: float, back_m: float, fro
 
 
 def ring_faces(low: ArrayLike, high: ArrayLike, border_m: float) -> list[Face]:
-    """A rectangular ring around a box's outline in X and Y, `border_m` wide, as long along Z as the box."""
+    """A rectangular ring around a box's outline in X and Y, `border_m` wide, with the box's extent along Z."""
     (x0, y0, z0), (x1, y1, z1) = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
     b = border_m
     inner = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
@@ -192,7 +192,7 @@ def ring_faces(low: ArrayLike, high: ArrayLike, border_m: float) -> list[Face]:
 
 
 def rectangle_ring(half_x_m: float, half_z_m: float, *, y: float, z: float = 0.0) -> Face:
-    """A level rectangle with its corners cut, as a ring of a loft that goes up; 8 points."""
+    """A level rectangle with bevelled corners, as a ring of an upward loft; 8 points."""
     x, depth, cut = half_x_m, half_z_m, 0.18 * min(half_x_m, half_z_m)
     points = [
         (x, depth - cut), (x, cut - depth), (x - cut, -depth), (cut - x, -depth),
@@ -202,9 +202,9 @@ def rectangle_ring(half_x_m: float, half_z_m: float, *, y: float, z: float = 0.0
 
 
 def loft_faces(rings: Sequence[Face]) -> list[Face]:
-    """A closed solid between rings of as many points each, in order; counter-clockwise seen from the last one's side.
+    """A closed solid between rings with equal numbers of points; counter-clockwise seen from the last ring's side.
 
-    Sides are cut into triangles, as four corners of rings need not lie in a plane.
+    Sides are split into triangles, as four corners of rings need not be coplanar.
     """
     faces: list[Face] = []
     for low, high in pairwise(rings):
@@ -222,16 +222,16 @@ def limb_faces(
     side: tuple[float, float, float] = (1.0, 0.0, 0.0),
     segments: int = 12,
 ) -> list[Face]:
-    """A closed solid along a line of points, of ellipses across it.
+    """A closed solid along a polyline with elliptical cross-sections.
 
     Parameters
     ----------
     points
-        Middles of the ellipses (x, y, z), none twice in a row.
+        Centres of the ellipses (x, y, z), without consecutive duplicates.
     widths_m, depths_m
-        Half axes of each ellipse, towards `side` and across it; circles if the depths are left out.
+        Half axes of each ellipse, along `side` and across it; circles if the depths are left out.
     side
-        A direction that the line never takes.
+        A direction that is never parallel to the polyline.
     """
     line = np.array(points, dtype=float)
     ways = np.diff(line, axis=0)

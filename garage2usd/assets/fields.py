@@ -1,7 +1,7 @@
-"""Periodic noise and shapes as plain arrays: what textures are made of.
+"""Periodic noise and shapes as arrays, for textures.
 
-Only sums, products, square roots and integers are used: sines, exponentials and matrix products differ in their last
-bit from one CPU to another.
+Only sums, products, square roots and integers are used, since sines, exponentials and matrix products differ in the
+last bit between CPUs.
 """
 
 import numpy as np
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 __all__ = ["Field", "clouds", "grain", "noise", "ramp", "spots"]
 
 Field = NDArray[np.float64]
-"""float64, shape (rows, columns), about 0 to 1, wrapping around."""
+"""Periodic field of float64, shape (rows, columns), about 0 to 1."""
 
 Shape = tuple[int, int]
 
@@ -20,7 +20,7 @@ _SLOPES = np.array(
 
 
 def noise(rng: np.random.Generator, shape: Shape, cells: Shape) -> Field:
-    """Periodic value noise from a lattice of `cells` down and across, 0 to 1."""
+    """Periodic value noise from a lattice of `cells` (down, across), 0 to 1."""
     lattice = rng.integers(0, 1024, size=cells).astype(np.float64) / 1023.0
     (top, bottom, down), (left, right, across) = (
         _lattice_places(side, count) for side, count in zip(shape, cells, strict=True)
@@ -31,7 +31,7 @@ def noise(rng: np.random.Generator, shape: Shape, cells: Shape) -> Field:
 
 
 def _lattice_places(side: int, cells: int) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
-    """For each pixel the lattice points before and after it, and how far it is from one to the other."""
+    """For each pixel, the lattice points before and after it, and its fraction between them."""
     place = np.arange(side) * (cells / side)
     low = place.astype(np.int64)
     part = place - low
@@ -39,13 +39,13 @@ def _lattice_places(side: int, cells: int) -> tuple[NDArray[np.int64], NDArray[n
 
 
 def _gradient_noise(rng: np.random.Generator, shape: Shape, cells: Shape) -> Field:
-    """Periodic gradient noise (Perlin 1985), which shows its lattice less than value noise; 0 to 1, mostly near 0.5."""
+    """Periodic gradient noise (Perlin 1985), with less visible lattice than value noise; 0 to 1, mostly near 0.5."""
     down_slope, across_slope = _SLOPES[rng.integers(len(_SLOPES), size=cells)].transpose(2, 0, 1)
     (top, bottom, low), (left, right, far) = (
         _lattice_places(side, count) for side, count in zip(shape, cells, strict=True)
     )
     down, across = (np.arange(side) * (count / side) % 1.0 for side, count in zip(shape, cells, strict=True))
-    # along the rows first, while there are as many columns as lattice cells
+    # interpolates rows first, while the array has only as many columns as lattice cells
     steep = down_slope[top] * (down * (1 - low))[:, None] + down_slope[bottom] * ((down - 1) * low)[:, None]
     level = across_slope[top] * (1 - low)[:, None] + across_slope[bottom] * low[:, None]
     field = steep[:, left] * (1 - far) + steep[:, right] * far
@@ -71,13 +71,13 @@ def grain(rng: np.random.Generator, shape: Shape) -> Field:
 
 
 def ramp(field: Field, low: float, high: float) -> Field:
-    """0 below `low`, 1 above `high`, smooth between; the other way round where `low` is the larger."""
+    """Smooth step from 0 below `low` to 1 above `high`; descending if `low` is the larger."""
     part = np.clip((field - low) / (high - low), 0.0, 1.0)
     return part * part * (3.0 - 2.0 * part)
 
 
 def spots(rng: np.random.Generator, shape: Shape, count: int, radius: tuple[float, float]) -> Field:
-    """Round soft spots, 0 to 1, of radii in pixels."""
+    """Soft round spots, 0 to 1, with radii in pixels."""
     field = np.zeros(shape)
     rows, columns = shape
     for _ in range(count):

@@ -1,8 +1,8 @@
-"""Bodies of people, dressed, in poses: lofts along the limbs of a skeleton.
+"""Dressed people in poses: lofts along the limbs of a skeleton.
 
 Proportions are those of Drillis and Contini (1966): lengths and widths are shares of the stature.
 """
-# Over 300 lines: one body, a function for each part of it, with the measures of its rings beside it.
+# Over 300 lines: one function for each part of a body, together with the measures of its rings.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -26,13 +26,13 @@ _UP = np.array([0.0, 1.0, 0.0])
 _THIGH, _SHIN, _ANKLE = 0.245, 0.246, 0.039
 _UPPER_ARM, _FOREARM, _HAND = 0.182, 0.143, 0.102
 _HIP_X, _SHOULDER_Y, _NECK_Y, _CHIN_Y = 0.048, 0.285, 0.322, 0.345
-"""Of joints: from the middle, and over the hips."""
+"""Positions of joints: X from the centre, Y above the hips."""
 _HEAD, _HEAD_X, _HEAD_Z = 0.128, 0.0445, 0.057
 """Height of the head, and half its width and depth."""
 
 
 class Outfit(StrEnum):
-    """What somebody wears."""
+    """Type of a person's clothes."""
 
     JACKET = "jacket"
     COAT = "coat"
@@ -41,20 +41,20 @@ class Outfit(StrEnum):
 
 
 class Figure(NamedTuple):
-    """Somebody.
+    """A person: proportions, clothes and materials.
 
     Attributes
     ----------
     height_m
         Stature.
     build
-        Factor of widths and depths.
+        Factor on widths and depths.
     is_woman
-        Whether shoulders, waist and hips are a woman's.
+        Whether shoulders, waist and hips have a woman's proportions.
     outfit, top, bottom, shoes
-        What is worn, and its materials.
+        Type of the clothes, and the materials of top, bottom and shoes.
     skin, hair
-        Their materials.
+        Materials of skin and hair.
     has_long_hair
         Whether the hair falls down the back.
     """
@@ -73,16 +73,17 @@ class Figure(NamedTuple):
 
 @dataclass(frozen=True)
 class Pose:
-    """How somebody stands: angles in degrees, forwards positive, of the left limb and the right one.
+    """Pose of a person: angles of the left and right limbs in degrees, forwards positive.
 
     Attributes
     ----------
     hips, knees, feet
-        Of the thighs to the vertical, of the shins to the thighs backwards, and of the toes down.
+        Angles of the thighs to the vertical, of the shins backwards to the thighs, and of the toes downwards.
     shoulders, elbows, spread, inwards
-        Of the upper arms to the trunk, of the forearms to them, of the upper arms outwards and the forearms inwards.
+        Angles of the upper arms to the trunk, of the forearms to the upper arms, of the upper arms outwards and of the
+        forearms inwards.
     lean, nod, turn
-        Of the trunk, and of the head forwards and to the left.
+        Angles of the trunk, and of the head forwards and to the left.
     """
 
     hips: tuple[float, float] = (0.0, 0.0)
@@ -138,11 +139,11 @@ POSES: dict[str, Pose] = {
         _STANDING, shoulders=(22.0, 16.0), elbows=(66.0, 76.0), spread=(5.0, 5.0), inwards=(64.0, 62.0), turn=30.0
     ),
 }
-"""By name."""
+"""Poses by name."""
 
 
 class _Body(NamedTuple):
-    """A skeleton in a pose, in metres: joints (x, y, z), and what turns the trunk and the head."""
+    """A posed skeleton in metres: joints (x, y, z), and the rotations of trunk and head."""
 
     unit_m: float
     hips: _Vector
@@ -152,12 +153,12 @@ class _Body(NamedTuple):
     arms: list[list[_Vector]]
 
     def trunk(self, points: Sequence[tuple[float, float, float]]) -> list[_Vector]:
-        """Points of the trunk by their shares of the stature from the hips' middle."""
+        """Convert points of the trunk from shares of the stature, relative to the hips' centre."""
         return [self.hips + self.unit_m * (self.spine @ np.array(point)) for point in points]
 
 
 def figure_asset(figure: Figure, pose: Pose) -> Asset:
-    """Make a body; it looks to +Z, its feet on y = 0 below the hips."""
+    """Make a person that faces +Z, with the feet on y = 0 below the hips."""
     body = _body(figure, pose)
     head = _head(body)
     hands = _hands(body)
@@ -195,7 +196,7 @@ def _part(name: str, faces: list[Face], material: str, collider: Collider | None
 
 
 def _turned(pitch_deg: float, yaw_deg: float = 0.0) -> NDArray[np.float64]:
-    """The turn forwards about X, then to the left about Y."""
+    """Rotation matrix: forwards about X, then to the left about Y."""
     pitch, yaw = np.radians(pitch_deg), np.radians(yaw_deg)
     forwards = np.array([[1, 0, 0], [0, np.cos(pitch), -np.sin(pitch)], [0, np.sin(pitch), np.cos(pitch)]])
     left = np.array([[np.cos(yaw), 0, np.sin(yaw)], [0, 1, 0], [-np.sin(yaw), 0, np.cos(yaw)]])
@@ -204,13 +205,13 @@ def _turned(pitch_deg: float, yaw_deg: float = 0.0) -> NDArray[np.float64]:
 
 
 def _down(pitch_deg: float, outwards_deg: float = 0.0) -> _Vector:
-    """The way a limb hangs that is swung forwards and to +X."""
+    """Direction of a hanging limb that is swung forwards and towards +X."""
     pitch, out = np.radians(pitch_deg), np.radians(outwards_deg)
     return np.array([np.sin(out), -np.cos(pitch) * np.cos(out), np.sin(pitch) * np.cos(out)])
 
 
 def _body(figure: Figure, pose: Pose) -> _Body:
-    """The joints, the lower foot on the floor."""
+    """Compute the joints, with the lower foot on the floor."""
     unit = figure.height_m
     legs = []
     for index, side in enumerate(_SIDES):
@@ -274,10 +275,10 @@ def _trunk(body: _Body, figure: Figure) -> list[Face]:
         ]  # fmt: skip
     unit = body.unit_m
     points = body.trunk([(0.0, y, z) for y, _, _, z in rows])
-    # shoulders are as wide for heavy people as for slim ones
+    # the width of shoulders does not depend on the build
     widths = [unit * x * loose * (figure.build if y < 0.24 else 1 + (figure.build - 1) * 0.4) for y, x, _, _ in rows]  # noqa: PLR2004
     depths = [unit * z * loose * figure.build for _, _, z, _ in rows]
-    # the hem of a coat gives way to a stride
+    # a stride widens the hem of a coat
     (_, left, _), (_, right, _) = body.legs
     depths[0] += abs(left[2] - right[2]) * 0.6 if figure.outfit is Outfit.COAT else 0.0
     return limb_faces(points, widths, depths, segments=18)
@@ -299,7 +300,7 @@ def _pelvis(body: _Body, figure: Figure) -> list[Face]:
 
 
 def _skirt(body: _Body, figure: Figure) -> list[Face]:
-    """From the waist to below the knees, around the legs as they stand."""
+    """Skirt from the waist to below the knees, around the legs."""
     unit = body.unit_m * figure.build
     (_, left, _), (_, right, _) = body.legs
     stride = abs(left[2] - right[2]) / 2
@@ -329,7 +330,7 @@ def _legs(body: _Body, figure: Figure, *, is_bare: bool) -> list[Face]:
 
 
 def _arms(body: _Body, figure: Figure, start: int, end: int, thinner: float = 1.0) -> list[Face]:
-    """Sleeves or bare arms between two of their places: shoulder, upper arm's end, elbow, forearm, wrist, end."""
+    """Sleeves or bare arms between two of the ring positions: shoulder, upper arm's end, elbow, forearm, wrist, end."""
     shares = [0.0, 0.08, 0.32, 0.62, 0.95, 1.06, 1.32, 1.68, 1.96]
     radii = [0.024, 0.0290, 0.0305, 0.0275, 0.0245, 0.0245, 0.0245, 0.0215, 0.0195]
     places = [0, 2, 3, 5, 6, 8, 9]
@@ -377,7 +378,7 @@ def _shoes(body: _Body, pose: Pose) -> list[Face]:
 
 
 def _shoe(foot_deg: float, side: float) -> list[_Vector]:
-    """Rings of a shoe around its ankle, in shares of the stature, the toes so far down."""
+    """Rings of a shoe around its ankle, in shares of the stature, with the toes lowered by an angle."""
     rows = [
         (-0.040, 0.012, 0.030), (-0.034, 0.021, 0.046), (-0.010, 0.023, 0.052), (0.015, 0.023, 0.044),
         (0.05, 0.027, 0.030),
@@ -398,11 +399,11 @@ _HEAD_RINGS = [
     (0.42, 0.92, 0.93, 0.02), (0.58, 0.98, 0.97, 0.0), (0.72, 1.0, 1.0, -0.03), (0.84, 0.92, 0.92, -0.05),
     (0.93, 0.70, 0.70, -0.06), (0.985, 0.38, 0.40, -0.06), (1.0, 0.14, 0.15, -0.06),
 ]  # fmt: skip
-"""Of a head: height over the chin as a share of its own, half width and depth, and how far the middle is before."""
+"""Rings of a head: height above the chin, half width, half depth and forward offset, as shares of its size."""
 
 
 def _headed(body: _Body, points: Sequence[tuple[float, float, float]]) -> list[_Vector]:
-    """Points of the head by shares: of its half width, of its height over the chin, and of its half depth."""
+    """Convert points of the head from shares of its half width, its height above the chin, and its half depth."""
     neck = body.trunk([(0.0, _NECK_Y, -0.006)])[0]
     of_head = np.array([_HEAD_X, _HEAD, _HEAD_Z])
     chin = np.array([0.0, _CHIN_Y - _NECK_Y, 0.012])
@@ -433,7 +434,7 @@ def _head(body: _Body) -> list[Face]:
 
 
 def _hair(body: _Body, figure: Figure) -> list[Face]:
-    """Hair over the skull from the nape to the hairline, and down the back where it is long."""
+    """Hair over the skull from the nape to the hairline, and down the back if it is long."""
     rows = [
         (0.20, 0.62, 0.45, -0.52), (0.34, 0.88, 0.66, -0.42), (0.50, 1.04, 0.78, -0.34), (0.66, 1.09, 0.92, -0.22),
         (0.80, 1.06, 1.03, -0.07), (0.90, 0.90, 0.95, -0.05), (0.99, 0.56, 0.60, -0.07), (1.035, 0.20, 0.22, -0.07),
@@ -460,7 +461,7 @@ def _hair(body: _Body, figure: Figure) -> list[Face]:
 
 
 def _phone(body: _Body) -> list[Face]:
-    """A phone of 15 cm in the right hand, its screen to the face."""
+    """A phone of 15 cm in the right hand, with its screen towards the face."""
     _, elbow, wrist = body.arms[1]
     way = (wrist - elbow) / np.linalg.norm(wrist - elbow)
     place = wrist + way * body.unit_m * 0.075

@@ -1,4 +1,4 @@
-"""Flat sheets of any outline, level or upright."""
+"""Planar sheets with any outline, level or upright."""
 
 import numpy as np
 import shapely
@@ -10,7 +10,7 @@ from garage2usd.assets.mesh import MIN_AREA_M2, WELD_DECIMALS, Collider, Part, m
 __all__ = ["GRID_M", "flat_part", "level_triangles", "upright_triangles"]
 
 GRID_M = 1e-6
-"""The grid that corners of sheets which meet are snapped to."""
+"""Grid in metres to which corners of adjacent sheets are snapped."""
 
 
 def flat_part(
@@ -22,7 +22,7 @@ def flat_part(
     collider: Collider | None = Collider.MESH,
     piece: str = "",
 ) -> Part:
-    """A level sheet that looks up, of an (x, z) area."""
+    """Make a level sheet that faces upwards from an (x, z) area."""
     corners = level_triangles(area)
     points, triangles = unique_rows(np.round(corners.reshape(-1, 2), WELD_DECIMALS) + 0.0)
     triangles = triangles.reshape(-1, 3)
@@ -31,7 +31,7 @@ def flat_part(
     if not (up > MIN_AREA_M2).all():
         faces = np.insert(corners, 1, height_m, axis=2)
         return make_part(name, faces, material, collider=collider, piece=piece, project=_from_above)
-    # what `make_part` finds out of any faces is known of those that all look up
+    # set directly instead of by `make_part`, as all faces point upwards
     corner_of = triangles.ravel().astype(np.int32)
     look, st, st_of = MATERIALS[material], np.empty((0, 2)), np.empty(0, dtype=np.int64)
     if look.textures():
@@ -54,36 +54,36 @@ def flat_part(
 
 
 def level_triangles(area: shapely.Geometry) -> NDArray[np.float64]:
-    """Triangles of an (x, z) area, counter-clockwise seen from above, where +Z runs down the plan.
+    """Triangulate an (x, z) area, counter-clockwise seen from above, where +Z runs down the plan.
 
     Returns
     -------
     NDArray
         float64, shape (triangles, 3, 2).
     """
-    # constrained Delaunay, because no edge of it passes through another vertex
+    # constrained Delaunay: no edge passes through another vertex
     triangles = shapely.get_parts(shapely.constrained_delaunay_triangles(area))
-    # of each triangle four corners, the first again as the last
+    # closed rings of four corners, the last equal to the first
     corners: NDArray[np.float64] = shapely.get_coordinates(triangles).reshape(-1, 4, 2)[:, :3].copy()
     first, second, third = corners[:, 0], corners[:, 1], corners[:, 2]
     ab, ac = second - first, third - first
-    # looking up, with +Z down the plan, is clockwise in (x, z)
+    # upward faces are clockwise in (x, z), as +Z runs down the plan
     turned = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0] > 0
     corners[turned] = corners[turned][:, ::-1]
     return corners
 
 
 def upright_triangles(shape: shapely.Geometry, *, middle_m: float, front_m: float) -> NDArray[np.float64]:
-    """Triangles of a shape that stands upright and looks to +Z.
+    """Triangulate an upright shape that faces +Z.
 
     Parameters
     ----------
     shape
-        In (x, y), its second coordinate downwards.
+        Shape in (x, y), with y downwards.
     middle_m
         Height of its origin.
     front_m
-        Where it stands along Z.
+        Its Z.
 
     Returns
     -------

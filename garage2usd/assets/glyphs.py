@@ -1,4 +1,4 @@
-"""Shapes of words: capital letters and digits, drawn with a broad pen, and Chinese characters."""
+"""Outlines of text: capital letters and digits drawn with a broad pen, and Chinese characters."""
 
 from functools import lru_cache
 
@@ -12,13 +12,13 @@ __all__ = ["GLYPH_PITCH", "GLYPH_WIDTH", "text_length", "text_shape"]
 GLYPH_WIDTH = 0.56
 """Width of each character as a share of its height."""
 GLYPH_PITCH = 0.71
-"""From one character's middle to the next one's, as a share of their height."""
+"""Distance between the centres of adjacent characters, as a share of their height."""
 _STROKE = 0.16
 _CUT = 0.14
 
 Stroke = tuple[tuple[float, float], ...]
 
-# strokes (x, y) with y down, in a cell that is 1 high and `GLYPH_WIDTH` wide; a loop ends where it starts
+# strokes (x, y) with y downwards, in a cell of height 1 and width `GLYPH_WIDTH`; a loop ends at its start
 _LEFT, _RIGHT, _TOP, _BOTTOM = _STROKE / 2, GLYPH_WIDTH - _STROKE / 2, _STROKE / 2, 1 - _STROKE / 2
 _MIDDLE = 0.5
 
@@ -126,14 +126,14 @@ _STROKES |= {
 
 
 def text_shape(text: str, height_m: float) -> shapely.Geometry:
-    """The outline of a word, around the origin, with its second coordinate downwards.
+    """Outline of a text, centred at the origin, with its second coordinate downwards.
 
     Parameters
     ----------
     text
         Digits, capital letters, spaces and hyphens; or Chinese characters.
     height_m
-        Of each character.
+        Height of the characters.
     """
     pitch, glyph = (HAN_PITCH, han_glyph) if is_han(text) else (GLYPH_PITCH, _glyph)
     shapes = []
@@ -144,14 +144,14 @@ def text_shape(text: str, height_m: float) -> shapely.Geometry:
 
 
 def text_length(text: str) -> float:
-    """Length of a word as a share of the height of its characters."""
+    """Length of a text as a share of the height of its characters."""
     width, pitch = (HAN_WIDTH, HAN_PITCH) if is_han(text) else (GLYPH_WIDTH, GLYPH_PITCH)
     return width + pitch * (len(text) - 1)
 
 
 @lru_cache(maxsize=64)
 def _glyph(character: str) -> shapely.Geometry:
-    """A character that is 1 high, around the origin."""
+    """Outline of a character of height 1, centred at the origin."""
     strokes = [
         shapely.LineString(stroke).buffer(_STROKE / 2, cap_style="flat", join_style="mitre")
         if stroke[0] != stroke[-1]

@@ -1,4 +1,4 @@
-"""Shapes of the Chinese characters on signs and number plates, drawn with a broad pen."""
+"""Outlines of the Chinese characters on signs and number plates, drawn with a broad pen."""
 
 import shapely
 from shapely import affinity
@@ -8,16 +8,16 @@ __all__ = ["HAN_PITCH", "HAN_WIDTH", "han_glyph", "is_han"]
 HAN_WIDTH = 1.0
 """Width of each character as a share of its height."""
 HAN_PITCH = 1.12
-"""From one character's middle to the next one's, as a share of their height."""
+"""Distance between the centres of adjacent characters, as a share of their height."""
 _PEN = 0.1
 _FINE_PEN = 0.075
 _FEW_STROKES = 5
-"""Characters with more of them are drawn with the finer pen."""
+"""Number of strokes above which a character is drawn with the finer pen."""
 _GRID = 1e-4
 
 Stroke = tuple[tuple[float, float], ...]
 
-# strokes (x, y) with y down, in a cell of 1 x 1; a loop ends where it starts
+# strokes (x, y) with y downwards, in a cell of 1 x 1; a loop ends at its start
 _STROKES: dict[str, tuple[Stroke, ...]] = {
     "入": (
         ((0.32, 0.12), (0.52, 0.12), (0.50, 0.32), (0.32, 0.68), (0.05, 0.95)),
@@ -138,12 +138,12 @@ _STROKES: dict[str, tuple[Stroke, ...]] = {
 
 
 def is_han(text: str) -> bool:
-    """Whether a text is of these characters alone."""
+    """True if a text consists only of the Chinese characters of this module."""
     return bool(text) and all(character in _STROKES for character in text)
 
 
 def han_glyph(character: str) -> shapely.Geometry:
-    """A character that is 1 high, around the origin."""
+    """Outline of a character of height 1, centred at the origin."""
     strokes = _STROKES[character]
     pen = _PEN if len(strokes) <= _FEW_STROKES else _FINE_PEN
     drawn = [

@@ -1,4 +1,4 @@
-"""The colour of lamps by their colour temperature."""
+"""Colour of lamps by their colour temperature."""
 
 from functools import lru_cache
 
@@ -10,25 +10,25 @@ __all__ = ["USUAL_LAMP_RGB", "USUAL_TEMPERATURE_K", "lamp_colour"]
 
 USUAL_TEMPERATURE_K = 5200.0
 USUAL_LAMP_RGB: Rgb = (1.0, 0.97, 0.92)
-"""Linear colour of a lamp of that temperature, as a camera that is balanced for such lamps sees it."""
+"""Linear colour of a lamp at `USUAL_TEMPERATURE_K`, seen by a camera balanced for such lamps."""
 _PLACES = 4
 _XYZ_TO_RGB = np.array([(3.2406, -1.5372, -0.4986), (-0.9689, 1.8758, 0.0415), (0.0557, -0.2040, 1.0570)])
-"""IEC 61966-2-1."""
+"""Conversion from XYZ to linear sRGB, IEC 61966-2-1."""
 
 
 @lru_cache(maxsize=64)
 def lamp_colour(temperature_k: float) -> Rgb:
-    """Linear red, green and blue of a lamp, of which the largest is 1.
+    """Linear red, green and blue of a lamp, scaled to a maximum of 1.
 
     Parameters
     ----------
     temperature_k
-        Colour temperature, 1000 to 15000.
+        Colour temperature in kelvins, 1000 to 15000.
 
     Notes
     -----
-    The colour of a black body by M. Krystek's formula (1985) in u, v of CIE 1960, which is off by 6e-5 at most, as
-    linear sRGB, in relation to that of `USUAL_TEMPERATURE_K`: a camera keeps its balance whatever lamps there are.
+    The colour of a black body by M. Krystek's formula (1985) in CIE 1960 u, v, with an error of at most 6e-5, as linear
+    sRGB relative to `USUAL_TEMPERATURE_K`: the white balance of the camera is fixed.
     """
     ratio = _black_body(temperature_k) / _black_body(USUAL_TEMPERATURE_K) * USUAL_LAMP_RGB
     red, green, blue = (round(float(channel), _PLACES) for channel in ratio / ratio.max())
@@ -36,7 +36,7 @@ def lamp_colour(temperature_k: float) -> Rgb:
 
 
 def _black_body(temperature_k: float) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    """Linear sRGB of a black body, of a luminance of 1; of what sRGB does not have the nearest."""
+    """Linear sRGB of a black body with a luminance of 1, clipped to the gamut."""
     t = temperature_k
     u = (0.860117757 + 1.54118254e-4 * t + 1.28641212e-7 * t**2) / (1 + 8.42420235e-4 * t + 7.08145163e-7 * t**2)
     v = (0.317398726 + 4.22806245e-5 * t + 4.20481691e-8 * t**2) / (1 - 2.89741816e-5 * t + 1.61456053e-7 * t**2)

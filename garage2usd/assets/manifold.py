@@ -1,4 +1,4 @@
-"""Manifold meshes: points that several fans of faces share are split, and slivers are dropped."""
+"""Repair of meshes to manifolds: split points shared by several fans of faces, and drop slivers."""
 
 from dataclasses import replace
 
@@ -10,16 +10,16 @@ from garage2usd.assets.mesh import Part, area_vectors, next_corners, previous_co
 __all__ = ["with_manifold_points"]
 
 _APART_M = 1e-5
-"""Distance by which points of different fans part."""
+"""Distance by which points of different fans are moved apart."""
 _LEAST_AREA_M2 = 1e-8
-"""Twice the area of a face below which it is a sliver that cutting left."""
+"""Twice the area of a face below which it is a sliver."""
 
 
 def with_manifold_points(part: Part) -> Part:
-    """Return the same mesh with one point for each fan of faces.
+    """Split the points of a mesh so that each belongs to one fan of faces.
 
-    Two faces belong to a fan if they share an edge that no third face has. Faces of hardly any area are dropped. Where
-    several fans met, each point moves into its own fan by 0.01 mm, so that no two points coincide.
+    Two faces belong to a fan if they share an edge that no third face has. Slivers are dropped. Points of different
+    fans are moved apart by 0.01 mm, so that no two points coincide.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def _without_slivers(part: Part) -> Part:
 
 
 def _components(size: int, pairs: list[tuple[NDArray[np.intp], NDArray[np.intp]]]) -> NDArray[np.int64]:
-    """The number of the connected component of each of some things, of which pairs are joined."""
+    """Number of the connected component of each node of an undirected graph."""
     from scipy.sparse import coo_array  # noqa: PLC0415 - few garages have meshes that are cut
     from scipy.sparse.csgraph import connected_components  # noqa: PLC0415
 

@@ -1,4 +1,4 @@
-"""The materials of all parts, as values that any renderer's standard surface takes."""
+"""Materials of all parts, as parameters of a standard surface."""
 # Over 300 lines: one table of all materials, a line or a few for each.
 
 from collections.abc import Mapping
@@ -28,14 +28,14 @@ Rgb = tuple[float, float, float]
 
 
 class PaintedTexture(NamedTuple):
-    """A texture of paint that shows what it is painted on where it is worn.
+    """A texture of paint that is worn down to its ground.
 
     Attributes
     ----------
     mask
-        File name in the texture folder: a picture of indices, how worn the paint is.
+        File name in the texture folder of an indexed image with the degree of wear.
     paint_rgb, ground_rgb
-        Linear colours of the paint and of what shows below it.
+        Linear colours of the paint and of the ground below it.
     """
 
     mask: str
@@ -44,16 +44,16 @@ class PaintedTexture(NamedTuple):
 
 
 class OwnTexture(NamedTuple):
-    """A texture of the user's own.
+    """A texture of the user.
 
     Attributes
     ----------
     role
-        What it is for.
+        Role of the texture set.
     maps
-        The colour alone, the normal alone, or any of occlusion, roughness and metallic, which become a packed one.
+        Only colour, only normal, or any of occlusion, roughness and metallic, which are packed into one texture.
     roughness, metallic
-        Of a packed one whose maps do not tell them, 0 to 1.
+        Values of a packed texture without these maps, 0 to 1.
     """
 
     role: str
@@ -63,20 +63,20 @@ class OwnTexture(NamedTuple):
 
     @property
     def use(self) -> str:
-        """What a surface takes from it: ``colour``, ``normal`` or ``packed``."""
+        """Input of the surface that uses the texture: ``colour``, ``normal`` or ``packed``."""
         channel = self.maps[0][0]
         return str(channel) if channel in {Channel.COLOUR, Channel.NORMAL} else "packed"
 
 
 class StoredTexture(NamedTuple):
-    """A texture that a foreign model brings.
+    """A texture of a model that the user supplies.
 
     Attributes
     ----------
     stem
-        What the name of its file begins with.
+        Beginning of its file name.
     data
-        It as PNG in red, green and blue.
+        RGB image as PNG.
     """
 
     stem: str
@@ -84,11 +84,11 @@ class StoredTexture(NamedTuple):
 
 
 Texture = str | PaintedTexture | OwnTexture | StoredTexture
-"""A file name in the texture folder, or what a texture is made from."""
+"""A file name in the texture folder, or the source of a derived texture."""
 
 
 class Touch(StrEnum):
-    """What a surface is to the touch of a tyre."""
+    """Class of friction against a tyre."""
 
     CONCRETE = "concrete"
     COATING = "coating"
@@ -99,16 +99,16 @@ class Touch(StrEnum):
 
 @dataclass(frozen=True)
 class Material:
-    """A surface.
+    """A material as parameters of a standard surface.
 
     Attributes
     ----------
     colour_rgb
-        Linear base colour where there is no texture.
+        Linear base colour without a texture.
     colour_texture, packed_texture, normal_texture
-        Textures. A packed one holds occlusion, roughness and metallic in red, green and blue.
+        Textures. A packed one has occlusion, roughness and metallic in red, green and blue.
     tint_rgb
-        Linear factor of the colour texture.
+        Linear factor on the colour texture.
     roughness, metallic, opacity, clearcoat
         0 to 1.
     has_alpha
@@ -118,11 +118,11 @@ class Material:
     emissive_rgb
         Linear radiance.
     repeat_m
-        Metres that one repeat of the textures covers.
+        Size of one repeat of the textures in metres.
     repeat_up_m
-        The same along V, where it is another.
+        Size along V, if it differs.
     touch
-        What has friction like it.
+        Class of friction.
     """
 
     colour_rgb: Rgb = (0.5, 0.5, 0.5)
@@ -142,20 +142,20 @@ class Material:
     touch: Touch = Touch.CONCRETE
 
     def textures(self) -> tuple[Texture, ...]:
-        """The textures that it uses."""
+        """Textures of the material."""
         names = (self.colour_texture, self.packed_texture, self.normal_texture)
         return tuple(name for name in names if name is not None)
 
 
 class Finish(NamedTuple):
-    """What a garage has in the place of a material.
+    """A material that replaces a standard one in a garage.
 
     Attributes
     ----------
     key
-        Of the material in `MATERIALS` that tells what it is to touch and to sensors.
+        Key of the material in `MATERIALS` that defines its friction and non-visual properties.
     material
-        How it looks.
+        Appearance.
     """
 
     key: str
@@ -182,7 +182,7 @@ _METALLIC_PAINTS = {
 }
 
 VARYING = frozenset({"car_paint"})
-"""Materials whose colour, roughness and metallic are one of their asset's choices."""
+"""Materials with paint variants, which set colour, roughness and metallic."""
 
 GLOSSES: dict[str, str] = {
     "mirror": "gloss_mirror.png",
@@ -190,7 +190,7 @@ GLOSSES: dict[str, str] = {
     "satin": "gloss_satin.png",
     "matt": "gloss_matt.png",
 }
-"""Packed textures that floors of concrete and epoxy may have instead of their own, from smooth to rough."""
+"""Packed textures by gloss for floors of concrete and epoxy, from smooth to rough."""
 
 _FINISHES: dict[str, Material] = {
     "floor_trowelled": Material(
@@ -255,11 +255,11 @@ _FINISHES: dict[str, Material] = {
     ),
     "ceiling_insulation": Material(colour_texture="insulation_colour.jpg", roughness=1.0, repeat_m=3.6),
 }
-"""What a look may put in the place of a garage's own floor, walls, ceilings and paint, tinted in any colour."""
+"""Tintable materials that a look may use for floor, walls, ceilings and paint."""
 
 
 def _plate(sheet_rgb: Rgb, ink_rgb: Rgb) -> Material:
-    """The material of number plates in two colours."""
+    """Material of number plates in two colours."""
     texture = PaintedTexture("plate_ink.png", sheet_rgb, ink_rgb)
     return Material(colour_texture=texture, roughness=0.5, touch=Touch.PLASTIC)
 
@@ -301,7 +301,7 @@ _HAZARD = Material(colour_texture="hazard.jpg", roughness=0.5, repeat_m=0.6, tou
 _ZINC = Material(colour_texture="steel_colour.jpg", packed_texture="steel_packed.png", repeat_m=1.5, touch=Touch.STEEL)
 _DARK_STEEL = Material(colour_rgb=(0.06, 0.06, 0.065), roughness=0.5, metallic=0.6, touch=Touch.STEEL)
 _RED_LACQUER = Material(colour_rgb=(0.38, 0.02, 0.015), roughness=0.4, touch=Touch.STEEL)
-"""What several materials are, which looks may tell apart."""
+"""Red lacquer, shared by several materials that a look can change separately."""
 
 MATERIALS: dict[str, Material] = {
     "floor_concrete": Material(
@@ -488,5 +488,5 @@ MATERIALS: dict[str, Material] = {
 
 
 def finished(key: str, finishes: Mapping[str, Finish]) -> Finish:
-    """What a garage with some finishes has in the place of a material: a finish, or the material itself."""
+    """Return the finish of a material in a garage, or the material itself if it has no finish."""
     return finishes.get(key) or Finish(key, MATERIALS[key])

@@ -1,4 +1,4 @@
-"""Meshes as plain arrays: parts with one material each, made of faces in metres, Y up."""
+"""Meshes as arrays: parts with one material each, made of polygon faces in metres, Y up."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -30,16 +30,16 @@ Face = NDArray[np.float64]
 """float64, shape (corners, 3): a planar polygon, counter-clockwise seen from outside."""
 
 WELD_DECIMALS = 5
-"""Of metres, to which corners are rounded."""
+"""Decimals of metres to which corners are rounded."""
 MIN_AREA_M2 = 1e-9
-"""Faces whose area vectors are no longer are dropped."""
+"""Length of the area vector up to which a face is dropped."""
 _MIN_CORNERS = 3
 _NORMAL_STEPS = 10_000
-"""Of 1, to which normals are rounded: an angle of 0.003 degrees."""
+"""Steps per unit to which normals are rounded; one step is 0.006 degrees."""
 
 
 class Collider(StrEnum):
-    """How physics approximates a mesh: the tokens of ``physics:approximation``."""
+    """Approximations of a mesh by physics engines: tokens of ``physics:approximation``."""
 
     MESH = "none"
     BOX = "boundingCube"
@@ -59,16 +59,17 @@ class Part:
     face_counts, face_indices
         int32, shapes (F,) and (I,): corners of each face and their points, counter-clockwise from outside.
     normals, normal_indices
-        float32, shape (N, 3), and int32, shape (I,): unit normals to four decimals, and which of them each corner has.
+        float32, shape (N, 3), and int32, shape (I,): unit normals to four decimals, and the index of each corner's
+        normal.
     st, st_indices
-        float32, shape (T, 2), and int32, shape (I,): texture coordinates in repeats of the texture; both empty where
-        the material reads none.
+        float32, shape (T, 2), and int32, shape (I,): texture coordinates in repeats of the texture; both empty for a
+        material without textures.
     material
         Key of `garage2usd.assets.materials.MATERIALS`.
     collider
-        Approximation for physics; None for what nothing can touch.
+        Approximation for physics; None for a part without collision.
     piece
-        Semantic class of the piece that it belongs to; empty where that is its asset's.
+        Semantic class of its piece; empty if it is that of the asset.
     """
 
     name: str
@@ -95,11 +96,11 @@ class AreaLight:
     height_m
         Height of the lit face in the asset.
     luminance_nit
-        Luminance of that face, cd/m2.
+        Luminance of the lit face, cd/m2.
     colour_rgb
-        Linear, also of the glow of what stands in the asset around it.
+        Linear colour of the light and of the glowing parts of the asset.
     is_round
-        Whether it is a disc.
+        Whether the light is a disc.
     """
 
     width_m: float
@@ -112,18 +113,18 @@ class AreaLight:
 
 @dataclass(frozen=True, eq=False)
 class Asset:
-    """What one prototype consists of.
+    """Meshes and light of a prototype.
 
     Attributes
     ----------
     parts
         Its meshes.
     light
-        Its light, if it gives any.
+        Its light, if it has one.
     paints
-        Materials of which one takes the place of ``car_paint``, by the names of the choices.
+        Materials that can replace ``car_paint``, by the names of the variants.
     finishes
-        Materials that no other asset has, by their keys.
+        Materials used only by this asset, by their keys.
     """
 
     parts: tuple[Part, ...]
@@ -138,7 +139,7 @@ class Asset:
 
 
 def pascal_case(key: str) -> str:
-    """The name of a prim for a key: ``WheelStop`` for ``wheel_stop``."""
+    """Convert a key to the name of a prim: ``WheelStop`` for ``wheel_stop``."""
     return "".join(word.capitalize() for word in key.split("_"))
 
 
@@ -152,18 +153,19 @@ def make_part(
     crease_deg: float = 30.0,
     project: Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]] | None = None,
 ) -> Part:
-    """Weld faces into a part, with normals that are smooth where faces meet at less than `crease_deg`.
+    """Weld faces into a part, with smooth normals between faces that meet at less than `crease_deg`.
 
     Parameters
     ----------
     name, material, collider, piece
-        Of the part.
+        Fields of the part.
     faces
-        Planar polygons; corners that coincide are welded, faces without area dropped.
+        Planar polygons; coincident corners are welded, faces without area are dropped.
     crease_deg
         Largest angle between the normals of two faces that share a smooth edge.
     project
-        Texture coordinates in metres of corners, given the normal of each one's face; along the main axis if left out.
+        Function from corners and the normals of their faces to texture coordinates in metres; a projection along the
+        main axis if left out.
     """
     corners = np.round(np.concatenate(faces), WELD_DECIMALS) + 0.0
     points, indices = unique_rows(corners)
@@ -197,7 +199,7 @@ def make_part(
 
 
 def unique_rows(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """The distinct rows in their order, and for each row which of them it is."""
+    """Distinct rows in order of first occurrence, and the index of each row's distinct row."""
     order = np.lexsort(rows.T[::-1])
     is_new = np.concatenate(([True], (np.diff(rows[order], axis=0) != 0).any(axis=1)))
     which = np.empty(len(rows), dtype=np.int64)
@@ -206,9 +208,9 @@ def unique_rows(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray
 
 
 def _distinct_normals(normals: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
-    """Unit normals to four decimals in their order, each once, and for each corner which of them it has."""
+    """Distinct unit normals rounded to four decimals, and the index of each corner's normal."""
     steps = np.rint(normals.astype(np.float32) * np.float32(_NORMAL_STEPS)).astype(np.int64)
-    # one number for each, as numbers sort much faster than rows
+    # encoded as integers, which sort much faster than rows
     codes = (steps + _NORMAL_STEPS) @ (2 * _NORMAL_STEPS + 1) ** np.arange(2, -1, -1)
     _, first, which = np.unique(codes, return_index=True, return_inverse=True)
     return steps[first].astype(np.float32) / np.float32(_NORMAL_STEPS), which
@@ -217,7 +219,7 @@ def _distinct_normals(normals: NDArray[np.float64]) -> tuple[NDArray[np.float32]
 def _clean_loops(
     points: NDArray[np.float64], flat: NDArray[np.int64], counts: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Drop corners that repeat the one before and faces without area; returns indices and counts."""
+    """Drop corners equal to the previous one, and faces without area; return indices and counts."""
     face_of = np.repeat(np.arange(len(counts)), counts)
     keep = flat != flat[previous_corners(counts)]
     flat, face_of = flat[keep], face_of[keep]
@@ -228,7 +230,7 @@ def _clean_loops(
 
 
 def previous_corners(counts: NDArray[np.int64]) -> NDArray[np.int64]:
-    """For each corner the index of the one before it in its face."""
+    """Index of the previous corner in the face, for each corner."""
     before = np.arange(counts.sum()) - 1
     starts = np.cumsum(counts) - counts
     before[starts] += counts
@@ -236,7 +238,7 @@ def previous_corners(counts: NDArray[np.int64]) -> NDArray[np.int64]:
 
 
 def next_corners(counts: NDArray[np.int64]) -> NDArray[np.int64]:
-    """For each corner the index of the next one in its face."""
+    """Index of the next corner in the face, for each corner."""
     ends = np.cumsum(counts)
     after = np.arange(counts.sum()) + 1
     after[ends - 1] = ends - counts
@@ -244,7 +246,7 @@ def next_corners(counts: NDArray[np.int64]) -> NDArray[np.int64]:
 
 
 def area_vectors(corners: NDArray[np.float64], counts: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Newell's normal of each face, as long as twice its area; float64, shape (F, 3)."""
+    """Newell's normal of each face, with twice the area as its length; float64, shape (F, 3)."""
     starts = np.cumsum(counts) - counts
     relative = corners - np.repeat(corners[starts], counts, axis=0)
     vectors: NDArray[np.float64] = np.add.reduceat(np.cross(relative[previous_corners(counts)], relative), starts)
@@ -258,11 +260,11 @@ def _corner_normals(
     unit: NDArray[np.float64],
     crease_deg: float,
 ) -> NDArray[np.float64]:
-    """For each corner the mean of the faces around its point that meet its own at less than the crease."""
+    """For each corner, the mean normal of the faces at its point that meet its face at less than the crease angle."""
     face_of = np.repeat(np.arange(len(counts)), counts)
     order = np.argsort(flat, kind="stable")
     around = np.bincount(flat)
-    # every corner beside every corner of its point, in the order of the points
+    # all pairs of corners of the same point, ordered by point
     each = np.repeat(around, around)
     pair_starts = np.cumsum(each) - each
     group_starts = np.repeat(np.cumsum(around) - around, around)
@@ -277,7 +279,7 @@ def _corner_normals(
 
 
 def _along_main_axis(corners: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Metres across each face, seen along the axis that its normal is nearest to; V up on upright faces."""
+    """Project each face along the axis nearest to its normal, in metres; V is up on upright faces."""
     x, y, z = corners.T
     axis = np.argmax(np.abs(normals) - np.array([0.0, 1e-6, 2e-6]), axis=1)
     positive = np.take_along_axis(normals, axis[:, None], axis=1)[:, 0] > 0

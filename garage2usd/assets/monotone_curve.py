@@ -1,4 +1,4 @@
-"""A smooth curve through points that never overshoots them."""
+"""Monotone cubic interpolation, which does not overshoot."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -9,7 +9,7 @@ Array = NDArray[np.float64]
 
 
 class MonotoneCurve:
-    """A piecewise cubic through points that rises and falls only where they do; its ends run on beyond them.
+    """Monotone piecewise cubic interpolation, extrapolated beyond both ends.
 
     Notes
     -----
@@ -20,7 +20,7 @@ class MonotoneCurve:
     """
 
     def __init__(self, x: ArrayLike, y: ArrayLike) -> None:
-        """Lay the curve through points; `x` ascends, both of shape (n,) with n of at least 3."""
+        """Interpolate points; `x` is ascending, both of shape (n,) with n >= 3."""
         self._x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
         step = np.diff(self._x)
         slope = np.diff(y) / step
@@ -34,7 +34,7 @@ class MonotoneCurve:
         self._cubics = np.stack([y[:-1], rise[:-1], (slope - rise[:-1]) / step - turn, turn / step])
 
     def __call__(self, x: ArrayLike) -> Array:
-        """Heights of the curve; shape of `x`."""
+        """Evaluate the curve; shape of `x`."""
         piece = np.clip(np.searchsorted(self._x, x, side="right") - 1, 0, len(self._x) - 2)
         along = np.asarray(x) - self._x[piece]
         constant, linear, square, cube = self._cubics[:, piece]
@@ -43,7 +43,7 @@ class MonotoneCurve:
 
 
 def _end_slope(step: Array, slope: Array) -> float:
-    """The slope at an end by the two pieces beside it, the outer one first."""
+    """Slope at an end, from the two adjacent segments, the outer one first."""
     estimate = float(((2 * step[0] + step[1]) * slope[0] - step[0] * slope[1]) / (step[0] + step[1]))
     if np.sign(estimate) != np.sign(slope[0]):
         return 0.0

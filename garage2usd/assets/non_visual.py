@@ -1,4 +1,4 @@
-"""What materials are to sensors that do not see colours, in the words of SimReady's non-visual materials."""
+"""Properties of materials for LiDAR, radar and ultrasonic sensors, in the terms of SimReady's non-visual materials."""
 
 from typing import NamedTuple
 
@@ -10,16 +10,16 @@ _BARE_METALLIC = 0.5
 
 
 class NonVisual(NamedTuple):
-    """A material to LiDAR, radar and ultrasound.
+    """Non-visual material properties.
 
     Attributes
     ----------
     base
-        What it is made of.
+        Base substance.
     coating
         ``none``, ``paint``, ``clearcoat`` or ``paint_clearcoat``.
     attributes
-        Some of ``emissive``, ``retroreflective`` and ``visually_transparent``, or ``none``.
+        Any of ``emissive``, ``retroreflective`` and ``visually_transparent``, or ``none``.
     """
 
     base: str
@@ -34,7 +34,7 @@ BASE_OF_TOUCH = {
     Touch.STEEL: "steel",
     Touch.PLASTIC: "plastic",
 }
-"""What has the friction of each touch."""
+"""Base substance by class of friction."""
 _PAINTED = frozenset({Touch.COATING, Touch.STEEL})
 _BASES = {
     "brass": "brass",
@@ -70,7 +70,7 @@ _BASES = {
         if key.startswith(f"{prefix}_")
     },
 }
-"""What their touch does not tell; the sky behind doors is made of nothing."""
+"""Base substance of materials whose friction class does not determine it; the sky behind doors has none."""
 _TRANSPARENT = frozenset({"cabinet_glass", "glass", "glass_dark"})
 _PLATES = frozenset(key for key in MATERIALS if key.startswith("number_plate"))
 _RETROREFLECTIVE = _PLATES | {"sign_blue", "sign_ring"}
@@ -101,4 +101,4 @@ def _non_visual(key: str, material: Material) -> NonVisual:
 
 
 NON_VISUAL = {key: _non_visual(key, material) for key, material in MATERIALS.items()}
-"""Every material's, by its key."""
+"""Non-visual properties of every material, by its key."""

@@ -1,4 +1,4 @@
-"""The number plates of a car: a row of cells of one texture in front and behind, one for each character."""
+"""Number plates of a car: two rows of textured cells, one cell per character."""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -36,24 +36,24 @@ __all__ = [
 
 _BAND_M = 0.04
 PLATE_CHARACTERS = 7
-"""Of the text on a plate, blanks included; before it is the band."""
+"""Number of characters on a plate, blanks included, without the band."""
 _CORNERS = 4
 
 
 @dataclass(frozen=True)
 class PlateStyle:
-    """The number plates of a country.
+    """Format of a country's number plates.
 
     Attributes
     ----------
     characters
-        How many cells a plate has, blanks included, besides that of the band.
+        Number of cells of a plate, blanks included, without the band.
     width_m
-        Of a plate.
+        Width of a plate.
     meshes
-        Material of each mesh of a car's plates, by its name: of both plates, or of the front and of the rear one.
+        (mesh name, material) pairs: one mesh for both plates, or one each for front and rear.
     has_band
-        Whether it has the band on the left.
+        Whether a plate has a band on the left.
     """
 
     characters: int
@@ -69,7 +69,7 @@ class PlateStyle:
 
     @property
     def known(self) -> str:
-        """The characters that it may have."""
+        """Characters allowed on a plate."""
         return CHARACTERS + SPACE + ("" if self.has_band else DOT + PROVINCES)
 
 
@@ -81,34 +81,34 @@ PLATE_STYLES = {
     Country.GB: PlateStyle(8, PLATE_M[0], (("Plates", "number_plate_gb"), ("RearPlates", "number_plate_gb_rear"))),
     Country.US: PlateStyle(7, 0.305, (("Plates", "number_plate_us"),)),
 }
-"""As wide as those of the country; all are as high as the place for them on a car is."""
+"""Plate formats with the actual widths of the countries; the height is that of the plate holder on every car."""
 
 
 def number_plates(body: CarBody, text: str, country: Country = Country.NONE) -> Asset:
-    """The front and the rear plate of a car, with the same text; origin and axes are those of the car.
+    """Make the front and rear plate of a car with equal texts, in the axes of the car.
 
     Parameters
     ----------
     body
-        On which they are.
+        Body of the car.
     text
-        As many of the characters of the country's style as that has.
+        Text with the number of characters of the country's format.
     country
-        Whose plates they are.
+        Country of the plates.
     """
     corners = plate_coordinates(text, country)
     return Asset(tuple(replace(sheet, st=corners) for sheet in _sheets(body, country)))
 
 
 def painted_plates(body: CarBody, text: str) -> tuple[Part, ...]:
-    """The same plates without a texture, of the materials of signs and trim: as they are on a car that goes anywhere.
+    """Make plates without a texture, from the materials of signs and trim, for a car outside of any garage.
 
     Parameters
     ----------
     body
-        On which they are.
+        Body of the car.
     text
-        `PLATE_CHARACTERS` of `garage2usd.assets.plate_texture.CHARACTERS` and blanks.
+        `PLATE_CHARACTERS` characters of `garage2usd.assets.plate_texture.CHARACTERS` and blanks.
     """
     (width, height), cell = PLATE_M, PLATE_M[0] / (PLATE_CHARACTERS + 1)
     sheet = shapely.box(-width / 2, -height / 2, width / 2, height / 2)
@@ -127,13 +127,13 @@ def painted_plates(body: CarBody, text: str) -> tuple[Part, ...]:
 
 
 def _at_both_ends(shape: shapely.Geometry, body: CarBody) -> NDArray[np.float64]:
-    """Triangles of a shape (x, y), the latter downwards, where the plates are; shape (triangles, 3, 3)."""
+    """Place the triangles of a shape (x, y), y downwards, at both plates; shape (triangles, 3, 3)."""
     upright = upright_triangles(shape, middle_m=0.0, front_m=0.0)
     return np.concatenate([upright * (toward, 1.0, toward) + (0.0, y, z) for toward, y, z in plate_places(body)])
 
 
 def plate_coordinates(text: str, country: Country = Country.NONE) -> NDArray[np.float32]:
-    """The texture coordinates of each of a car's plates, by what is to be read on them.
+    """Texture coordinates of each of a car's plates for a text.
 
     Parameters
     ----------
@@ -143,12 +143,12 @@ def plate_coordinates(text: str, country: Country = Country.NONE) -> NDArray[np.
     Returns
     -------
     numpy.ndarray
-        float32, shape (corners, 2): of the band, where there is one, and of each character the corners of its cell.
+        float32, shape (corners, 2): corners of the cells of the band, if there is one, and of each character.
 
     Raises
     ------
     ValueError
-        If it has another number of characters, or one that no plate has.
+        If the text has a wrong number of characters, or an unknown character.
     """
     style = PLATE_STYLES[country]
     if len(text) != style.characters or not set(text) <= set(style.known):
@@ -158,12 +158,12 @@ def plate_coordinates(text: str, country: Country = Country.NONE) -> NDArray[np.
 
 @lru_cache(maxsize=64)
 def _sheets(body: CarBody, country: Country) -> tuple[Part, ...]:
-    """Both plates, whatever is to be read on them."""
+    """Meshes of both plates, independent of the text."""
     style = PLATE_STYLES[country]
     width, height, cells = style.width_m, PLATE_M[1], style.characters + style.has_band
     edges = np.linspace(-width / 2, width / 2, cells + 1)
     left, right, low, high = edges[:-1], edges[1:], np.full(cells, -height / 2), np.full(cells, height / 2)
-    # counter-clockwise from the lower left, as the corners of cells are
+    # counter-clockwise from the lower left, like the corners of cells
     corners = [np.stack(place, axis=1) for place in ((left, low), (right, low), (right, high), (left, high))]
     cell = np.insert(np.stack(corners, axis=1), 2, 0.0, axis=2)
     plates = [cell * (toward, 1.0, 1.0) + (0.0, y, z) for toward, y, z in plate_places(body)]

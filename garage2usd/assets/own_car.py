@@ -1,4 +1,4 @@
-"""Cars of one's own as assets: the meshes of a foreign model with its materials, and convex hulls to touch."""
+"""Assets of the user's car models: meshes and materials of the model, with convex hulls as colliders."""
 
 import re
 
@@ -13,7 +13,7 @@ __all__ = ["own_car"]
 
 _CREASE_DEG = 40.0
 _SMALLEST_HULL_M = 0.5
-"""Parts that are smaller in all directions lie within the hulls of others, or are of no weight."""
+"""Size in all directions below which a part has no collider of its own."""
 _LEAST_AREA_M2 = 1.01 * MIN_AREA_M2
 _OPAQUE = 0.9
 _WORDS = {
@@ -23,11 +23,11 @@ _WORDS = {
     "lamp_front": re.compile(r"(?i)head_?(lamp|light)"),
     "lamp_rear": re.compile(r"(?i)(tail|rear|brake)_?(lamp|light)"),
 }
-"""What a material is to touch and to sensors, by its name and the part's; else it is the paint."""
+"""Patterns of names that determine friction and non-visual properties of a material; car paint by default."""
 
 
 def own_car(car: OwnCar) -> Asset:
-    """The asset of a car; origin in the middle of its footprint on the floor, nose to -Z.
+    """Make the asset of a car model; origin in the centre of its footprint on the floor, nose along -Z.
 
     Raises
     ------
@@ -72,7 +72,7 @@ def _material(surface: ForeignSurface, kind: str) -> Material:
 
 
 def _part(name: str, given: ForeignPart, key: str) -> Part | None:
-    """A part with welded points; None where no triangle has an area."""
+    """Weld the points of a part; None if no triangle has an area."""
     corners = np.round(given.triangles_m, WELD_DECIMALS) + 0.0
     across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     is_kept = np.linalg.norm(across, axis=1) > _LEAST_AREA_M2

@@ -1,4 +1,4 @@
-"""Textures of the user's own as what all readers of USD take: PNG of 8 bits a channel, or JPEG as it is."""
+"""The user's textures, converted to formats that all readers of USD support: 8-bit PNG, or unchanged JPEG."""
 
 import hashlib
 import io
@@ -21,33 +21,33 @@ __all__ = ["own_file", "own_pixels", "own_shape"]
 
 Given = TypeVar("Given")
 _LARGEST_PX = {TextureQuality.LOW: 512, TextureQuality.MEDIUM: 1024, TextureQuality.HIGH: 2048}
-"""Of the longer side; a larger picture is made smaller."""
+"""Greatest length of the longer side by quality; larger images are downscaled."""
 _MOST_PX, _MOST_BYTES = 16384, 128 * 1024 * 1024
 _BANDS = (Channel.OCCLUSION, Channel.ROUGHNESS, Channel.METALLIC)
 _WIDE = frozenset({"I;16", "I;16B", "I;16L", "I;16N", "I"})
-"""Pillow's modes of grey in 16 bits."""
+"""Pillow's modes of 16-bit grey images."""
 _JPEG_QUALITY, _COMPRESSION = 90, 6
 _BYTE, _HIGH_BYTE = 255, 8
 _ORIENTATION, _UPRIGHT = 0x0112, 1
-"""A tag of Exif, and its value for a picture that is stored as it is seen."""
+"""Orientation tag of Exif, and its value for an upright image."""
 
 
 def own_shape(file: MapFile, role: str) -> tuple[int, int]:
-    """Width and height of a picture in pixels; raises as `own_file`."""
+    """Width and height of an image in pixels; raises as `own_file`."""
     return _opened(file, role, lambda picture: picture.size)
 
 
 def own_file(texture: OwnTexture, quality: TextureQuality) -> tuple[bytes, str]:
-    """The bytes of a texture and what their name ends in: ``.png``, or ``.jpg``.
+    """Encode a texture: its bytes and its extension, ``.png`` or ``.jpg``.
 
-    A picture that all readers take, and that is not too large for the quality, is kept byte by byte. A colour from a
-    JPEG is written as one. All others are written as PNG: of 8 bits where they have 16, without a palette, normals with
-    green upwards, and occlusion, roughness and metallic packed in red, green and blue.
+    An image that all readers support, and that is not too large for the quality, is kept unchanged. Colour from other
+    JPEGs is encoded as JPEG, everything else as PNG: 16 bits are reduced to 8, palettes are expanded, normals have
+    green upwards, and occlusion, roughness and metallic are packed into red, green and blue.
 
     Raises
     ------
     ConfigError
-        If a file is no such picture, cannot be read, or has changed since the settings were read.
+        If a file is not such an image, cannot be read, or has changed since the settings were read.
     """
     if (kept := _kept(texture, quality)) is not None:
         return kept
@@ -56,14 +56,14 @@ def own_file(texture: OwnTexture, quality: TextureQuality) -> tuple[bytes, str]:
     if channel is Channel.COLOUR and _opened(file, texture.role, _facts)[0] == "JPEG":
         pixels.save(stream, format="JPEG", quality=_JPEG_QUALITY, subsampling="4:2:0", optimize=True)
         return stream.getvalue(), ".jpg"
-    # at 9 a photograph takes ten times as long and is a hundredth smaller
+    # level 9 takes ten times as long for a photograph that is 1 % smaller
     pixels.save(stream, format="PNG", compress_level=_COMPRESSION)
     return stream.getvalue(), ".png"
 
 
 @lru_cache(maxsize=64)
 def own_pixels(texture: OwnTexture, quality: TextureQuality) -> Image.Image:
-    """A texture as a picture of red, green and blue; raises as `own_file`."""
+    """Decode a texture as an RGB image; raises as `own_file`."""
     maps = dict(texture.maps)
     if Channel.COLOUR in maps:
         return _smaller(_loaded(maps[Channel.COLOUR], texture.role), quality)
@@ -86,7 +86,7 @@ def own_pixels(texture: OwnTexture, quality: TextureQuality) -> Image.Image:
 
 
 def _kept(texture: OwnTexture, quality: TextureQuality) -> tuple[bytes, str] | None:
-    """A file as it is, if every reader takes it so."""
+    """Contents of a file that every reader supports unchanged; else None."""
     files = {file._replace(band=None) for _, file in texture.maps}
     bands = {channel: file.band for channel, file in texture.maps if file.band is not None}
     file = next(iter(files))
@@ -98,23 +98,23 @@ def _kept(texture: OwnTexture, quality: TextureQuality) -> tuple[bytes, str] | N
     if mode != "RGB" or turn != _UPRIGHT or max(size) > _LARGEST_PX[quality]:
         return None
     if kind == "PNG":
-        # 16 bits a channel are of mode RGB too
+        # images with 16 bits per channel have the mode RGB too
         return (data, ".png") if data[24] == _HIGH_BYTE else None
     return data, ".jpg"
 
 
 def _facts(picture: Image.Image) -> tuple[str | None, str, tuple[int, int], int]:
-    """Format, mode, size and, as a camera tells it in Exif, which way is up, which readers follow or not."""
+    """Format, mode, size and Exif orientation of an image; readers differ in their support of the latter."""
     return picture.format, picture.mode, picture.size, picture.getexif().get(_ORIENTATION, _UPRIGHT)
 
 
 def _loaded(file: MapFile, role: str) -> Image.Image:
-    """A picture in red, green and blue; grey in all three, what is transparent as it is below."""
+    """Load an image as RGB; grey is repeated, transparency is dropped."""
     return _opened(file, role, _rgb)
 
 
 def _band(file: MapFile, role: str) -> Image.Image:
-    """One channel of a picture: that of the file, or of a picture of its own the red one."""
+    """Load one channel of an image: that of the file's band, or red of a separate image."""
     band = _loaded(file, role).getchannel(file.band or 0)
     return band.point([_BYTE - value for value in range(_BYTE + 1)]) if file.is_turned else band
 
@@ -132,7 +132,7 @@ def _rgb(picture: Image.Image) -> Image.Image:
 
 
 def _smaller(picture: Image.Image, quality: TextureQuality) -> Image.Image:
-    """A picture whose longer side the quality allows; a pixel is the mean of those that it covers."""
+    """Downscale an image to the quality's limit; a pixel is the mean of those that it covers."""
     largest = _LARGEST_PX[quality]
     if max(picture.size) <= largest:
         return picture
@@ -141,7 +141,7 @@ def _smaller(picture: Image.Image, quality: TextureQuality) -> Image.Image:
 
 
 def _opened(file: MapFile, role: str, use: Callable[[Image.Image], Given]) -> Given:
-    """What something gives for a picture."""
+    """Open an image and apply a function to it; raises as `own_file`."""
     field, allowed = f"look.textures.{role}", "a PNG, or a JPEG in grey or in red, green and blue"
     data = _data(file, role)
     try:
@@ -159,7 +159,7 @@ def _opened(file: MapFile, role: str, use: Callable[[Image.Image], Given]) -> Gi
 
 @lru_cache(maxsize=32)
 def _data(file: MapFile, role: str) -> bytes:
-    """What a file holds, which is what it held when the settings were read."""
+    """Read a file and verify its digest."""
     field = f"look.textures.{role}"
     data = read_bytes(Path(file.path), field=field, max_bytes=_MOST_BYTES)
     if hashlib.sha256(data).hexdigest() != file.sha256:

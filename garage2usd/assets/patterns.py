@@ -1,6 +1,6 @@
 """Patterns of floors and walls as periodic fields: cracks, stones, joints, strokes, trowel marks.
 
-Like `fields`, without sines, exponentials and matrix products.
+Like `fields`, they use no sines, exponentials or matrix products.
 """
 
 from collections.abc import Iterator
@@ -19,14 +19,14 @@ _FINE = 1024
 
 
 class Cells(NamedTuple):
-    """The cells of the points of a jittered lattice (Worley 1996).
+    """Cellular noise of a jittered lattice (Worley 1996).
 
     Attributes
     ----------
     which
-        Number of the cell that each pixel is in; int64, shape (rows, columns).
+        Index of each pixel's cell; int64, shape (rows, columns).
     from_point
-        Distance from its point, in pixels.
+        Distance from the cell's point, in pixels.
     from_edge
         Distance from the nearest edge between two cells, in pixels.
     """
@@ -37,16 +37,16 @@ class Cells(NamedTuple):
 
 
 def cells(rng: np.random.Generator, shape: Shape, count: Shape, warp: tuple[Field, Field] | None = None) -> Cells:
-    """Cells of irregular polygons, `count` down and across, periodic.
+    """Compute periodic cells, irregular polygons, `count` (down, across).
 
     Parameters
     ----------
     rng, shape
-        What draws, and rows and columns.
+        Random generator, and (rows, columns).
     count
         Cells down and across, at least three each way.
     warp
-        By how many pixels down and across each place is shifted first, which bends the edges.
+        Shift of each pixel down and across before the computation, which bends the edges.
     """
     rows, columns = count
     jitter_down, jitter_across = (rng.integers(0, _FINE, size=count) / _FINE for _ in range(2))
@@ -57,7 +57,7 @@ def cells(rng: np.random.Generator, shape: Shape, count: Shape, warp: tuple[Fiel
     row, column = np.floor(down).astype(np.int64), np.floor(across).astype(np.int64)
 
     def points() -> Iterator[tuple[NDArray[np.int64], Field, Field]]:
-        """The number of each point around a pixel's own, and how far down and across it is from the pixel."""
+        """Yield the index of each point near a pixel's own, and its distance down and across from the pixel."""
         for step_down, step_across in _AROUND:
             i, j = (row + step_down) % rows, (column + step_across) % columns
             y = (row + step_down + jitter_down[i, j] - down) * high
@@ -72,7 +72,7 @@ def cells(rng: np.random.Generator, shape: Shape, count: Shape, warp: tuple[Fiel
         nearest = np.where(is_nearest, away, nearest)
         which = np.where(is_nearest, number, which)
         near_y, near_x = np.where(is_nearest, y, near_y), np.where(is_nearest, x, near_x)
-    # an edge is the line between two points that is as far from both
+    # an edge is the perpendicular bisector of two points
     from_edge = np.full(shape, np.inf)
     for number, y, x in points():
         apart = np.sqrt((y - near_y) ** 2 + (x - near_x) ** 2)
@@ -82,14 +82,14 @@ def cells(rng: np.random.Generator, shape: Shape, count: Shape, warp: tuple[Fiel
 
 
 def joint(from_middle: Field, width: Field | float) -> Field:
-    """What share of each pixel a line covers, however thin it is.
+    """Share of each pixel covered by a line of any width (antialiasing).
 
     Parameters
     ----------
     from_middle
-        Distance of the pixel's middle from that of the line, in pixels, not negative.
+        Distance of the pixel's centre from the line's centre, in pixels, not negative.
     width
-        Of the line, in pixels.
+        Width of the line in pixels.
     """
     covered: Field = np.clip(np.minimum(from_middle + 0.5, width / 2) - np.maximum(from_middle - 0.5, -width / 2), 0, 1)
     return covered
@@ -103,16 +103,16 @@ def strokes(
     width: tuple[float, float],
     bend: float = 0.3,
 ) -> Field:
-    """Soft strokes that any way may take, 0 to 1.
+    """Draw soft strokes in random directions, 0 to 1.
 
     Parameters
     ----------
     rng, shape, count
-        What draws, rows and columns, and how many strokes.
+        Random generator, (rows, columns), and number of strokes.
     length, width
-        Smallest and largest, in pixels.
+        Least and greatest value, in pixels.
     bend
-        How far its middle may lie beside a stroke's chord, in lengths.
+        Greatest offset of a stroke's centre from its chord, as a share of its length.
     """
     field = np.zeros(shape)
     for _ in range(count):
@@ -131,7 +131,7 @@ def strokes(
 
 
 def _dot(field: Field, y: float, x: float, half: float, strength: float) -> None:
-    """Leave a dot in a field where there is less; thinner than a pixel it is fainter."""
+    """Draw a dot by maximum; a dot thinner than a pixel is fainter."""
     reach = int(half) + 2
     rows, columns = int(y) + np.arange(-reach, reach + 1), int(x) + np.arange(-reach, reach + 1)
     away = np.sqrt((rows - y)[:, None] ** 2 + (columns - x)[None, :] ** 2)
@@ -140,16 +140,16 @@ def _dot(field: Field, y: float, x: float, half: float, strength: float) -> None
 
 
 def trowel_marks(rng: np.random.Generator, shape: Shape, count: int, radius: tuple[float, float], ring: float) -> Field:
-    """Arcs of the turning blades of a power trowel, about -1 to 1, most of them near 0.
+    """Draw arcs of the rotating blades of a power trowel, about -1 to 1, mostly near 0.
 
     Parameters
     ----------
     rng, shape, count
-        What draws, rows and columns, and how many places the trowel was at.
+        Random generator, (rows, columns), and number of positions of the trowel.
     radius
-        Smallest and largest, in pixels.
+        Least and greatest radius, in pixels.
     ring
-        How far apart the arcs of one place are, in pixels.
+        Distance between the arcs of one position, in pixels.
     """
     field = np.zeros(shape)
     rows, columns = shape
@@ -181,7 +181,7 @@ def _between(rng: np.random.Generator, ends: tuple[float, float]) -> float:
 
 
 def _direction(rng: np.random.Generator) -> NDArray[np.float64]:
-    """A unit vector of any direction, down and across."""
+    """Draw a random unit vector (down, across)."""
     while True:
         down, across = 2.0 * _part(rng) - 1.0, 2.0 * _part(rng) - 1.0
         square = down * down + across * across

@@ -1,4 +1,4 @@
-"""Shapes of pictograms."""
+"""Outlines of pictograms."""
 
 import shapely
 
@@ -8,7 +8,7 @@ _GRID = 1e-3
 
 
 def running_man() -> shapely.Geometry:
-    """Who runs through a doorway, as on signs of ISO 7010: 1 high, over the origin, its second coordinate upwards."""
+    """Running person in a doorway, as on signs of ISO 7010: height 1, above the origin, second coordinate upwards."""
     strokes = [
         shapely.Point(-0.18, 0.80).buffer(0.09, quad_segs=3),  # head, body, arms and legs, then the doorway
         shapely.LineString([(-0.22, 0.66), (-0.30, 0.40)]).buffer(0.07, cap_style="flat"),

@@ -1,7 +1,7 @@
-"""The textures of number plates: a cell for each character, and one without any.
+"""Textures of number plates: a cell for each character, and a blank one.
 
-One is that of plates of no country and of Germany's, in its colours and with a cell for the band on the left. The other
-holds what is ink, and becomes that of any two colours.
+One texture is that of international and German plates, in their colours and with a cell for the band on the left. The
+other holds coverage by ink, and can be tinted with any two colours.
 """
 
 import numpy as np
@@ -25,22 +25,22 @@ __all__ = [
 ]
 
 CHARACTERS = "0123456789ABCDEFGHJKLMNPRSTUVWXYZ"
-"""Digits and capital letters, less those that are read as digits: I, O and Q."""
+"""Digits and capital letters, without I, O and Q, which resemble digits."""
 SPACE, BAND = " ", "|"
-"""What stands for a cell without a character, and for that with the band."""
+"""Symbols for a blank cell and for the cell of the band."""
 PROVINCES, DOT = "京沪川湘冀", "·"
-"""Of Chinese plates: the first character, and what stands after the second one."""
+"""Chinese plates: first characters, and the separator after the second one."""
 _COLUMNS, _ROWS = 10, 4
-"""So that the borders of cells are short as decimals, which stages as text hold for each car."""
+"""Grid of cells, chosen so that cell borders are short decimals, which text stages store for each car."""
 _CELL_PX = 96, 160
-"""Width and height of a cell; its share of a plate is as wide for its height."""
+"""Width and height of a cell, with the aspect ratio of its share of a plate."""
 LETTER_SHARE = 0.68
-"""Height of a character in that of a cell, as 75 mm in 110 mm."""
+"""Height of a character as a share of the cell's height: 75 mm of 110 mm."""
 _BAND_PX = (6, 8, 58, 152)
-"""Left, top, right and bottom of the band; cells are bare along their edges, so that none shines into the next one."""
+"""Left, top, right and bottom of the band; the edges of cells are blank to prevent bleeding into neighbours."""
 _FINER = 8
 _HAN_WIDTH = 0.92
-"""Of a Chinese character in the width of its cell."""
+"""Width of a Chinese character as a share of the cell's width."""
 _SHEET_RGB, _INK_RGB, _BAND_RGB = (224, 224, 218), (22, 22, 24), (20, 62, 150)
 
 _CELL_OF = {
@@ -50,11 +50,11 @@ _CELL_OF = {
 }
 _INK_CELL_OF = {character: cell for cell, character in enumerate(CHARACTERS + SPACE + DOT + PROVINCES)}
 _DOT_RADIUS = 0.07
-"""In heights of a character."""
+"""Radius of the dot as a share of a character's height."""
 
 
 def cell_corners(character: str) -> NDArray[np.float64]:
-    """Texture coordinates of the cell of one character: lower left, lower right, upper right, upper left.
+    """Texture coordinates of the cell of a character: lower left, lower right, upper right, upper left.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def cell_corners(character: str) -> NDArray[np.float64]:
 
 
 def ink_cell_corners(character: str) -> NDArray[np.float64]:
-    """The same on the texture of ink, of one of `CHARACTERS`, `SPACE`, `DOT` or `PROVINCES`."""
+    """As `cell_corners` for the ink texture: one of `CHARACTERS`, `SPACE`, `DOT` or `PROVINCES`."""
     return _corners(_INK_CELL_OF[character])
 
 
@@ -82,7 +82,7 @@ def _corners(cell: int) -> NDArray[np.float64]:
 
 
 def bake_plates(_rng: np.random.Generator) -> NDArray[np.uint8]:
-    """The texture, which is drawn without any chance; uint8, shape (rows, columns, 3)."""
+    """Draw the colour texture, without randomness; uint8, shape (rows, columns, 3)."""
     width, height = _CELL_PX
     pixels = np.full((_ROWS * height, _COLUMNS * width, 3), _SHEET_RGB, dtype=np.uint8)
     for character, cell in _CELL_OF.items():
@@ -98,7 +98,7 @@ def bake_plates(_rng: np.random.Generator) -> NDArray[np.uint8]:
 
 
 def bake_plate_ink(_rng: np.random.Generator) -> NDArray[np.uint8]:
-    """How much of each pixel is ink, without any chance; uint8, shape (rows, columns), 0 to 255."""
+    """Draw the ink texture, without randomness; uint8, shape (rows, columns), 0 to 255."""
     width, height = _CELL_PX
     pixels = np.zeros((_ROWS * height, _COLUMNS * width), dtype=np.uint8)
     for character, cell in _INK_CELL_OF.items():
@@ -110,7 +110,7 @@ def bake_plate_ink(_rng: np.random.Generator) -> NDArray[np.uint8]:
 
 
 def _ink(character: str) -> NDArray[np.float64]:
-    """How much of each pixel of its cell a character covers; float64, shape (rows, columns), 0 to 1."""
+    """Coverage of each pixel of a cell by a character; float64, shape (rows, columns), 0 to 1."""
     width, height = _CELL_PX
     canvas = Image.new("L", (width * _FINER, height * _FINER))
     draw = ImageDraw.Draw(canvas)

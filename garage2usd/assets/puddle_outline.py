@@ -1,4 +1,4 @@
-"""Outlines of puddles: what the level of water leaves of an uneven floor."""
+"""Outlines of puddles as water in hollows of an uneven floor."""
 
 import math
 from functools import lru_cache
@@ -14,11 +14,11 @@ from garage2usd.common.randomness import Step, generator
 __all__ = ["PuddleOutline", "puddle_outline"]
 
 _POINTS, _WAVES = 72, 18
-"""Corners of a hollow, and waves around it."""
+"""Number of corners of a hollow, and of waves around it."""
 _HOLLOWS = (3, 6)
 _DROPS = (2, 5)
 _ROUND_M = 0.012
-"""By which water rounds corners."""
+"""Radius by which corners are rounded."""
 _DAMP_M = 0.05
 """Least width of the damp border."""
 _LEAST_M2 = 0.0006
@@ -26,14 +26,14 @@ _DIGITS = 4
 
 
 class PuddleOutline(NamedTuple):
-    """Areas (x, z) in metres around the origin.
+    """Areas of a puddle (x, z) in metres around the origin.
 
     Attributes
     ----------
     water
-        Where water stands.
+        Area of standing water.
     damp
-        The wet floor around it.
+        Wet floor around it.
     """
 
     water: shapely.Geometry
@@ -42,19 +42,19 @@ class PuddleOutline(NamedTuple):
 
 @lru_cache(maxsize=256)
 def puddle_outline(variant: int, width_m: float, depth_m: float) -> PuddleOutline:
-    """The outline of a puddle that fills a rectangle with its damp border.
+    """Make the outline of a puddle whose damp border fills a rectangle.
 
     Parameters
     ----------
     variant
-        Which of all shapes, 0 or more.
+        Number of the shape, 0 or more.
     width_m, depth_m
         Extent along X and Z.
     """
     rng = generator(variant, Step.PUDDLE_SHAPES)
     hollows, rims = [], []
     for index in range(int(rng.integers(*_HOLLOWS))):
-        # hollows lie in a bent row, the widest one in its middle
+        # hollows lie in a curved row, the widest one in its centre
         along = (0.0, 0.55, -0.5, 0.95, -0.9)[index]
         middle = along + rng.uniform(-0.1, 0.1), rng.uniform(-0.35, 0.35) if index else 0.0
         size = (0.62, 0.45, 0.4, 0.25, 0.2)[index] * rng.uniform(0.8, 1.15)
@@ -73,7 +73,7 @@ def puddle_outline(variant: int, width_m: float, depth_m: float) -> PuddleOutlin
 
 
 def _hollow(rng: np.random.Generator, middle: tuple[float, float], size: float, rough: float) -> shapely.Polygon:
-    """A ragged round: waves around it, the shorter the lower."""
+    """A circle with random waves, whose amplitude falls with their length."""
     heights, phases = rng.normal(size=_WAVES).tolist(), rng.uniform(0, math.tau, _WAVES).tolist()
     corners = []
     for index in range(_POINTS):
@@ -95,14 +95,14 @@ def _hollow(rng: np.random.Generator, middle: tuple[float, float], size: float, 
 def _filling(
     area: shapely.Geometry, bounds: tuple[float, float, float, float], width_m: float, depth_m: float
 ) -> shapely.Geometry:
-    """An area as it lies after a box around it has been stretched to a size around the origin."""
+    """Stretch the bounding box of an area to a size around the origin."""
     x0, z0, x1, z1 = bounds
     moved = affinity.translate(area, -(x0 + x1) / 2, -(z0 + z1) / 2)
     return affinity.scale(moved, width_m / (x1 - x0), depth_m / (z1 - z0), origin=(0, 0))
 
 
 def _clean(area: shapely.Geometry) -> shapely.Geometry:
-    """Without specks and needless corners, on the grid of sheets that meet."""
+    """Remove specks and redundant corners, and snap to the common grid of sheets."""
     parts = [part for part in shapely.get_parts(shapely.simplify(area, 0.003)) if part.area > _LEAST_M2]
     whole = [
         shapely.Polygon(part.exterior, [ring for ring in part.interiors if shapely.Polygon(ring).area > _LEAST_M2])

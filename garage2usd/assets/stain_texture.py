@@ -1,4 +1,4 @@
-"""The textures of stains and of dirt: what stains in their colours, how much of it there is in their alpha."""
+"""Textures of stains and dirt: colour, and amount as alpha."""
 
 from collections.abc import Callable
 
@@ -12,7 +12,7 @@ __all__ = ["CELLS", "CELLS_ACROSS", "DIRT_CELLS", "Cell", "bake_dirt", "bake_roa
 
 Cell = tuple[float, float, float, float]
 CELLS_ACROSS = 8
-"""Cells across and down the texture; `CELLS` counts in them."""
+"""Number of cells across and down the texture, the unit of `CELLS`."""
 CELLS: dict[str, tuple[Cell, ...]] = {
     "wear_straight": ((0, 0, 2, 2), (2, 0, 2, 2)),
     "wear_bend": ((4, 0, 2, 2),),
@@ -25,7 +25,7 @@ CELLS: dict[str, tuple[Cell, ...]] = {
     "crack": ((1, 4, 1, 3), (2, 4, 1, 3)),
     "tyre": ((3, 4, 0.5, 4), (3.5, 4, 0.5, 4)),
 }
-"""For each mark the cells of its variants: left, top, width and height."""
+"""Cells of the variants of each mark: left, top, width and height."""
 
 DIRT_CELLS: dict[Dirt, dict[str, tuple[Cell, ...]]] = {
     dirt: {
@@ -36,7 +36,7 @@ DIRT_CELLS: dict[Dirt, dict[str, tuple[Cell, ...]]] = {
     }
     for dirt, top in ((Dirt.FAINT, 0), (Dirt.FILTHY, 4))
 }
-"""The same of the texture of dirt, for what is not as usual."""
+"""Cells in the dirt texture, for degrees of dirt other than usual."""
 
 _CELL_PIXELS = 128
 _INK_RGB = {"oil": (26, 23, 20), "drips": (26, 23, 20), "damp": (44, 43, 41), "patch": (138, 135, 128)}
@@ -45,15 +45,15 @@ _DIRT_RGB = (24, 21, 18)
 _DUST_RGB = (112, 101, 86)
 _DUST_PIXELS = 128, 512
 _FAINT = 0.45
-"""Of usual wear."""
+"""Factor of faint against usual wear."""
 _LANE = 0.228
-"""Middle of each direction's lane from the middle of a square, in shares of its width."""
+"""Distance of each direction's lane from the centre of a square, as a share of the square's width."""
 _WHEEL = 0.096
-"""Half the gauge of a car in the same shares."""
+"""Half of a car's track width, as a share of the square's width."""
 
 
 def bake_stains(rng: np.random.Generator) -> NDArray[np.uint8]:
-    """The texture of stains; uint8, shape (rows, columns, 4)."""
+    """Draw the texture of stains; uint8, shape (rows, columns, 4)."""
     pixels = _sheet(_RUBBER_RGB)
     for mark, cells in CELLS.items():
         for cell in cells:
@@ -64,7 +64,7 @@ def bake_stains(rng: np.random.Generator) -> NDArray[np.uint8]:
 
 
 def bake_dirt(rng: np.random.Generator) -> NDArray[np.uint8]:
-    """The texture of dirt; uint8, shape (rows, columns, 4)."""
+    """Draw the texture of dirt; uint8, shape (rows, columns, 4)."""
     pixels = _sheet(_DIRT_RGB)
     for dirt, marks in DIRT_CELLS.items():
         for mark, cells in marks.items():
@@ -76,7 +76,7 @@ def bake_dirt(rng: np.random.Generator) -> NDArray[np.uint8]:
 
 
 def bake_road_dust(rng: np.random.Generator) -> NDArray[np.uint8]:
-    """The texture of dust on the flanks of cars, thick at the bottom, none at the top; uint8, (rows, columns, 4)."""
+    """Draw the texture of dust on car flanks, thick at the bottom, none at the top; uint8, (rows, columns, 4)."""
     shape = _DUST_PIXELS
     pixels = np.zeros((*shape, 4), dtype=np.uint8)
     pixels[:, :, :3] = _DUST_RGB
@@ -109,7 +109,7 @@ def _alpha(share: Field) -> NDArray[np.uint8]:
 
 
 def _filthy(rng: np.random.Generator, worn: Field) -> Field:
-    """Much more of the same, with spills between the tracks that end before the border."""
+    """Heavy dirt, with spills between the tracks that end before the border."""
     rows, columns = worn.shape
     spilt = ramp(clouds(rng, (rows, columns), (4, 4), 5), 0.5, 0.68) * _inside((rows, columns), 0.2)
     filth: Field = np.minimum(1.5 * worn + 0.22 * spilt * ramp(worn, 0.0, 0.1), 0.82)
@@ -117,7 +117,7 @@ def _filthy(rng: np.random.Generator, worn: Field) -> Field:
 
 
 def _places(shape: tuple[int, int]) -> tuple[Field, Field]:
-    """How far down and across each pixel lies, 0 to 1."""
+    """Position of each pixel down and across, 0 to 1."""
     rows, columns = shape
     down = ((np.arange(rows) + 0.5) / rows)[:, None] * np.ones(shape)
     return down, ((np.arange(columns) + 0.5) / columns)[None, :] * np.ones(shape)
@@ -129,13 +129,13 @@ def _length(down: Field, across: Field) -> Field:
 
 
 def _from_middle(shape: tuple[int, int]) -> Field:
-    """Distance from the middle, 1 at the nearest border."""
+    """Distance from the centre, 1 at the nearest border."""
     down, across = _places(shape)
     return _length(2 * down - 1, 2 * across - 1)
 
 
 def _inside(shape: tuple[int, int], margin: float) -> Field:
-    """1 inside, 0 at the border."""
+    """Mask of 1 inside, falling to 0 at the border."""
     down, across = _places(shape)
     away = np.minimum(np.minimum(down, 1 - down), np.minimum(across, 1 - across))
     return ramp(away, 0.0, margin)
@@ -196,13 +196,13 @@ def _tyre(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
 
 
 def _lanes(place: Field) -> Field:
-    """How much cars have worn a floor across their way; `place` from 0 to 1 across it."""
+    """Wear of a floor across the driving direction, at a position from 0 to 1 across it."""
     away = np.abs(np.abs(place - 0.5) - _LANE)
     return 0.12 * ramp(away, 0.21, 0.08) + 0.24 * ramp(np.abs(away - _WHEEL), 0.075, 0.0)
 
 
 def _worn(rng: np.random.Generator, shape: tuple[int, int], ways: Field) -> Field:
-    """Uneven inside, but even on the border, where the next square goes on."""
+    """Wear that is uneven inside and even at the border, so that adjacent squares match."""
     uneven = 0.9 * (clouds(rng, shape, (7, 7), 5) - 0.5) + 0.12 * (grain(rng, shape) - 0.5)
     return ways * (1.0 + uneven * _inside(shape, 0.12))
 

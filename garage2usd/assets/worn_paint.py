@@ -1,4 +1,4 @@
-"""Pictures of worn paint: how worn it is as an index, what that looks like as a palette."""
+"""Images of worn paint: wear as an index, its colour as a palette."""
 
 import struct
 import zlib
@@ -12,21 +12,21 @@ __all__ = ["WEAR_STEPS", "painted", "wear_palette"]
 Rgb = tuple[float, float, float]
 
 WEAR_STEPS = 16
-"""Indices of such a picture: 0 is fresh paint, the last the bare ground."""
+"""Number of indices: 0 is fresh paint, the last the bare ground."""
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _LENGTH = struct.Struct(">I")
 _PALETTE = b"PLTE"
 _SHORTEST = 12
-"""Bytes of a chunk without data: length, kind and checksum."""
+"""Bytes of a PNG chunk without data: length, type and checksum."""
 
 
 def wear_palette(paint_rgb: Rgb, ground_rgb: Rgb) -> bytes:
-    """Red, green and blue of each index in sRGB, mixed in linear light; 3 bytes an index.
+    """Palette of a wear image in sRGB, mixed in linear light; 3 bytes per index.
 
     Parameters
     ----------
     paint_rgb, ground_rgb
-        Linear colours of the paint and of what it is on, 0 to 1.
+        Linear colours of the paint and its ground, 0 to 1.
     """
     bare = [index / (WEAR_STEPS - 1) for index in range(WEAR_STEPS)]
     return bytes(
@@ -37,19 +37,19 @@ def wear_palette(paint_rgb: Rgb, ground_rgb: Rgb) -> bytes:
 
 
 def painted(png: bytes, paint_rgb: Rgb, ground_rgb: Rgb) -> bytes:
-    """The same picture of wear in other colours: no pixel is decoded, so all machines give the same bytes.
+    """Recolour an image of wear by its palette; pixels are not decoded, so all machines give the same bytes.
 
     Parameters
     ----------
     png
         An indexed PNG of at most `WEAR_STEPS` colours, such as the shipped ``wear_*.png``.
     paint_rgb, ground_rgb
-        Linear colours of the paint and of what it is on, 0 to 1.
+        Linear colours of the paint and its ground, 0 to 1.
 
     Raises
     ------
     ConfigError
-        If it is no such PNG.
+        If `png` is not an indexed PNG with at most `WEAR_STEPS` colours.
     """
     palette = wear_palette(paint_rgb, ground_rgb)
     pieces, replaced = [_SIGNATURE], 0
@@ -66,7 +66,7 @@ def painted(png: bytes, paint_rgb: Rgb, ground_rgb: Rgb) -> bytes:
 
 
 def _chunks(png: bytes) -> Iterator[tuple[bytes, bytes]]:
-    """The kind and the data of each chunk of a PNG."""
+    """Yield type and data of each chunk of a PNG."""
     if not png.startswith(_SIGNATURE):
         raise _unfit("no PNG")
     place = len(_SIGNATURE)
@@ -85,9 +85,9 @@ def _unfit(what: str) -> ConfigError:
 
 
 def _srgb_byte(linear: float) -> int:
-    """A linear value as sRGB in 8 bits, by IEC 61966-2-1.
+    """Convert a linear value to 8-bit sRGB, by IEC 61966-2-1.
 
-    A power of 1 / 2.4 differs in its last bit from one CPU to another, so fifth powers are compared with twelfth ones.
+    A power of 1 / 2.4 differs in its last bit between CPUs, so fifth powers are compared with twelfth ones.
     """
     value = min(max(linear, 0.0), 1.0)
     if value <= _LINEAR_BELOW:
@@ -102,4 +102,4 @@ def _twelfth_power(value: float) -> float:
 
 _LINEAR_BELOW = 0.0031308
 _BORDERS = [_twelfth_power(((byte - 0.5) / 255 + 0.055) / 1.055) for byte in range(1, 256)]
-"""From which fifth power of a linear value on each byte of sRGB stands for it."""
+"""Thresholds of the 8-bit sRGB values, as fifth powers of linear values."""

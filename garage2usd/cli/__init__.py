@@ -31,9 +31,10 @@ __all__ = ["main", "run"]
 
 
 _KEPT_OBJECTS = 50_000
-"""How many objects are made before Python looks for dead cycles: by default 700, though nearly all live to the end."""
+"""Allocations before a run of Python's cyclic garbage collector: 700 by default, though nearly all objects stay
+alive."""
 _MANY_THREADS = {"render", "dataset", "look"}
-"""Commands whose work is done by threads of Blender, or by processes that are told of theirs when they are started."""
+"""Commands that use threads of Blender, or processes whose threads are limited at their start."""
 _EXIT_CODES = """Results go to standard output, messages to standard error. The exit code is 1 where something was
 refused or found wrong, also for a file that is missing; 2 for wrong usage; else 0."""
 
@@ -68,10 +69,10 @@ for _command in (
 
 
 def run() -> None:
-    """The program `garage2usd`: the command that its arguments name, where need be in a process of its own."""
+    """Run the program `garage2usd`; commands that read stages run in a separate process."""
     open_streams()
     gc.set_threshold(_KEPT_OBJECTS)
-    # else Python looks for dead cycles in all that is left, three times, which takes a fifth of a second after a build
+    # otherwise Python's final garbage collections take a fifth of a second after a build
     atexit.register(gc.freeze)
     name = next((word for word in sys.argv[1:] if not word.startswith("-")), "")
     if name not in _MANY_THREADS:

@@ -15,18 +15,18 @@ if TYPE_CHECKING:
 __all__ = ["Bars"]
 
 _EVERY_S = 10.0
-"""Between two lines where there is no terminal; what takes less long says nothing."""
+"""Interval between two lines without a terminal; shorter steps print nothing."""
 
 
 class Bars:
-    """One progress bar for each step that reports; where there is no terminal, lines that say how far it is.
+    """Progress bars, one for each step; without a terminal, lines with the progress.
 
     Parameters
     ----------
     stream
-        The terminal, or what stands in its place.
+        The terminal, or its replacement.
     unit
-        What is counted, in steps that take long enough for a rate to be told.
+        Unit of the counts, for steps that are long enough to show a rate.
     """
 
     def __init__(self, stream: TextIO, *, unit: str | None = None) -> None:
@@ -66,13 +66,13 @@ class Bars:
         self._bar.update(done - self._bar.pos, 0)
 
     def announce(self, text: str) -> None:
-        """Print a line, a bar that is there on the line after it."""
+        """Print a line above the current bar."""
         if self._bar is not None and self._stream.isatty():
             click.echo("\r\033[K", file=self._stream, nl=False)
         click.echo(text, file=self._stream)
 
     def _say(self, step: str, done: int, total: int) -> None:
-        """Print how far a step is, unless something was printed a short time ago."""
+        """Print the progress of a step, unless the last line was printed recently."""
         now_s = time.monotonic()
         if step != self._step:
             self._step, self._begun_s, self._begun_at = step, now_s, done

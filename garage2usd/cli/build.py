@@ -63,14 +63,14 @@ def build(
     formats: str | None,
     output: Path,
 ) -> None:
-    """Build the garage that CONFIG (TOML) describes, or without one the default: 7 x 9 squares, all of them inside.
+    """Build the garage of the configuration CONFIG (TOML), by default one that fills 7 x 9 squares.
 
-    Beside the stage, say out/a.usda, it writes a picture of the plan (out/a_plan.png), a report (a_report.json), the
-    classes and bounds of all objects (a_labels.json) and, unless it is a .usdz, what it refers to (a_assets/); meshes
-    and textures go into a folder that many garages share instead if the configuration says so (stage.assets).
+    Beside the stage, such as out/a.usda, the command writes a picture of the plan (out/a_plan.png), a report
+    (a_report.json), the classes and bounds of all objects (a_labels.json) and, unless the stage is a .usdz, its assets
+    (a_assets/, or a folder shared by many garages with the setting stage.assets).
 
-    It is designed to every clause of its profile that can be kept together with the settings that are given. Those that
-    it misses all the same are named on stderr, a line each, and under not_designed_to in the report.
+    The garage is designed to all clauses of its profile that the given settings allow. Violated clauses are printed on
+    stderr, one per line, and listed under not_designed_to in the report.
 
     \b
     Examples:
@@ -111,7 +111,7 @@ def build(
 
 
 def _exports(output: Path, formats: str | None, settings: "MapsConfig") -> tuple[Path, ...]:
-    """What is exported beside a stage; refused before the garage is made if it cannot be."""
+    """Paths of the exports beside a stage, validated before the garage is made."""
     if formats is None:
         return ()
     from garage2usd.exports import check_exports  # noqa: PLC0415 - most builds are not exported
@@ -153,7 +153,7 @@ def _describe(made: "Build") -> None:
 
 
 def _learnt(made: "Build") -> list[tuple[str, str]]:
-    """What learning alone found, and what polish made of it."""
+    """Results of learning alone, and of hill climbing."""
     from garage2usd.planning import dimensioned, evaluate  # noqa: PLC0415 - keeps --help instant
 
     plan, config = made.garage.plan, made.garage.config
@@ -170,7 +170,7 @@ def _learnt(made: "Build") -> list[tuple[str, str]]:
 
 
 def _lit(made: "Build") -> str:
-    """How bright lanes and stalls are, what was wanted, and what decides it: one of the two, or lamps that are dead."""
+    """Illuminance of lanes and stalls with the required values, and the deciding one: lanes, stalls or dead lamps."""
     light, fittings = made.garage.layout.illuminance, made.garage.config.fittings
     both = (("lane", light.lanes, fittings.lane_lux), ("stall", light.stalls, fittings.stall_lux))
     lit = [(name, lux.mean, wanted) for name, lux, wanted in both if lux and lux.mean]
@@ -185,12 +185,12 @@ def _lit(made: "Build") -> str:
 
 
 def _displaced(layout: "Layout") -> int:
-    """How many stalls of the plan stair cores took."""
+    """Number of the plan's stalls replaced by stair cores."""
     return sum(len(core.stalls) for core in layout.cores)
 
 
 def _checked(made: "Build") -> str:
-    """How many errors, warnings and remarks a check finds, and how to see them."""
+    """Numbers of errors, warnings and remarks, and the command that lists them."""
     against = f"against {made.garage.config.standard.name}"
     if made.findings is None:
         return f"not done here for so many stalls: garage2usd check {made.report}"
@@ -204,7 +204,7 @@ def _checked(made: "Build") -> str:
 
 
 def _dropped(made: "Build") -> str:
-    """What a Unity project needs of a build."""
+    """Files of a build that a Unity project needs."""
     own = [f"{made.asset_folder.name}/"] if made.asset_folder else []
     shared = [f"{made.garage.config.stage.asset_folder}/"] if made.shared_assets else []
     return " and ".join([made.stage.name, *own, *shared])

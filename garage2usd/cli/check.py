@@ -23,9 +23,9 @@ _MOST_OF_A_RULE = 10
 def check(ctx: click.Context, *, path: Path, profile: str | None, as_json: bool) -> None:
     """Check a stage, a report or a plan against a standard.
 
-    PATH is a stage, also one that other tools have edited, the report of a build, a configuration with a structure, or
-    a structure as text, JSON, .npy or .npz. The exit code is 1 if there are errors, whatever the warnings and remarks.
-    A clause that cannot be checked, as those on vans of a profile that does not say how many, is named with the reason.
+    PATH is a stage (including one edited in other tools), the report of a build, a configuration with a structure, or
+    a structure as text, JSON, .npy or .npz. The exit code is 1 if there are errors; warnings and remarks do not count.
+    Clauses that cannot be checked are listed with the reason.
 
     \b
     Examples:

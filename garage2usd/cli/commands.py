@@ -26,7 +26,7 @@ class Commands(click.Group):
             is_usage = isinstance(error, ConfigError) and error.field in _USAGE_FIELDS
             sys.exit(2 if is_usage else 1)
         except Exception as error:
-            # values of a stage are read late, so any step may come upon a damaged one
+            # values of a stage are read lazily, so that any step may meet a damaged one
             if not _is_of_usd(error):
                 raise
             from garage2usd.reading.files import usd_reason  # noqa: PLC0415 - it brings USD
@@ -36,6 +36,6 @@ class Commands(click.Group):
 
 
 def _is_of_usd(error: Exception) -> bool:
-    """Whether USD raised it, itself or in giving out a name of a damaged stage whose bytes are not text."""
+    """True if USD raised the error, or a name in a damaged stage is not valid text."""
     tf = sys.modules.get("pxr.Tf")
     return tf is not None and isinstance(error, (tf.ErrorException, UnicodeDecodeError))

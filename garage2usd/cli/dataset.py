@@ -49,10 +49,10 @@ def dataset(
     resume: bool,
     verify: Path | None,
 ) -> None:
-    """Make the garages that RECIPE (TOML) asks for, all of them different, with a manifest and a data card.
+    """Generate the distinct garages of RECIPE (TOML), with a manifest and a data card.
 
-    Plans are drawn first, and drawn again where one is there already, also turned or mirrored. It may be interrupted at
-    any time; --resume goes on. The same recipe gives the same bytes with any number of workers.
+    Plans are drawn first; a duplicate, also a rotated or reflected one, is drawn again. The command can be interrupted
+    at any time and resumed by --resume. The same recipe gives the same bytes with any number of workers.
 
     \b
     Examples:

@@ -30,8 +30,9 @@ _DIGITS = 12
 def doctor(*, seeds: int) -> None:
     """Check this installation and print a report: packages, compiled loops, rays, Blender and small garages.
 
-    Each garage is planned, built, checked and driven in a temporary folder. The digests of its plan, its stage and its
-    ways tell whether two machines make the same. Exit code 1 if something that is installed does not work.
+    Each garage is planned, built, checked and driven in a temporary folder. Two machines make the same
+    garages if they print the same digests of plan, stage and drives. The exit code is 1 if an installed component does
+    not work.
 
     \b
     Example:
@@ -88,7 +89,7 @@ def _blender() -> str:
 
 
 def _garage(seed: int) -> tuple[str, list[str]]:
-    """Make a garage: what is told of it, and what is wrong with it."""
+    """Make a garage; return its line of the report, and its errors."""
     from garage2usd.checks import Severity, check_file  # noqa: PLC0415 - keeps --help instant
     from garage2usd.common.output import staging_folder  # noqa: PLC0415
     from garage2usd.config import GarageConfig  # noqa: PLC0415

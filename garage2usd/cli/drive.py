@@ -54,15 +54,15 @@ def drive(
     animate: bool,
     rig: str | None,
 ) -> None:
-    """Prove that a car drives into each stall and out again without a touch.
+    """Prove that a car can drive into each stall and out again without a collision.
 
-    PATH is a configuration, and the garage the one that `build` makes of it and the seed; or a stage, also one that
-    other tools have edited, or the report of a build. Without PATH it is the default garage. The car is 4.8 x 1.8 m
-    with a turning radius of 6 m. Access aisles and stalls for turning hold no car and are left out. Stalls without ways
-    are named with what is in the way, and the exit code is 1.
+    PATH is a configuration, from which the garage is made as by `build`; a stage, including one edited in other tools;
+    or the report of a build. Without PATH the default garage is used. The car is 4.8 x 1.8 m with a turning radius of
+    6 m. Access aisles and turning stalls are left out, since no car parks there. Stalls without a path are listed with
+    the objects in the way, and the exit code is 1.
 
-    With --stall the car drives the whole way, on ramps and lanes as well, as fast as the settings `maps.drive` allow:
-    those of PATH where it is a configuration or a report, else the defaults. Gates open to it.
+    With --stall the car drives from an entrance into the stall and on to an exit, over ramps and lanes. Its speed
+    follows the settings `maps.drive` of a configuration or report, else the defaults. Gates are open.
 
     \b
     Examples:
@@ -116,7 +116,7 @@ def _drive_to(
     output: Path | None,
     rig: str | None,
 ) -> None:
-    """Drive to one stall and tell of it."""
+    """Drive to one stall and print the result."""
     from garage2usd.config.maps import Leg  # noqa: PLC0415 - keeps --help instant
     from garage2usd.maps.drives import DrivePlanner  # noqa: PLC0415
     from garage2usd.sensors.rig.rig import read_rig  # noqa: PLC0415
@@ -162,14 +162,14 @@ def _proofs_of(path: Path | None, seed: int | None, progress: "Progress") -> "tu
 
 
 def _is_made(path: Path) -> bool:
-    """Whether a file holds a garage, and not what one is made of."""
+    """True if a file holds a finished garage: a stage or a report."""
     from garage2usd.reading.files import STAGE_SUFFIXES  # noqa: PLC0415 - keeps --help instant
 
     return path.suffix.lower() in {*STAGE_SUFFIXES, ".json"}
 
 
 def _read(path: Path, seed: int | None) -> "tuple[BuiltGarage, DriveConfig]":
-    """The garage of a stage or a report, and the settings of drives: the report's own; a stage says nothing of them."""
+    """Read a stage or a report, with the settings of drives: the report's, or the defaults for a stage."""
     from garage2usd.as_built.plan_reader import garage_of_plan  # noqa: PLC0415
     from garage2usd.checks import read_garage  # noqa: PLC0415 - keeps --help instant
     from garage2usd.config.maps import DriveConfig  # noqa: PLC0415
@@ -220,7 +220,7 @@ def _write(output: Path, proofs: "Sequence[StallProof]") -> None:
 
 
 def _publish(output: Path, write: "Callable[[Path], Sequence[Path]]") -> None:
-    """Have a file written whose name ends in small letters, and put it and what it refers to into their places."""
+    """Write a file under its name with a lower-case extension, then move it and its dependencies into place."""
     from garage2usd.common.output import publish_at, staging_folder  # noqa: PLC0415 - keeps --help instant
 
     with staging_folder(output) as staging:

@@ -49,15 +49,15 @@ def export(
     exit_: int | None,
     leg: str | None,
 ) -> None:
-    """Export a garage for programs that read no USD.
+    """Export a garage for programs without USD support.
 
-    PATH is a stage, also one that other tools have edited, which is exported as it stands; or the report of a build,
-    whose garage is made again.
+    PATH is a stage, whose current content is exported even if other tools have edited it; or the report of a build,
+    whose garage is rebuilt.
 
-    What a scene cannot say of a stage, such as lights with an area, is named on standard error and left out.
+    Parts of a stage that a format cannot represent, such as area lights, are reported on standard error and left out.
 
-    The car of a scenario drives from an entrance to a stall, parks, and drives to an exit, as `garage2usd drive
-    --stall` has it. Its options, one or more, stand in place of the whole section maps.scenario of the configuration.
+    The car of a scenario drives from an entrance to a stall, parks, and drives to an exit, as with `garage2usd drive
+    --stall`. Any option on the drive replaces the whole section maps.scenario of the configuration.
 
     \b
     Examples:

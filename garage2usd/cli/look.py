@@ -75,13 +75,13 @@ def look(
     columns: int,
     device: str,
 ) -> None:
-    """Tell the look of a garage axis by axis, with what its seed draws, as TOML that a configuration takes back.
+    """Print the look of a garage, including the values drawn by its seed, as TOML for a configuration.
 
-    Without CONFIG it is the default garage with all of its look drawn. Of a recipe it is one of its garages; of a data
-    set's own, recipe.json, one that is in it, which needs the extra `dataset`.
+    Without CONFIG this is the default garage with all axes of the look drawn. A recipe selects one of its garages; the
+    recipe.json of a data set selects one of its finished garages and needs the extra `dataset`.
 
-    With --contact-sheet, which needs the extra `blender`, pictures of many of them stand beside each other. Garages
-    that are drawn when it is interrupted stand in FILE.unfinished, and the same command goes on from there.
+    --contact-sheet, which needs the extra `blender`, renders many garages side by side. After an interruption finished
+    garages remain in FILE.unfinished, and the same command resumes.
 
     \b
     Examples:

@@ -15,16 +15,16 @@ if TYPE_CHECKING:
 __all__ = ["meshes"]
 
 _GARAGES: tuple[tuple[int, dict[str, int]], ...] = ((20, {}), (6, {"width_cells": 30, "height_cells": 20}))
-"""How many seeds from 0 on, and the site: the usual garage, and a large one."""
+"""Number of seeds, from 0, and settings of the site: the default garage, and a large one."""
 _LEAST_GARAGES = 2
-"""A shape of one garage alone is likely to be in no other."""
+"""Least number of garages that have a shape; a shape of a single garage is unlikely to occur in another."""
 
 
 @click.command(short_help="Bake the meshes that the package ships.")
 @click.argument("folder", type=click.Path(file_okay=False, path_type=Path))
 @click.option("--choose", is_flag=True, help="Choose the shapes anew: those that usual garages have in common.")
 def meshes(folder: Path, *, choose: bool) -> None:
-    """Bake the meshes of usual shapes into a file in FOLDER, those that the package ships unless others are chosen."""
+    """Precompute meshes of common shapes into a file in FOLDER: the shipped selection, or a new one with --choose."""
     from garage2usd.common.output import check_file, publish, staging_folder  # noqa: PLC0415
     from garage2usd.stage.baked_meshes import MESH_FILE, bake_meshes, baked_shapes  # noqa: PLC0415
 
@@ -38,7 +38,7 @@ def meshes(folder: Path, *, choose: bool) -> None:
 
 
 def _usual_shapes() -> list["Spec"]:
-    """Shapes that some garages have in common and that give no light, and all bodies of cars."""
+    """Shapes without lights that several garages share, and all car bodies."""
     from garage2usd.config import GarageConfig  # noqa: PLC0415
     from garage2usd.config.vehicles import CAR_BODIES, PAINTS  # noqa: PLC0415
     from garage2usd.objects.car import CarSpec  # noqa: PLC0415

@@ -28,7 +28,7 @@ class Size(click.ParamType[tuple[int, int]]):
 
 
 class Numbers(click.ParamType[tuple[int, ...]]):
-    """Whole numbers from 0 on, as ``7``, ``0:48`` for 0 to 47, or several of these with commas."""
+    """Integers from 0, as ``7``, ``0:48`` for 0 to 47, or several of these with commas."""
 
     name = "A:B,..."
 
@@ -48,7 +48,7 @@ class Numbers(click.ParamType[tuple[int, ...]]):
 
 
 class Place(click.ParamType[tuple[float, float, float]]):
-    """A place in the stage, as ``12,1.6,-8.5``."""
+    """A point in the stage, as ``12,1.6,-8.5``."""
 
     name = "X,Y,Z"
 
@@ -66,7 +66,7 @@ class Place(click.ParamType[tuple[float, float, float]]):
 
 
 class Several(click.ParamType[tuple[str, ...]]):
-    """Some of several words, with commas."""
+    """A comma-separated selection of words."""
 
     def __init__(self, name: str, words: tuple[str, ...]) -> None:
         self.name, self._words = name, words

@@ -12,22 +12,22 @@ from garage2usd.common.errors import ConfigError
 __all__ = ["INPUT_FILE", "drive_options", "echo_notices", "echo_table", "profile_option", "refuse_seed", "seed_option"]
 
 INPUT_FILE = click.Path(dir_okay=False, path_type=Path)
-"""A file that is read; one that is missing or damaged ends in 1, as whatever reads it says."""
+"""An input file; a missing or damaged one ends in exit code 1, with the error of its reader."""
 
 seed_option = click.option(
     "--seed", metavar="N", type=click.IntRange(0, 2**63 - 1), help="Seed, in place of the configuration's."
 )
-"""The seed of a garage that is made from a configuration."""
+"""Option for the seed of a garage made from a configuration."""
 
 
 def profile_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """The standard; `text` says what for."""
+    """Option for the standard; `text` gives its purpose."""
     names = "cn-jgj100, de-garvo, uk-istructe, us-ada or a TOML file"
     return click.option("--profile", metavar="NAME|FILE", shell_complete=_profiles, help=f"{text}: {names}.")
 
 
 def drive_options(where: str, stall: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """What a car drives; `where` says when that is asked, `stall` what happens at the stall of that name."""
+    """Options that select a drive; `where` and `stall` begin the help of the portals and of the stall."""
     number = click.IntRange(min=1)
     options = [
         click.option("--stall", metavar="NAME", help=f"{stall}: its name, or the number painted in it."),
@@ -59,13 +59,13 @@ def echo_table(lines: Iterable[tuple[str, str]]) -> None:
 
 
 def echo_notices(notices: Iterable[str]) -> None:
-    """Print what the formats of exports cannot say, on standard error."""
+    """Print data that export formats cannot represent, on standard error."""
     for notice in notices:
         click.echo(notice, err=True)
 
 
 def refuse_seed(seed: int | None) -> None:
-    """Raise `ConfigError` for a seed beside a garage that is made already."""
+    """Raise `ConfigError` for a seed in addition to a finished garage."""
     if seed is not None:
         raise ConfigError("seed", seed, "a seed beside a configuration only, as this garage is made already")
 

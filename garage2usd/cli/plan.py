@@ -18,7 +18,7 @@ __all__ = ["plan"]
 
 _FORMATS = (".png", ".svg")
 _ROUNDING = 1e-6
-"""Of scores that are added up in another order."""
+"""Rounding of scores summed in different orders."""
 
 
 @click.command(short_help="Draw a plan with dimensions, as SVG or PNG.")
@@ -76,7 +76,7 @@ def plan(
         check_file(output)
     with Bars(sys.stderr) as progress:
         garage = _garage(path, seed, progress)
-        # before a check of a stage, which limits the processor time of what follows
+        # before the check of a stage, which limits the processor time of all later work
         told = _beside_optimum(garage, progress) if with_optimum else []
     stall = find_stall(garage.layout, number) if number else None
     marks = _marks(path) if with_findings else []
@@ -94,7 +94,7 @@ def plan(
 
 
 def _marks(path: Path) -> "list[Mark]":
-    """What a check finds at places of its own."""
+    """Findings of a check that have places."""
     from garage2usd.checks import check_file  # noqa: PLC0415 - keeps --help instant
     from garage2usd.view.plan_sheet import Mark  # noqa: PLC0415
 
@@ -107,7 +107,7 @@ def _marks(path: Path) -> "list[Mark]":
 
 
 def _beside_optimum(garage: "Garage", progress: "Progress") -> list[tuple[str, str]]:
-    """The score of a garage's plan, and how near it comes to the best that any lanes have on the same squares."""
+    """Score of a garage's plan, and its share of the proven optimum on the same squares."""
     from garage2usd.planning import find_optimum  # noqa: PLC0415 - keeps --help instant
 
     plan, config = garage.plan, garage.config
@@ -125,7 +125,7 @@ def _beside_optimum(garage: "Garage", progress: "Progress") -> list[tuple[str, s
 
 
 def _garage(path: Path, seed: int | None, progress: "Progress") -> "Garage":
-    """Made from a configuration, or again from a report."""
+    """Make a garage from a configuration, or rebuild it from a report."""
     from garage2usd.common.documents import is_file  # noqa: PLC0415
     from garage2usd.common.errors import ConfigError  # noqa: PLC0415
     from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant

@@ -160,15 +160,14 @@ def render(
     without_cars: bool | None,
     output: Path,
 ) -> None:
-    """Draw what the cameras of the stage PATH see: colour, depth, normals, instances and classes.
+    """Render the cameras of the stage PATH: colour, depth, normals, instances and classes.
 
-    Needs the extra `blender`, and for Pythons other than 3.11 a Blender that is installed. frames.json in the folder
-    says where each camera stood and what can be seen.
+    Needs the extra `blender`, and for Python versions other than 3.11 an installed Blender. frames.json in the folder
+    has the pose of each camera and the visible objects.
 
-    With --rig it is what the sensors of a car see on its way, or one on a column; needs the extra `sensors` too,
-    and no Blender for LiDARs alone, as with --points and without --only. The car itself is left out, and so is
-    what is parked where it goes. Pictures that are finished when it is interrupted stand in FOLDER.unfinished, and
-    the same command goes on from there.
+    --rig records the sensors of a car on a drive, or a sensor on a column; it needs the extra `sensors` too. LiDARs
+    alone, as with --points and without --only, need no Blender. The car itself and a car parked in its stall are left
+    out. After an interruption finished pictures remain in FOLDER.unfinished, and the same command resumes.
 
     \b
     Examples:

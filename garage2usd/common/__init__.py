@@ -1,1 +1,1 @@
-"""Tools of every room: errors, output that is whole or absent, limits, progress, random numbers."""
+"""Utilities for all packages: errors, atomic output, limits, progress, random numbers."""

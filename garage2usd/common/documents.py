@@ -1,4 +1,4 @@
-"""Text, TOML, JSON and NumPy files that anybody may have written: read as far as a limit, refused in one error."""
+"""Reading of untrusted text, TOML, JSON and NumPy files up to a size limit, with one error for every defect."""
 
 import codecs
 import io
@@ -30,46 +30,46 @@ __all__ = [
 ]
 
 ARRAY_SUFFIXES = (".npy", ".npz")
-"""What files of NumPy end in."""
+"""Extensions of NumPy files."""
 _HEADERS: dict[tuple[int, int], Callable[[io.BytesIO], tuple[tuple[int, ...], bool, np.dtype[Any]]]] = {
     (1, 0): npy_format.read_array_header_1_0,
     (2, 0): npy_format.read_array_header_2_0,
 }
 
 MAX_SETTINGS_BYTES = 16 * 1024 * 1024
-"""Configurations, profiles and structures have at most so many bytes."""
+"""Size limit of configurations, profiles and structures."""
 MAX_REPORT_BYTES = 512 * 1024 * 1024
-"""Reports of builds list each stall."""
+"""Size limit of build reports, which list every stall."""
 
 
 def is_file(path: Path) -> bool:
-    """Whether a path leads to a regular file; `pathlib` raises for names that no file can have."""
+    """True if a path is a regular file; also False for names that no file can have, for which `pathlib` raises."""
     return os.path.isfile(path)  # noqa: PTH113
 
 
 def read_bytes(path: Path, *, field: str, max_bytes: int = MAX_SETTINGS_BYTES) -> bytes:
-    """The bytes of a regular file.
+    """Read the bytes of a regular file.
 
     Parameters
     ----------
     path
-        The file; a symbolic link is followed, as everywhere.
+        The file; symbolic links are followed.
     field
-        What an error calls it: a setting or an argument.
+        Name of the setting or argument, for the error.
     max_bytes
-        How large it may be; no more of it is read.
+        Size limit; no more is read.
 
     Raises
     ------
     ConfigError
-        If it cannot be read, is not a regular file (a pipe would never end), or is too large.
+        If the file cannot be read, is not a regular file (a pipe might never end), or is too large.
     """
     try:
         if not stat.S_ISREG(path.stat().st_mode):
             raise ConfigError(field, str(path), "a regular file")
         with path.open("rb") as file:
             data = file.read(max_bytes + 1)
-    except (OSError, ValueError) as error:  # a path with a null byte is a ValueError
+    except (OSError, ValueError) as error:  # ValueError for a path with a null byte
         reason = (error.strerror if isinstance(error, OSError) else None) or error
         raise ConfigError(field, str(path), f"a readable file ({reason})") from None
     if len(data) > max_bytes:
@@ -78,7 +78,7 @@ def read_bytes(path: Path, *, field: str, max_bytes: int = MAX_SETTINGS_BYTES) -
 
 
 def read_text(path: Path, *, field: str, max_bytes: int = MAX_SETTINGS_BYTES) -> str:
-    """The text of a file in UTF-8, or in UTF-16 with a byte order mark, which is left out.
+    """Read a text file in UTF-8, or in UTF-16 with a byte order mark, which is removed.
 
     Raises
     ------
@@ -93,16 +93,16 @@ def read_text(path: Path, *, field: str, max_bytes: int = MAX_SETTINGS_BYTES) ->
 
 
 def read_toml(path: Path, *, field: str) -> dict[str, Any]:
-    """The tables of a TOML file; raises `ConfigError` as `read_text`, and for what is no TOML."""
+    """Read a TOML file; raises `ConfigError` as `read_text`, and for invalid TOML."""
     text = read_text(path, field=field)
     try:
         return tomllib.loads(text)
-    except (ValueError, RecursionError) as error:  # brackets a thousand deep, numbers of 5000 digits
+    except (ValueError, RecursionError) as error:  # for example brackets nested a thousand deep, numbers of 5000 digits
         raise ConfigError(field, str(path), f"TOML ({error})") from None
 
 
 def read_json(path: Path, *, field: str, max_bytes: int) -> Any:  # noqa: ANN401 - whatever JSON holds
-    """The value of a JSON file; raises `ConfigError` as `read_text`, and for what is no JSON, NaN and infinity too."""
+    """Read a JSON file; raises `ConfigError` as `read_text`, and for invalid JSON, NaN and infinity included."""
     text = read_text(path, field=field, max_bytes=max_bytes)
     try:
         return json.loads(text, parse_constant=_refuse)
@@ -111,28 +111,28 @@ def read_json(path: Path, *, field: str, max_bytes: int) -> Any:  # noqa: ANN401
 
 
 def read_arrays(path: Path, *, field: str, names: Sequence[str]) -> dict[str, NDArray[Any]]:
-    """Arrays of numbers from a file of NumPy; nothing in it is run.
+    """Read arrays of numbers from a NumPy file, without unpickling.
 
     Parameters
     ----------
     path
         An ``.npy`` file, which holds the first of `names`, or an ``.npz`` file.
     field
-        What an error calls it: a setting or an argument.
+        Name of the setting or argument, for the error.
     names
-        Arrays to read from an ``.npz`` file, those of them that it has; where it has none of them and only one array,
-        that is the first.
+        Arrays to read from an ``.npz`` file; missing ones are skipped. If the file has only a single array, under any
+        name, it counts as the first.
 
     Returns
     -------
     dict
-        The arrays by their names; the first is always there.
+        The arrays by name; the first one is always included.
 
     Raises
     ------
     ConfigError
-        As `read_bytes`, and for what is not such a file, lacks the first array, holds something else than numbers, or
-        an array of more than 16 MB.
+        As `read_bytes`, and for a file in another format, without the first array, with data other than numbers, or
+        with an array of more than 16 MB.
     """
     data = read_bytes(path, field=field)
     if path.suffix.lower() == ".npy":
@@ -156,7 +156,7 @@ def read_arrays(path: Path, *, field: str, names: Sequence[str]) -> dict[str, ND
 
 
 def _members(data: bytes, names: Sequence[str]) -> dict[str, bytes]:
-    """The first bytes of the arrays of an .npz file, one more than an array may have."""
+    """Leading bytes of the arrays of an .npz file, up to one byte beyond the size limit."""
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         members = {member.filename.removesuffix(".npy"): member for member in archive.infolist()}
         chosen = {name: members[name] for name in names if name in members}
@@ -170,12 +170,12 @@ def _members(data: bytes, names: Sequence[str]) -> dict[str, bytes]:
 
 
 def _array(data: bytes) -> NDArray[Any]:
-    """The array of an .npy file; no memory is taken for more than its bytes, whatever its header says.
+    """Parse the array of an .npy file, without allocating more than its actual size, whatever its header says.
 
     Raises
     ------
     ValueError
-        And whatever else a header may lead to, if it is none.
+        If the header is invalid; other exceptions of NumPy are possible.
     """
     file = io.BytesIO(data)
     shape, is_by_columns, dtype = _HEADERS[npy_format.read_magic(file)](file)  # type: ignore[no-untyped-call]

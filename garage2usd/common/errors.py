@@ -1,4 +1,4 @@
-"""One hierarchy of errors: what failed, the value, what is allowed, and the seed that reproduces it."""
+"""Hierarchy of errors: each names the failure, the value, the allowed values, and the seed that reproduces it."""
 
 import os
 from collections.abc import Sequence
@@ -19,10 +19,10 @@ __all__ = [
 
 
 class Garage2UsdError(Exception):
-    """Base of every error that garage2usd raises on purpose."""
+    """Base class of all errors that garage2usd raises on purpose."""
 
     def __reduce__(self) -> "tuple[object, ...]":
-        """Go to other processes by message and attributes, as each error takes other arguments."""
+        """Pickle an error by message and attributes, as the constructors differ."""
         return _restored, (type(self), self.args, self.__dict__)
 
 
@@ -34,7 +34,7 @@ def _restored(kind: type[Garage2UsdError], args: tuple[object, ...], attributes:
 
 
 class ConfigError(Garage2UsdError, ValueError):
-    """A value given by the user that cannot be used.
+    """An invalid value given by the user.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ class ConfigError(Garage2UsdError, ValueError):
     value
         The value as given.
     allowed
-        What would have been accepted, in words.
+        Description of the allowed values.
     """
 
     def __init__(self, field: str, value: object, allowed: str) -> None:
@@ -54,14 +54,14 @@ class ConfigError(Garage2UsdError, ValueError):
 
 
 class DataSetError(Garage2UsdError):
-    """A data set that is not whole.
+    """An incomplete or damaged data set.
 
     Parameters
     ----------
     path
-        Its folder.
+        Folder of the data set.
     reason
-        What is wrong.
+        Description of the defect.
     """
 
     def __init__(self, path: object, reason: str) -> None:
@@ -69,18 +69,18 @@ class DataSetError(Garage2UsdError):
 
 
 class GenerationError(Garage2UsdError):
-    """A random step that found no valid result within its bounded attempts.
+    """A random step without a valid result within its attempts.
 
     Parameters
     ----------
     step
-        Name of the step on the road, for example ``portals``.
+        Name of the step in the pipeline, for example ``portals``.
     reason
-        What was missing, with figures.
+        Description of the failure, with figures.
     seed
-        The seed that reproduces the failure.
+        Seed that reproduces the failure.
     attempts
-        How many attempts were made.
+        Number of attempts.
     """
 
     def __init__(self, step: str, reason: str, *, seed: int, attempts: int) -> None:
@@ -92,14 +92,14 @@ class GenerationError(Garage2UsdError):
 
 
 class UnreachableStallError(Garage2UsdError):
-    """Stalls that no entrance reaches, or that reach no exit.
+    """Stalls without a path from an entrance or to an exit.
 
     Parameters
     ----------
     cells
-        (row, col) of each square that holds such stalls.
+        (row, col) of each square with such stalls.
     drawing
-        The structure matrix as text with those squares marked ``?``.
+        The structure matrix as text with these squares marked ``?``.
     """
 
     def __init__(self, cells: Sequence[tuple[int, int]], drawing: str) -> None:
@@ -110,14 +110,14 @@ class UnreachableStallError(Garage2UsdError):
 
 
 class OutputError(Garage2UsdError, OSError):
-    """A file that could not be written; nothing was left behind.
+    """A file that could not be written; no partial output remains.
 
     Parameters
     ----------
     path
         The path as given.
     reason
-        What the operating system said.
+        Reason given by the operating system.
     """
 
     def __init__(self, path: object, reason: str) -> None:
@@ -126,19 +126,19 @@ class OutputError(Garage2UsdError, OSError):
         super().__init__(f"{path}: {reason}")
 
     def __str__(self) -> str:
-        """Path and reason, without OSError's errno form."""
+        """Path and reason, without the error number of OSError."""
         return f"{_printable(self.path)}: {self.reason}"
 
 
 class UnreadableFileError(Garage2UsdError):
-    """A file that is not what it should be.
+    """An invalid file.
 
     Parameters
     ----------
     path
         The file.
     reason
-        What is wrong with it.
+        Description of the defect.
     """
 
     def __init__(self, path: object, reason: str) -> None:
@@ -152,20 +152,20 @@ class StageError(UnreadableFileError):
 
 
 class ReportError(UnreadableFileError):
-    """A report of a build that cannot be used."""
+    """A build report that cannot be used."""
 
 
 class MissingExtraError(Garage2UsdError):
-    """A part of garage2usd that is not installed.
+    """An optional part of garage2usd that is not installed.
 
     Parameters
     ----------
     command
-        What was asked for.
+        The requested command or feature.
     extra
-        Name of the extra that brings what is missing.
+        Name of the extra that installs the missing package.
     brings
-        What that is, in words.
+        Description of the missing package.
     """
 
     def __init__(self, command: str, extra: str, brings: str) -> None:
@@ -175,14 +175,14 @@ class MissingExtraError(Garage2UsdError):
 
 
 class RenderError(Garage2UsdError):
-    """Blender ended without its pictures.
+    """A failure of Blender during rendering.
 
     Parameters
     ----------
     code
-        Its exit code, or the negative number of the signal that ended it.
+        Exit code, or the negative number of the signal that ended Blender.
     said
-        The last that it said.
+        Last output of Blender.
     """
 
     def __init__(self, code: int, said: str) -> None:
@@ -192,7 +192,7 @@ class RenderError(Garage2UsdError):
 
 
 def _printable(path: object) -> str:
-    """A path in one line, in which signs that cannot be printed stand by their number."""
+    """Format a path in one line, with escapes for non-printable characters."""
     return "".join(sign if sign.isprintable() else ascii(sign)[1:-1] for sign in str(path))
 
 
@@ -200,7 +200,7 @@ _BRIEF_CHARACTERS = 80
 
 
 def _brief(value: object) -> str:
-    """A value in one line: a path whole, as its end tells most; of others no more than their beginning."""
-    text = repr(value).replace("\n", "")  # arrays take a line a row
+    """Format a value in one line: a path in full, since its end is significant, any other value truncated."""
+    text = repr(value).replace("\n", "")  # arrays are printed over several lines
     is_path = isinstance(value, str) and os.sep in value and "\n" not in value
     return text if is_path or len(text) <= _BRIEF_CHARACTERS else f"{text[:_BRIEF_CHARACTERS]}..."

@@ -1,4 +1,4 @@
-"""The extras of garage2usd: which modules each brings, and that what needs one says so before its work."""
+"""Optional extras of garage2usd: modules that each installs, and checks for them before the work."""
 
 import sys
 from collections.abc import Iterable, Iterator
@@ -11,11 +11,11 @@ from garage2usd.common.system import HAS_EMBREE
 __all__ = ["BLENDER", "PICTURES", "RAYS", "is_there", "of_extra", "require"]
 
 BLENDER = ("bpy", "OpenEXR")
-"""Modules that render pictures with Blender and read them."""
+"""Modules for rendering with Blender and reading the images."""
 PICTURES = ("OpenEXR",)
-"""What reads pictures that an installed Blender draws."""
+"""Modules for reading images rendered by an installed Blender."""
 RAYS = ("embreex", "trimesh") if HAS_EMBREE else ("trimesh",)
-"""What casts rays; where there is no embreex, `garage2usd.sensors.rays.ray_caster` does, many times as slowly."""
+"""Modules for ray casting; without embreex, the much slower `garage2usd.sensors.rays.ray_caster` is used."""
 
 _BROUGHT = {
     "bpy": ("blender", "Blender's Python module"),
@@ -31,26 +31,26 @@ _BROUGHT = {
     "trimesh": ("sensors", "trimesh"),
     "rosbags": ("sensors", "rosbags"),
 }
-"""By module the extra that brings it, and what people call it."""
+"""Extra and display name of each optional module."""
 _PYTHON_OF_BLENDER = (3, 11)
 
 
 def require(purpose: str, modules: Iterable[str], *, without: str = "") -> None:
-    """Find out whether modules of extras are installed, without loading them.
+    """Check that optional modules are installed, without importing them.
 
     Parameters
     ----------
     purpose
-        What needs them; begins the sentence that says so.
+        Feature that needs them; the beginning of the error message.
     modules
-        The modules, as they are imported.
+        Import names of the modules.
     without
-        What goes without them, in words; told with what is missing of Blender.
+        Alternative without the modules, in words; appended to the message if parts of Blender are missing.
 
     Raises
     ------
     MissingExtraError
-        If one is not there; names all that are missing, and their extras.
+        If a module is missing; names all missing modules and their extras.
     """
     missing = [module for module in modules if not is_there(module)]
     if missing:
@@ -64,12 +64,12 @@ def is_there(module: str) -> bool:
 
 @contextmanager
 def of_extra(purpose: str) -> Iterator[None]:
-    """Import modules of extras.
+    """Context for imports of optional modules.
 
     Raises
     ------
     MissingExtraError
-        If one is not there.
+        If a module is not installed.
     """
     try:
         yield

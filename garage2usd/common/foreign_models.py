@@ -1,5 +1,5 @@
-"""Models that other programs wrote, as triangles with their surfaces: USD of any units and axes, and GLB."""
-# Over 300 lines: two formats are read into the same parts.
+"""Reading of models from other programs (USD of any units and axes, GLB) as triangles with surfaces."""
+# Over 300 lines: two formats are read into the same data structure.
 
 import hashlib
 import io
@@ -19,7 +19,7 @@ from garage2usd.common.extras import of_extra
 __all__ = ["MODEL_SUFFIXES", "ForeignPart", "ForeignSurface", "model_digest", "read_model"]
 
 MODEL_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz", ".glb")
-"""What the files of models end in."""
+"""Extensions of model files."""
 _MOST_BYTES = 256 * 1024 * 1024
 _MOST_TRIANGLES = 400_000
 _LARGEST_PX = 1024
@@ -30,23 +30,23 @@ _Z_UP_TO_Y_UP = np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]])
 
 @dataclass(frozen=True)
 class ForeignSurface:
-    """How a part of a model looks.
+    """Surface of a model's part.
 
     Attributes
     ----------
     name
-        Of its material in the file.
+        Name of the material in the file.
     colour_rgb
-        Linear, where it has no texture.
+        Linear colour, or the tint of `picture`.
     roughness, metallic, opacity
-        0 to 1.
+        From 0 to 1.
     picture
-        Texture of its colours as PNG, which `colour_rgb` tints; empty for none.
+        Base colour texture as PNG; empty for none.
     packed
-        Texture of its occlusion, roughness and metallic as the channels of a PNG, in place of those numbers; empty for
+        Texture of occlusion, roughness and metallic in the channels of a PNG, which replaces these numbers; empty for
         none.
     normals
-        Texture of its normals as PNG, 8 bits hold (n + 1) / 2; empty for none.
+        Normal map as PNG, in which 8 bits store (n + 1) / 2; empty for none.
     """
 
     name: str = ""
@@ -66,13 +66,13 @@ class ForeignPart:
     Attributes
     ----------
     name
-        Its names in the file from the root down, apart by ``/``.
+        Path of names in the file, separated by ``/``.
     triangles_m
-        In metres, Y up; float64, shape (n, 3, 3), counter-clockwise seen from outside.
+        Corners in metres, Y up; float64, shape (n, 3, 3), counter-clockwise seen from outside.
     st
         Texture coordinates of the corners, V upwards; float64, shape (n, 3, 2).
     surface
-        How it looks.
+        Its surface.
     is_z_up
         Whether Z is up in the file.
     """
@@ -85,12 +85,12 @@ class ForeignPart:
 
 
 def model_digest(path: Path, *, field: str) -> str:
-    """SHA-256 of a model's file and of all that it refers to.
+    """Compute the SHA-256 of a model's file and of all files that it refers to.
 
     Raises
     ------
     ConfigError
-        If one of them cannot be read, or a reference leads nowhere.
+        If a file cannot be read, or a reference cannot be resolved.
     """
     files = [path]
     if path.suffix.lower() != ".glb":
@@ -109,21 +109,21 @@ def model_digest(path: Path, *, field: str) -> str:
 
 
 def read_model(path: Path, *, field: str) -> tuple[ForeignPart, ...]:
-    """The parts of a model.
+    """Read the parts of a model.
 
     Parameters
     ----------
     path
-        A file that ends in one of `MODEL_SUFFIXES`.
+        A file with an extension in `MODEL_SUFFIXES`.
     field
-        What an error calls it.
+        Name of the setting, for the error.
 
     Raises
     ------
     ConfigError
-        If it is broken, holds no triangle, or more than garages can carry.
+        If the file is damaged, has no triangle, or exceeds the limits on a model.
     MissingExtraError
-        If it is a GLB, and what reads it is not installed.
+        If the file is a GLB, and the package that reads it is not installed.
     """
     parts = tuple(part for part in (_of_glb if path.suffix.lower() == ".glb" else _of_usd)(path, field) if len(part.st))
     count = sum(len(part.st) for part in parts)
@@ -193,7 +193,7 @@ def _of_pbr(material: Any, path: Path, field: str) -> ForeignSurface:  # noqa: A
 
 
 def _image(picture: Any, path: Path, field: str) -> Image.Image:  # noqa: ANN401 - a picture, or the bytes of one
-    """A picture in red, green and blue, not larger than garages carry."""
+    """Convert an image to RGB, and reduce it to the size limit of garages."""
     try:
         image: Image.Image = Image.open(io.BytesIO(picture)) if isinstance(picture, bytes) else picture
         image = image.convert("RGB")
@@ -217,7 +217,7 @@ def _times(channel: Image.Image, factor: float) -> Image.Image:
 
 
 def _packed(*channels: Image.Image | float) -> Image.Image:
-    """Three channels as one picture, of the size of the largest that is no number."""
+    """Pack three channels into one image, with the size of the largest texture among them."""
     size = max(channel.size for channel in channels if isinstance(channel, Image.Image))
     return Image.merge(
         "RGB",
@@ -290,7 +290,7 @@ def _is_drawn(prim: Any, time: Any) -> bool:  # noqa: ANN401 - of pxr
 
 
 def _fans(counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Triangles of faces by the numbers of their corners, shape (n, 3), and the face of each."""
+    """Triangulate polygons by fans: indices of corners, shape (n, 3), and the polygon of each triangle."""
     starts = np.cumsum(counts) - counts
     each = np.maximum(counts - 2, 0)
     face_of = np.repeat(np.arange(len(counts)), each)
@@ -300,7 +300,7 @@ def _fans(counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int6
 
 
 def _coordinates(mesh: Any, indices: NDArray[np.int64], points: int, time: Any) -> NDArray[np.float64]:  # noqa: ANN401
-    """Texture coordinates of each corner, zeros where there are none; shape (corners, 2)."""
+    """Texture coordinates of each corner, zeros if there are none; shape (corners, 2)."""
     from pxr import UsdGeom  # noqa: PLC0415 - as above
 
     for primvar in UsdGeom.PrimvarsAPI(mesh).GetPrimvarsWithValues():
@@ -328,7 +328,7 @@ def _of_preview(material: Any, path: Path, field: str) -> ForeignSurface:  # noq
         return usual if found is None else found
 
     def texture(key: str) -> tuple[Image.Image, str] | None:
-        """The picture that an input is connected to, and which output of its reader."""
+        """Image that an input is connected to, and the name of the reader's output."""
         given = surface.GetInput(key)
         if not given or not given.HasConnectedSource():
             return None

@@ -1,4 +1,4 @@
-"""JSON in few bytes, which people can still read."""
+"""Compact, readable JSON output."""
 
 import json
 import re
@@ -7,23 +7,23 @@ from collections.abc import Callable, Mapping
 __all__ = ["json_text", "short_json"]
 
 _STRING_OR_ZERO = re.compile(r'(?P<string>"(?:[^"\\]|\\.)*")|(?<=\d)(?<!-0)\.0(?![\de])')
-"""A string, or what makes a whole number look like others; not that of -0.0, whose sign an integer has not."""
+"""A string, or the ``.0`` of an integral number; that of -0.0 is kept, since integers have no signed zero."""
 
 
 def short_json(value: object) -> str:
-    """JSON without blanks, and with whole numbers as such, which it does not tell from others: 2.0 as 2.
+    """Format JSON without blanks, and with integral floats as integers: 2.0 as 2.
 
     Raises
     ------
     ValueError
-        If a number is NaN or infinite, which JSON cannot say.
+        If a number is NaN or infinite, which JSON does not support.
     """
     text = json.dumps(value, separators=(",", ":"), allow_nan=False)
     return _STRING_OR_ZERO.sub(lambda found: found["string"] or "", text)
 
 
 def json_text(document: Mapping[str, object]) -> str:
-    """A JSON object with a line for each key, for each object of a list, and for each list of an object; else short."""
+    """Format a JSON object with one line per key, per object of a list, and per list of an object; else compact."""
     return _in_lines(document, _inner) + "\n"
 
 

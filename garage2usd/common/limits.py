@@ -1,8 +1,8 @@
-"""Limits of processor time and memory for a process that reads what anybody may have written, and of threads.
+"""Limits of processor time, memory and threads for a process that reads untrusted files.
 
-Those of time and memory hold only in a process that `enforce`s them, as the commands do that read stages: USD composes
-without an end in sight where a few lines refer to each other in doubling numbers, and nothing in it can be told to
-stop. Windows has none.
+Limits of time and memory apply only to a process that calls `enforce`, as the commands that read stages do: a few lines
+of USD can refer to each other in exponentially many ways, and composition cannot be interrupted. Windows has no such
+limits.
 """
 
 from garage2usd.common.system import limit_memory, limit_processor_s
@@ -10,11 +10,11 @@ from garage2usd.common.system import limit_memory, limit_processor_s
 __all__ = ["ONE_THREAD", "allow_seconds", "enforce", "lift"]
 
 ONE_THREAD = {"PXR_WORK_THREAD_LIMIT": "1", "TF_ENV_SETTING_ALERTS_ENABLED": "0", "OPENBLAS_NUM_THREADS": "1"}
-"""Environment of a process in which libraries keep to the thread that calls them, set before they are loaded.
+"""Environment variables that restrict libraries to the calling thread, set before they are loaded.
 
-Threads of USD and OpenBLAS look for work in a loop between the short pieces that a garage has for them: a quarter of
-the processor time of a check. USD's own `Work.SetConcurrencyLimit` leaves one that does so for ever; and it prints such
-settings if it is not told otherwise.
+Otherwise the threads of USD and OpenBLAS poll for work between a garage's short tasks, a quarter of the processor time
+of a check. `Work.SetConcurrencyLimit` of USD leaves one polling thread. The second variable silences USD's message
+about the first.
 """
 
 _MAX_MEMORY_BYTES = 8 * 1024**3
@@ -22,20 +22,20 @@ _enforced = False
 
 
 def enforce() -> None:
-    """Let this process take 8 GB of memory, leave no core file, and heed `allow_seconds` from now on."""
+    """Limit this process to 8 GB of memory, disable core dumps, and enable `allow_seconds`."""
     global _enforced  # noqa: PLW0603 - limits are the process's own
     _enforced = True
     limit_memory(_MAX_MEMORY_BYTES)
 
 
 def allow_seconds(seconds: float) -> None:
-    """End this process by SIGXCPU if it takes more seconds of processor time than so many from now on."""
+    """Limit the processor time of this process to so many seconds from now; SIGXCPU ends it afterwards."""
     if _enforced:
         limit_processor_s(seconds)
 
 
 def lift() -> None:
-    """Let this process, and those that it starts, take any time and memory."""
+    """Remove the limits of time and memory for this process and its child processes."""
     if _enforced:
         limit_processor_s(None)
         limit_memory(None)

@@ -1,6 +1,6 @@
-"""Output that is whole or absent: made elsewhere, then moved into place."""
+"""Atomic output: files are made in a temporary folder, then moved into place."""
 
-# Over 300 lines: what is refused before the work, what is made elsewhere and what is moved hold only together.
+# Over 300 lines: the checks before the work, temporary folders and moves are one protocol.
 
 import os
 import re
@@ -36,33 +36,33 @@ HIDDEN_PREFIX = ".garage2usd-"
 _KEY = "work.txt"
 _AT_WORK = "another run is at work in it; wait until that has ended, or name another folder"
 _LOCK = "lock.bin"
-"""Locked while a run is at work in the folder; the system opens it when the run ends, however that happens."""
+"""Lock file of a run at work in a folder; the system releases the lock when the process ends, for any reason."""
 _CONTROL = "control characters"
 _LONGEST_NAME_BYTES = 220
-"""File systems take 255, of which other files' endings take some."""
+"""Longest file name: file systems allow 255 bytes, of which derived names need some."""
 _UNSPEAKABLE = re.compile(r"[\x00-\x1f\x7f-\x9f\ud800-\udfff]")
 _UNSPEAKABLE_BY_USD = "@\\"
 
 
 def can_say(path: str | Path) -> bool:
-    """Whether USD and formats of text can say a path: it is in UTF-8, and has no control characters."""
+    """True if USD and text formats can store a path: valid UTF-8 without control characters."""
     return _UNSPEAKABLE.search(str(path)) is None
 
 
 def check_name(path: Path, *, of_layer: bool = False) -> None:
-    """Find out whether the name of a file that is to be written can be said in text files.
+    """Check that the name of an output file can be stored in text files.
 
     Parameters
     ----------
     path
         The file.
     of_layer
-        Whether USD has to say it too.
+        Whether USD must be able to store the name too.
 
     Raises
     ------
     ConfigError
-        If it cannot.
+        If the name cannot be stored.
     """
     unspeakable = f"'@', '\\' and {_CONTROL}" if of_layer else _CONTROL
     if not can_say(path.name) or (of_layer and any(sign in path.name for sign in _UNSPEAKABLE_BY_USD)):
@@ -72,14 +72,14 @@ def check_name(path: Path, *, of_layer: bool = False) -> None:
 
 
 def check_file(path: Path, *, with_it: Iterable[Path] = ()) -> None:
-    """Find out before the work whether a file can stand at a path, and beside it others with a little longer names.
+    """Check before the work that a file can be written at a path, and files with slightly longer names beside it.
 
     Raises
     ------
     ConfigError
-        If its name is too long, or a folder stands in its place or in that of a file that comes with it.
+        If its name is too long, or a folder stands at its path or at that of an accompanying file.
     OutputError
-        If its folder cannot be written.
+        If its folder is not writable.
     """
     try:
         bytes_ = len(os.fsencode(path.name))
@@ -96,12 +96,12 @@ def check_file(path: Path, *, with_it: Iterable[Path] = ()) -> None:
 
 
 def check_writable(folder: Path) -> None:
-    """Find out before the work whether files can be written into `folder` or the folder it will be made in.
+    """Check before the work that files can be written into `folder`, or into its nearest existing parent.
 
     Raises
     ------
     OutputError
-        If they cannot.
+        If the folder is not writable.
     """
     try:
         existing = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
@@ -113,9 +113,9 @@ def check_writable(folder: Path) -> None:
 
 @contextmanager
 def writing(place: Path, *, where: str = "") -> Iterator[None]:
-    """Raise `OutputError` in place of any other OSError, with the file that it names or else `place`.
+    """Convert any other OSError to an `OutputError` that names the error's file, or else `place`.
 
-    A file that only this program knows of, as it is not in its place yet, is called `place`, and `where` it is told.
+    A temporary file, unknown to the user, is reported as `place`; `where` is a folder of such files.
     """
     try:
         yield
@@ -130,17 +130,17 @@ def writing(place: Path, *, where: str = "") -> Iterator[None]:
 
 @contextmanager
 def staging_folder(place: Path | None = None) -> Iterator[Path]:
-    """A temporary folder to make files in; gone afterwards, whatever happened.
+    """Create a temporary folder that is removed on exit in any case.
 
     Parameters
     ----------
     place
-        Where what is made goes: errors name it, and not what is in the folder. Left out, they stay as they are.
+        Destination of the files, which errors name instead of the temporary path. If left out, errors are unchanged.
 
     Raises
     ------
     OutputError
-        If something cannot be written there.
+        If a file cannot be written in the folder.
     """
     with writing(place or Path(tempfile.gettempdir())):
         folder = tempfile.TemporaryDirectory(prefix=HIDDEN_PREFIX)
@@ -149,30 +149,30 @@ def staging_folder(place: Path | None = None) -> Iterator[Path]:
 
 
 def drafting(place: Path) -> AbstractContextManager[None]:
-    """Raise `OutputError` as `writing`, for a file that is made in a folder for temporary files."""
+    """Convert OSErrors as `writing` does, for a file made in a system folder for temporary files."""
     return writing(place, where=f" in {tempfile.gettempdir()}, where it is made first")
 
 
 @contextmanager
 def unfinished_folder(folder: Path, key: str) -> Iterator[Path]:
-    """A folder beside `folder`, ``<folder>.unfinished``, for what is made piece by piece and takes long.
+    """Provide a folder ``<folder>.unfinished`` beside `folder` for long work that is done in pieces.
 
-    It stays if the work is interrupted, however that happens, and is there again for the same work; it is gone when the
-    work is done, or if nothing was finished.
+    An interruption leaves the folder for the next run with the same key. It is removed when the work is complete, or if
+    no piece was finished.
 
     Parameters
     ----------
     folder
-        Where the whole goes in the end.
+        Final destination of the result.
     key
-        Says which work it is.
+        Identifies the work.
 
     Raises
     ------
     ConfigError
-        If it holds other work.
+        If the folder belongs to other work.
     OutputError
-        If it cannot be made, or another run works in it.
+        If the folder cannot be created, or another run uses it.
     """
     place = folder.absolute().with_name(f"{folder.absolute().name}.unfinished")
     note, locked = place / _KEY, place / _LOCK
@@ -205,12 +205,12 @@ def unfinished_folder(folder: Path, key: str) -> Iterator[Path]:
 
 @contextmanager
 def only_run(folder: Path) -> Iterator[None]:
-    """See to it that no other run works in an existing folder.
+    """Ensure that no other run uses an existing folder.
 
     Raises
     ------
     OutputError
-        If another one does, or the folder cannot be written.
+        If another run uses it, or the folder is not writable.
     """
     locked = folder / f"{HIDDEN_PREFIX}{_LOCK}"
     with writing(folder):
@@ -226,34 +226,34 @@ def only_run(folder: Path) -> Iterator[None]:
 
 
 def _takes(file: IO[bytes], path: Path) -> bool:
-    """Lock a file that was opened at a path, until it is closed; whether nobody else has, and it still stands there."""
+    """Lock an open file until it is closed; True if the lock was free and the file is still at its path."""
     try:
         lock(file)
     except BlockingIOError:
         return False
-    # the other run may have ended, and removed the folder, after the file was opened
+    # another run may have removed the folder after the file was opened
     return path.exists() and os.path.samestat(path.stat(), os.fstat(file.fileno()))
 
 
 def publish(items: Sequence[Path], folder: Path) -> tuple[Path, ...]:
-    """Move finished files and folders into `folder` under their names, and return their places; as `publish_at`."""
+    """Move finished files and folders into `folder` under their names, as `publish_at`; return their paths."""
     return publish_at({item: folder / item.name for item in items})
 
 
 def publish_at(places: Mapping[Path, Path]) -> tuple[Path, ...]:
-    """Move finished files and folders to their places, the last one last, replacing what stands there.
+    """Move finished files and folders to their destinations, the last one last, replacing existing ones.
 
-    All of them are first copied beside their places under hidden names; only when that went well are they renamed.
+    All of them are first copied beside their destinations under hidden names, and renamed only if every copy succeeds.
 
     Returns
     -------
     tuple of Path
-        Their places.
+        The destinations.
 
     Raises
     ------
     OutputError
-        If they could not be written; what stood there before still does.
+        If a copy fails; existing files are then unchanged.
     """
     made: list[Path] = []
     start = f"{HIDDEN_PREFIX}{os.getpid()}"
@@ -268,7 +268,7 @@ def publish_at(places: Mapping[Path, Path]) -> tuple[Path, ...]:
     except BaseException:
         for copy in hidden:
             _remove(copy)
-        for parent in sorted(made, reverse=True):  # what lies within a folder goes before it
+        for parent in sorted(made, reverse=True):  # contents of a folder before the folder itself
             with suppress(OSError):
                 parent.rmdir()
         raise
@@ -276,7 +276,7 @@ def publish_at(places: Mapping[Path, Path]) -> tuple[Path, ...]:
 
 
 def _copy(item: Path, copy: Path, place: Path) -> None:
-    """Copy a file, or a folder with all that is in it; what cannot be copied is named by its place."""
+    """Copy a file, or a folder recursively; errors name the destination."""
     try:
         if not item.is_dir():
             shutil.copyfile(item, copy)
@@ -289,15 +289,15 @@ def _copy(item: Path, copy: Path, place: Path) -> None:
 
 
 def store(path: Path, data: bytes) -> None:
-    """See to it that a file that several processes may write at once, all of them the same, holds `data`.
+    """Write `data` to a file that several processes may write concurrently with equal contents.
 
-    A file that does is left alone. Any other, such as one of which a disk that was full took only the beginning, is
-    replaced at once by a whole one, which nobody sees half written.
+    A file with these contents is left unchanged. Any other, for example one truncated by a full disk, is replaced
+    atomically.
 
     Raises
     ------
     OutputError
-        If it cannot be written.
+        If the file cannot be written.
     """
     if _holds(path, data):
         return
@@ -307,7 +307,7 @@ def store(path: Path, data: bytes) -> None:
         hidden.write_bytes(data)
         hidden.replace(path)
     except OSError as error:
-        if not _holds(path, data):  # systems that keep files from being replaced while another process reads them
+        if not _holds(path, data):  # some systems forbid replacing a file while another process reads it
             named = path if error.filename == str(hidden) else error.filename
             raise OutputError(named or path, error.strerror or str(error)) from None
     finally:
@@ -324,7 +324,7 @@ def _holds(path: Path, data: bytes) -> bool:
 
 
 def _make_folder(folder: Path) -> list[Path]:
-    """Make `folder` and its parents; returns those that were missing."""
+    """Create `folder` and its parents; return those that were missing."""
     missing = [path for path in (folder, *folder.parents) if not path.exists()]
     with writing(folder):
         folder.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""The process itself: its collector, and copies of it that do parts of its work at the same time."""
+"""Garbage collection of the process, and parallel tasks in forked copies of it."""
 
 import gc
 from collections.abc import Callable, Iterator, Sequence
@@ -10,14 +10,14 @@ from typing import TypeVar, cast
 
 from garage2usd.common.system import can_be_copied
 
-__all__ = ["each_in_a_copy", "without_collector"]
+__all__ = ["run_in_forks", "without_collector"]
 
 _Outcome = TypeVar("_Outcome")
 
 
 @contextmanager
 def without_collector() -> Iterator[None]:
-    """Python's collector of cycles waits: of the millions of small values that are made, hardly one is in a cycle."""
+    """Disable Python's cyclic garbage collector, as hardly any of the millions of small values are in a cycle."""
     was_enabled = gc.isenabled()
     gc.disable()
     try:
@@ -27,31 +27,32 @@ def without_collector() -> Iterator[None]:
             gc.enable()
 
 
-def each_in_a_copy(tasks: Sequence[Callable[[], _Outcome]], workers: int) -> Iterator[_Outcome]:
-    """Do tasks in copies of this process, which have all that it has in memory.
+def run_in_forks(tasks: Sequence[Callable[[], _Outcome]], workers: int) -> Iterator[_Outcome]:
+    """Run tasks in forked copies of this process, which share its memory.
 
     Parameters
     ----------
     tasks
-        What is done; what they return, or raise, is pickled.
+        Functions to call; their results and exceptions are pickled.
     workers
-        How many copies there are at most.
+        Maximum number of copies.
 
     Yields
     ------
     object
-        What the tasks return, in their order.
+        Results of the tasks, in order.
 
     Raises
     ------
     Exception
-        What the first of them raises that fails; those that have not begun are given up.
+        The exception of the first task that fails; tasks that have not started are cancelled.
 
     Notes
     -----
-    A copy has only the thread that made it. So where this process has several, as libraries start them, where it cannot
-    be copied, or where there is one worker or one task, they are done here in turn. So is what is left when a copy
-    crashes, by which this process ends as it would without copies. Only Linux tells how many threads there are.
+    A fork has only the calling thread. Tasks therefore run here in turn if this process has several threads, as
+    libraries may start them, if the system cannot fork, or for a single worker or task. The remaining tasks run here
+    too if a copy crashes, so that this process ends as it would without copies. The number of threads is known on Linux
+    only.
     """
     workers, done = min(workers, len(tasks)), 0
     if workers > 1 and can_be_copied():
@@ -69,7 +70,7 @@ _held: Sequence[Callable[[], object]] = ()
 
 
 def _hold(tasks: Sequence[Callable[[], object]]) -> None:
-    """Keep the tasks, of which a copy is sent only the numbers."""
+    """Store the tasks in the process, so that only their indices are sent to a copy."""
     global _held  # noqa: PLW0603 - of a process that does nothing else
     _held = tasks
 

@@ -1,4 +1,4 @@
-"""Public names of a package that are loaded on first use, so that importing the package stays instant."""
+"""Lazy loading of a package's public names, so that its import is fast."""
 
 from collections.abc import Callable, Mapping
 from importlib import import_module
@@ -7,7 +7,7 @@ __all__ = ["on_first_use"]
 
 
 def on_first_use(package: str, home: Mapping[str, str]) -> Callable[[str], object]:
-    """The ``__getattr__`` of a package, of whose names `home` says in which of its modules each is."""
+    """Make the ``__getattr__`` of a package; `home` maps its public names to modules."""
 
     def load(name: str) -> object:
         if name not in home:

@@ -1,4 +1,4 @@
-"""One generator a step, so that a change in one step cannot move another."""
+"""Random generators, one for each step, so that a change in one step does not affect another."""
 
 from enum import IntEnum, unique
 
@@ -9,7 +9,7 @@ __all__ = ["Step", "derived_seed", "generator", "named_generator"]
 
 @unique
 class Step(IntEnum):
-    """Every random step of the road and of its sensors with its fixed id; ids are never used again for another step."""
+    """Random steps of the pipeline and the sensors with fixed ids; an id is never reused."""
 
     CONTOUR = 1
     PORTALS = 2
@@ -38,36 +38,36 @@ class Step(IntEnum):
 
 
 def generator(seed: int, step: Step, attempt: int = 0) -> np.random.Generator:
-    """The generator of one step.
+    """Create the random generator of a step.
 
     Parameters
     ----------
     seed
-        The garage's seed, 0 or more.
+        Seed of the garage, 0 or more.
     step
-        Which step draws from it.
+        The step.
     attempt
-        Number of the restart, so that a restarted step draws anew.
+        Number of the restart; each restart has different draws.
     """
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, int(step), attempt])))
 
 
 def named_generator(seed: int, step: Step, name: str) -> np.random.Generator:
-    """The generator of a part of a step that has a name, so that what is drawn for one cannot move another."""
+    """Create the random generator of a named part of a step, independent of its other parts."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, int(step), *name.encode()])))
 
 
 def derived_seed(seed: int, step: Step, *numbers: int) -> int:
-    """A seed of its own for a part of some work, such as a garage of a data set.
+    """Derive a seed for a part of some work, such as one garage of a data set.
 
     Parameters
     ----------
     seed
-        The seed of the whole, 0 or more.
+        Seed of the whole, 0 or more.
     step
-        Which step has parts.
+        Step that has parts.
     numbers
-        Which part it is, each 0 or more.
+        Indices of the part, each 0 or more.
 
     Returns
     -------

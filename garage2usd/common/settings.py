@@ -1,4 +1,4 @@
-"""What all models of files share."""
+"""Base classes and validation of settings and records in files."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any, TypeVar, get_args
@@ -11,7 +11,7 @@ __all__ = ["Record", "Settings", "config_error", "first_fault", "validated"]
 
 
 class Settings(BaseModel):
-    """A frozen group of values that users write; refuses unknown keys, NaN and infinity."""
+    """Base class of settings written by users: frozen; unknown keys, NaN and infinity are rejected."""
 
     model_config = ConfigDict(
         frozen=True, extra="forbid", allow_inf_nan=False, use_attribute_docstrings=True, validate_default=True
@@ -22,27 +22,27 @@ Model = TypeVar("Model", bound=Settings)
 
 
 class Record(BaseModel):
-    """A frozen part of a file that garage2usd writes and reads again; keys of other versions are left aside."""
+    """Base class of records in files that garage2usd writes and reads: frozen; unknown keys are ignored."""
 
     model_config = ConfigDict(frozen=True, allow_inf_nan=False)
 
 
 def validated(model: type[Model], settings: Mapping[str, Any], *, within: str = "") -> Model:
-    """Settings that are given as nested mappings, as TOML reads them.
+    """Validate settings given as nested mappings, as TOML reads them.
 
     Parameters
     ----------
     model
-        What they are settings of.
+        Model of the settings.
     settings
         The mappings.
     within
-        Name of the setting that holds them, if one does.
+        Name of the enclosing setting, if any.
 
     Raises
     ------
     ConfigError
-        With the setting, its value and what is allowed.
+        With the setting, its value and the allowed values.
     """
     try:
         return model(**settings)
@@ -51,20 +51,20 @@ def validated(model: type[Model], settings: Mapping[str, Any], *, within: str = 
 
 
 def config_error(error: ValidationError, model: type[Settings], *, within: str = "") -> ConfigError:
-    """The error of the first setting that is wrong.
+    """Convert a validation error to the error of its first invalid setting.
 
     Parameters
     ----------
     error
-        What pydantic found.
+        Error from pydantic.
     model
-        The settings that it read.
+        Model of the settings.
     within
-        Name of the setting that holds them, if one does.
+        Name of the enclosing setting, if any.
     """
     finding = error.errors(include_url=False)[0]
     cause = finding.get("ctx", {}).get("error")
-    if isinstance(cause, ConfigError) and not within:  # of a file that a setting names
+    if isinstance(cause, ConfigError) and not within:  # an error in a file named by a setting
         return cause
     keys = [within] if within else []
     holders: list[type[BaseModel]] = []
@@ -73,7 +73,7 @@ def config_error(error: ValidationError, model: type[Settings], *, within: str =
         fields = [group.model_fields[part] for group in models if part in group.model_fields]
         if fields:
             holders, models = models, [group for field in fields for group in _models(field.annotation)]
-        elif isinstance(part, str):  # it names a branch of a union, which is no key of the user's
+        elif isinstance(part, str):  # the name of a branch of a union is not a key of the user
             models = [group for group in models if part in _kinds(group)] or models
         if fields or isinstance(part, int):
             keys.append(str(part))
@@ -98,7 +98,7 @@ def config_error(error: ValidationError, model: type[Settings], *, within: str =
 
 
 def first_fault(error: ValidationError) -> str:
-    """The first thing that is wrong with a file: the key and, where it has one, its value and what is allowed."""
+    """Describe the first error in a file: the key and, if it has one, its value and the allowed values."""
     fault = error.errors(include_url=False)[0]
     place = ".".join(map(str, fault["loc"]))
     said = _allowed(fault["msg"])
@@ -108,7 +108,7 @@ def first_fault(error: ValidationError) -> str:
 
 
 def _models(annotation: Any) -> Iterator[type[BaseModel]]:  # noqa: ANN401 - any type
-    """All models that a value of a type may be or hold."""
+    """Yield all models that a value of a type may be or contain."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         yield annotation
     for part in get_args(annotation):
@@ -116,7 +116,7 @@ def _models(annotation: Any) -> Iterator[type[BaseModel]]:  # noqa: ANN401 - any
 
 
 def _kinds(model: type[BaseModel]) -> tuple[Any, ...]:
-    """What the key ``kind`` of a model may be, by which a union tells its branches apart."""
+    """Allowed values of the key ``kind`` of a model, the discriminator of unions."""
     return get_args(model.model_fields["kind"].annotation) if "kind" in model.model_fields else ()
 
 

@@ -1,23 +1,23 @@
-"""Names as users spell them."""
+"""Lookup of names as users spell them."""
 
 from collections.abc import Collection, Mapping
 from typing import TypeVar
 
-__all__ = ["called"]
+__all__ = ["find_named"]
 
 _Key = TypeVar("_Key")
 
 
-def called(asked: str, names: Mapping[_Key, Collection[str]]) -> list[_Key]:
-    """What has a name in these letters; where nothing has, what has it in letters of another case.
+def find_named(query: str, names: Mapping[_Key, Collection[str]]) -> list[_Key]:
+    """Find all entries with a name; if none matches exactly, ignore case.
 
     Parameters
     ----------
-    asked
+    query
         The name.
     names
-        All names of each of the things that may be asked for.
+        All names of each entry.
     """
-    exactly = [key for key, own in names.items() if asked in own]
-    folded = asked.casefold()
+    exactly = [key for key, own in names.items() if query in own]
+    folded = query.casefold()
     return exactly or [key for key, own in names.items() if folded in {name.casefold() for name in own}]

@@ -1,7 +1,7 @@
-"""What differs between Windows, macOS and Linux: limits, child processes, locks, moves and names of files.
+"""Differences between Windows, macOS and Linux: limits, child processes, locks, moves and file names.
 
-All other modules ask this one, and import nothing that one of the systems lacks. Windows has neither limits nor `fork`
-here: a command that reads a stage runs there in the process of the program itself.
+All other modules import these functions instead of modules that one of the systems lacks. Windows has neither limits
+nor `fork`: a command that reads a stage runs in the main process there.
 """
 
 import errno
@@ -56,16 +56,16 @@ HAS_EMBREE = platform.machine() != "aarch64"
 KEEPS_OPEN_FILES = sys.platform == "win32"
 """True if a file cannot be removed while a program has it open."""
 OUT_OF_TIME = getattr(signal, "SIGXCPU", None)
-"""The signal that ends a process without processor time left; None where no system limits it."""
+"""Signal that ends a process at its limit of processor time; None on systems without a limit."""
 LONGEST_PATH = 240 if sys.platform == "win32" else None
-"""Characters of a whole path: Windows takes 259, of which files beside it take some. None where paths may be longer."""
+"""Longest path in characters: Windows allows 259, of which derived names need some; None for no limit."""
 
 _RESERVED = re.compile(r"(con|prn|aux|nul|com[1-9¹²³]|lpt[1-9¹²³])", re.IGNORECASE)
 _FORBIDDEN = '<>:"|?*/\\'
 _BUSY = {errno.EACCES, errno.EPERM, errno.EBUSY}
 _FIRST_WAIT_S, _PATIENCE_S = 0.05, 5.0
 _THREADS = Path("/proc/self/task")
-"""A folder for each thread of this process, where the system is Linux."""
+"""Folder with an entry for each thread of this process; Linux only."""
 
 
 def cores() -> int:
@@ -76,28 +76,28 @@ def cores() -> int:
 
 
 def in_words() -> str:
-    """Name the system, its version and its kind of machine."""
+    """Describe the system: name, version and machine type."""
     libc = " ".join(platform.libc_ver()) if sys.platform == "linux" else ""
     return " ".join(word for word in (platform.system(), platform.release(), platform.machine(), libc) if word)
 
 
 def can_be_copied() -> bool:
-    """Whether this process can go on twice: it has one thread, which only Linux tells."""
+    """True if this process can be forked, which requires a single thread; known on Linux only."""
     return sys.platform == "linux" and _THREADS.is_dir() and len(list(_THREADS.iterdir())) == 1
 
 
 def is_console(descriptor: int) -> bool:
-    """Whether text for this descriptor goes to a window of Windows, which takes no bytes in UTF-8."""
+    """True if text for this descriptor goes to a Windows console, which does not accept UTF-8 bytes."""
     return sys.platform == "win32" and os.isatty(descriptor)
 
 
 def temporary_in(folder: Path) -> dict[str, str]:
-    """Environment of a process that makes its temporary files in `folder`."""
+    """Environment variables of a process that makes its temporary files in `folder`."""
     return dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))
 
 
 def name_fault(name: str) -> str | None:
-    """Say why the system takes no file of this name, in words for what is allowed; None if it takes one."""
+    """Describe the allowed file names if the system rejects this name; None if it is allowed."""
     if sys.platform != "win32":
         return None
     if any(sign in _FORBIDDEN or sign < " " for sign in name):
@@ -108,12 +108,12 @@ def name_fault(name: str) -> str | None:
 
 
 def persistently(move: Callable[[], _T]) -> _T:
-    """Do what fails as long as another program holds a file open, and on Windows again until five seconds are over.
+    """Retry a move while another program holds a file open; on Windows up to five seconds.
 
     Raises
     ------
     OSError
-        As the last attempt raises it; if a program holds the file, with that in its message.
+        As raised by the last attempt; if a program holds the file, the message says so.
     """
     wait_s, waited_s = _FIRST_WAIT_S, 0.0
     while True:
@@ -131,12 +131,12 @@ def persistently(move: Callable[[], _T]) -> _T:
 
 
 def link_folder(place: Path, folder: Path) -> None:
-    """Have a folder stand at `place` too: as a link, or as a copy where links need a privilege.
+    """Link a folder to `place`, or copy it if links require a privilege.
 
     Raises
     ------
     OSError
-        If neither can be made.
+        If neither is possible.
     """
     try:
         place.symlink_to(folder, target_is_directory=True)
@@ -145,7 +145,7 @@ def link_folder(place: Path, folder: Path) -> None:
 
 
 def blender_places(environment: Mapping[str, str]) -> list[Path]:
-    """List where Blender is usually installed: its programs that are there, the newest version first."""
+    """List installed Blender executables at their usual paths, newest version first."""
     if sys.platform == "win32":
         roots = [environment.get(name) for name in ("ProgramFiles", "ProgramW6432")]
         found = [path for root in roots if root for path in Path(root).glob("Blender Foundation/*/blender.exe")]
@@ -163,16 +163,16 @@ def _numbers(text: str) -> list[int]:
 
 
 def run_in_child(command: Callable[[], object], *, passed_on: Iterable[int], begin: Callable[[], None]) -> int:
-    """Run a command in a child process, if the system has `fork`, else here.
+    """Run a command in a child process if the system has `fork`, else in this process.
 
     Parameters
     ----------
     command
-        What is run.
+        Function to run.
     passed_on
-        Signals that the child gets when this process does.
+        Signals that are forwarded to the child.
     begin
-        Called in the child first; not where there is none.
+        Called first in the child; not called without a child.
 
     Returns
     -------
@@ -202,13 +202,13 @@ def run_in_child(command: Callable[[], object], *, passed_on: Iterable[int], beg
 
 
 def end_with(parent: int, number: int) -> None:
-    """Have this process get a signal when its parent ends, even if that is killed; only Linux does it."""
+    """Make Linux send this process a signal when its parent ends, even if the parent is killed; no-op elsewhere."""
     if sys.platform == "linux":
         import ctypes  # noqa: PLC0415 - most commands need none
 
         parent_death_signal = 1
         ctypes.CDLL(None).prctl(parent_death_signal, number)
-        if os.getppid() != parent:  # it was gone before
+        if os.getppid() != parent:  # the parent ended earlier
             sys.exit(1)
 
 
@@ -230,10 +230,10 @@ if sys.platform == "win32":
                 raise BlockingIOError(error.errno, error.strerror) from None
 
     def limit_memory(most_bytes: int | None) -> None:
-        """Let this process take any memory, as Windows limits none."""
+        """No-op: Windows has no limit of memory."""
 
     def limit_processor_s(seconds: float | None) -> None:
-        """Let this process take any processor time, as Windows limits none."""
+        """No-op: Windows has no limit of processor time."""
 
 else:
 

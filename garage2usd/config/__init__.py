@@ -1,4 +1,4 @@
-"""All settings of a garage: frozen, validated models; TOML in, JSON schema out."""
+"""All settings of a garage: frozen, validated models, read from TOML and described by a JSON schema."""
 
 import hashlib
 import json
@@ -45,18 +45,19 @@ __all__ = [
 
 
 _DIRECTIONS = ("aisles", "one_way_share", "one_way")
-"""Settings of the plan that came after its digest."""
+"""Settings of the plan that enter the digest only if they differ from their defaults, so that older digests stay valid.
+"""
 
 
 class GarageConfig(Settings):
-    """Everything that decides a garage. The same configuration and version give the same bytes."""
+    """All settings of a garage. The same settings and version give the same bytes."""
 
     seed: int = Field(0, ge=0, lt=2**63)
     """Seed of every random step."""
     site: SiteConfig = SiteConfig()
     """Contour, portals and obstacles."""
     bay: BayConfig = BayConfig()
-    """Sizes of squares and stalls."""
+    """Sizes of squares, stalls, columns and aisles."""
     stalls: StallsConfig = StallsConfig()
     """Kinds and sizes of stalls."""
     plan: PlanConfig = PlanConfig()
@@ -66,19 +67,19 @@ class GarageConfig(Settings):
     parking: ParkingConfig = ParkingConfig()
     """Parked cars."""
     vehicles: VehiclesConfig = VehiclesConfig()
-    """Cars of one's own."""
+    """Models of cars that the user supplies."""
     clutter: ClutterConfig = ClutterConfig()
-    """People and things that stand about."""
+    """People and loose objects."""
     look: LookConfig = LookConfig()
-    """How it looks."""
+    """The garage's look: finishes, markings, lights and signs."""
     stage: StageConfig = StageConfig()
-    """The stage's files."""
+    """Files of the stage."""
     maps: MapsConfig = MapsConfig()
     """Maps and scenarios."""
     profile: str | Profile = DEFAULT_PROFILE
     """The standard that the garage is designed to: 'cn-jgj100', 'de-garvo', 'uk-istructe', 'us-ada', a TOML file with a
-    profile of one's own, whose relative path starts at the configuration file, or its contents. What it asks for takes
-    the place of defaults that do not satisfy it; settings that are given stay."""
+    profile of the user, or the contents of such a file. A relative path is resolved against the folder of the
+    configuration file. Defaults that violate the profile are replaced; values given by the user are kept."""
 
     def __init__(self, **settings: Any) -> None:  # noqa: ANN401 - pydantic's own signature
         """Validate `settings`.
@@ -107,24 +108,24 @@ class GarageConfig(Settings):
 
     @property
     def names_files(self) -> bool:
-        """Whether S, R or C are in files that `load_config` reads."""
+        """True if S, R or C are to be read from files, as `load_config` does."""
         bay = self.bay
         return any(file is not None for file in (self.site.structure_file, bay.column_widths_file, bay.row_depths_file))
 
     def with_seed(self, seed: int) -> "GarageConfig":
-        """The same settings with another seed."""
+        """Return the same settings with another seed."""
         return GarageConfig(**{**{name: getattr(self, name) for name in type(self).model_fields}, "seed": seed})
 
     def digest(self) -> str:
         """SHA-256 of the canonical JSON of all settings that decide the garage.
 
-        These are all but ``maps`` and the places of its textures and models, of which counts what they hold.
+        ``maps`` is left out. Of texture and model folders, the digest of the contents counts and the path does not.
         """
         of_look = {"textures": {"folder"}} if self.look.textures else {"textures"}
-        # without models it is what it was before there were any
+        # keeps the digests of garages without models, which are older than this setting
         of_vehicles = {"models": {"folder"}} if self.vehicles.models else True
         excluded: dict[str, Any] = {"maps": True, "look": of_look, "vehicles": of_vehicles}
-        if self.stalls == StallsConfig():  # likewise
+        if self.stalls == StallsConfig():  # for the same reason
             excluded["stalls"] = True
         if all(getattr(self.plan, name) == PlanConfig.model_fields[name].default for name in _DIRECTIONS):
             excluded["plan"] = set(_DIRECTIONS)
@@ -134,12 +135,12 @@ class GarageConfig(Settings):
 
 
 def _standard(settings: Mapping[str, Any]) -> Profile:
-    """The profile that settings name or hold, before they are validated; one that asks for nothing if it is unusable.
+    """Load the profile of settings that are not validated yet; an empty profile if the setting is invalid.
 
     Raises
     ------
     ConfigError
-        If it is a profile of the user's own with a value that is not allowed.
+        If the profile is given by its contents and a value in it is not allowed.
     """
     given = settings.get("profile", DEFAULT_PROFILE)
     if isinstance(given, Profile):
@@ -160,11 +161,11 @@ def load_config(path: str | Path, *, profile: str | Path | None = None) -> Garag
     Parameters
     ----------
     path
-        The file. Relative paths in it, of ``profile``, of files with S, R and C, of textures or of models, start at its
-        folder; they are read here, so that the configuration carries profile and matrices itself, and of the textures
-        and models what they hold as a digest.
+        The file. Relative paths in it (``profile``, files of S, R and C, folders of textures and models) are resolved
+        against its folder. Profile and matrices are read into the configuration; textures and models are recorded by
+        a digest of their contents.
     profile
-        Name or file of a profile that takes the place of the file's own.
+        Name or file of a profile that replaces the one in the file.
 
     Raises
     ------
@@ -187,19 +188,19 @@ def load_config(path: str | Path, *, profile: str | Path | None = None) -> Garag
 
 
 def profile_setting(name_or_file: str | Path, *, folder: Path | None = None) -> str | Profile:
-    """The value of the setting ``profile`` for a shipped profile's name or a file.
+    """Return the value of the setting ``profile`` for the name of a shipped profile or the path of a file.
 
     Raises
     ------
     ConfigError
-        If there is no such profile, or the file holds what no profile has.
+        If there is no such profile, or the file holds an unknown clause or a value that is not allowed.
     """
     profile = load_profile(name_or_file, folder=folder)
     return profile.name if str(name_or_file) in PROFILE_NAMES else profile
 
 
 def config_schema() -> dict[str, Any]:
-    """JSON schema (2020-12) of the configuration."""
+    """Return the JSON schema (draft 2020-12) of the configuration."""
     schema = GarageConfig.model_json_schema()
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
     return schema

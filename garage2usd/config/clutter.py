@@ -1,4 +1,4 @@
-"""Settings of the people and the things that stand about."""
+"""Settings of people and loose objects: bicycles, trolleys, bins, boxes and the like."""
 
 from enum import StrEnum
 
@@ -10,16 +10,16 @@ __all__ = ["ClutterAmount", "ClutterConfig"]
 
 
 class ClutterAmount(StrEnum):
-    """How much stands about where no number is given."""
+    """Default density of people and loose objects, for all counts that the user leaves out."""
 
     NONE = "none"
     USUAL = "usual"
     CROWDED = "crowded"
-    """Five times as many."""
+    """Five times the usual counts."""
 
     @property
     def factor(self) -> float:
-        """Factor of the usual numbers."""
+        """Factor on the usual counts."""
         return {ClutterAmount.NONE: 0.0, ClutterAmount.USUAL: 1.0, ClutterAmount.CROWDED: 5.0}[self]
 
 
@@ -35,19 +35,19 @@ _USUAL = {
     "bags": 1.0,
     "open_boots": 1.5,
 }
-"""Per hundred stalls; assumed, as nobody has published a count."""
+"""Usual counts per hundred stalls; assumptions, as no survey is published."""
 
 
 class ClutterConfig(Settings):
-    """People and things that stand where no car drives or parks.
+    """People and loose objects, placed where no car drives or parks.
 
-    Numbers are per hundred stalls, and the most there are: what finds no room is left out.
+    Counts are per hundred stalls and upper limits: an object that finds no free place is left out.
     """
 
     amount: ClutterAmount = ClutterAmount.NONE
-    """The numbers that are not given: none, the usual ones, or five times as many for `crowded`."""
+    """Default for counts that are left out: 'none', the 'usual' ones, or 'crowded', five times the usual ones."""
     people: float | None = Field(None, ge=0, le=200)
-    """People who stand, wait, look at a phone or walk past; usually 6."""
+    """People who stand, wait, look at a phone or walk; usually 6."""
     bicycles: float | None = Field(None, ge=0, le=200)
     """Bicycles; usually 3."""
     motorbikes: float | None = Field(None, ge=0, le=200)
@@ -63,16 +63,16 @@ class ClutterConfig(Settings):
     pallets: float | None = Field(None, ge=0, le=200)
     """Pallets, bare or in stacks; usually 1."""
     bags: float | None = Field(None, ge=0, le=200)
-    """Bags that are put down; usually 1."""
+    """Bags on the floor; usually 1."""
     open_boots: float | None = Field(None, ge=0, le=200)
     """Parked cars whose tailgate or boot lid is open; usually 1.5."""
 
     def per_hundred(self, what: str) -> float:
-        """How many of something, a name of a setting, there are for each hundred stalls."""
+        """Return the count per hundred stalls of the setting named `what`."""
         given: float | None = getattr(self, what)
         return _USUAL[what] * self.amount.factor if given is None else given
 
     @property
     def is_any(self) -> bool:
-        """Whether anything stands about."""
+        """True if any count is greater than 0."""
         return any(self.per_hundred(what) > 0 for what in _USUAL)

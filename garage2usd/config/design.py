@@ -1,4 +1,4 @@
-"""What a profile asks of the settings: sizes that a garage needs to pass its own check."""
+"""Defaults derived from a profile: sizes with which a garage passes the checks of its own standard."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -16,7 +16,7 @@ from garage2usd.profiles.profile import USUAL_CAR_WIDTH_M
 __all__ = ["designed_settings"]
 
 _Sections = Mapping[str, Mapping[str, Any]]
-"""What the user gives, by section and key."""
+"""Settings given by the user, by section and key."""
 _MODELS: dict[str, type[Settings]] = {
     "bay": BayConfig,
     "fittings": FittingsConfig,
@@ -26,25 +26,25 @@ _MODELS: dict[str, type[Settings]] = {
 _CARS_BETWEEN_COLUMNS = 3
 _STEP_M, _FINE_STEP_M = 0.01, 0.001
 _WIDEST_DOOR_M = 5.8
-"""A vehicle door is made 6 m wide at most, and is clear between the posts of its frame."""
+"""Widest clear door: vehicle doors are at most 6 m wide, and the posts of their frame take the rest."""
 _DRAWN = ("contour", "structure", "structure_file", "entrance_cells", "exit_cells")
 _LARGEST = 1e6
-"""No setting of a size is larger; what is larger is refused where it is validated."""
+"""Upper bound of computed sizes; a larger value from the user is refused by the validation."""
 
 
 def designed_settings(profile: Profile, settings: Mapping[str, Any]) -> dict[str, Any]:
-    """The settings with what a profile asks for, section by section; whatever the user gives stays.
+    """Add the values that a profile requires to settings; values given by the user are kept.
 
     Parameters
     ----------
     profile
-        What the garage is designed to.
+        The standard that the garage is designed to.
     settings
         The user's sections, as mappings or models; anything else is left to their validation.
 
     Notes
     -----
-    A default stays where it satisfies the profile, so that a profile that asks for nothing else changes nothing.
+    A default that satisfies the profile is kept, so that an empty profile changes nothing.
     """
     result = dict(settings)
     for section, key, value in _design(profile, {name: _given(settings.get(name)) for name in _MODELS}):
@@ -61,14 +61,14 @@ def designed_settings(profile: Profile, settings: Mapping[str, Any]) -> dict[str
 
 
 def _given(section: object) -> Mapping[str, Any]:
-    """What the user gives of a section, as a mapping or a model; nothing of what is neither."""
+    """Keys and values that the user gives in a section, a mapping or a model; empty for any other object."""
     if isinstance(section, Settings):
         return {name: getattr(section, name) for name in section.model_fields_set}
     return section if isinstance(section, Mapping) else {}
 
 
 def _design(profile: Profile, given: _Sections) -> Iterator[tuple[str, str, Any]]:
-    """Section, key and value of each setting whose default does not satisfy the profile."""
+    """Yield section, key and value of each setting whose default violates the profile."""
     width_m, length_m = _stall_m(profile)
     column_m = _number(given, "bay", "column_size_m")
     aisle_m = _at_least(profile.aisle_width, "bay", "aisle_width_m")
@@ -122,7 +122,7 @@ def _design(profile: Profile, given: _Sections) -> Iterator[tuple[str, str, Any]
         ("site", "min_portal_distance_cells"): _portal_cells(profile, given, grid_m or length_m, exits),
     }
     if (grid_m or side_m != DEFAULT_SIDE_M) and "square_side_m" not in given["bay"]:
-        # a side that only the profile asks for is no wish for a uniform grid, unless it asks for that too
+        # a side length from the profile forces a uniform grid only if its clause on columns does
         yield "bay", "dimensioned", grid_m is None
     for (section, key), value in chosen.items():
         allowed = _within(section, key, value)
@@ -131,7 +131,10 @@ def _design(profile: Profile, given: _Sections) -> Iterator[tuple[str, str, Any]
 
 
 def _stall_m(profile: Profile) -> tuple[float, float]:
-    """Width and length of a stall that holds the design car, and of two that hold an accessible one and its aisle."""
+    """Width and length of a stall in metres.
+
+    One stall holds the design car; two adjacent ones hold an accessible stall with its access aisle.
+    """
     width_m = _or_default(profile.stall_width, "bay", "stall_width_m")
     length_m = _or_default(profile.stall_length, "bay", "stall_length_m")
     if profile.design_car_width and not profile.stall_width:
@@ -142,7 +145,7 @@ def _stall_m(profile: Profile) -> tuple[float, float]:
 
 
 def _wall_gap_m(profile: Profile, column_m: float, stall_width_m: float) -> float:
-    """What a stall's line keeps from walls and columns, so that the design car in the middle keeps its distance."""
+    """Gap from a stall's line to walls and columns, in metres, that gives a centred design car its clearances."""
     beside_car_m = (stall_width_m - profile.car_width_m) / 2
     gaps = [float(_default("bay", "wall_gap_m"))]
     if profile.wall_clearance:
@@ -153,7 +156,7 @@ def _wall_gap_m(profile: Profile, column_m: float, stall_width_m: float) -> floa
 
 
 def _grid_m(profile: Profile, bay: BayConfig, side_m: float) -> float | None:
-    """Side of the uniform grid that the clause on columns asks for; None where all squares keep it, or no grid does."""
+    """Side in metres of the uniform grid for the clause on column spacing; None if none is needed or possible."""
     if profile.column_spacing is None:
         return None
     least_m, most_m = profile.column_spacing.bounds
@@ -167,21 +170,21 @@ def _grid_m(profile: Profile, bay: BayConfig, side_m: float) -> float | None:
 
 
 def _dead_end_cells(profile: Profile, longest_m: float) -> int:
-    """How many of the longest squares deep a dead end may be."""
+    """Greatest depth of a dead end, counted in squares of the longest side."""
     default = int(_default("plan", "dead_end_cells"))
     return min(default, int(profile.dead_end_depth.amount / longest_m)) if profile.dead_end_depth else default
 
 
 def _stretch_cells(profile: Profile, longest_m: float) -> int | None:
-    """How many of the longest squares a stretch without a junction may have; one at least, as 0 stands for any."""
+    """Longest stretch without a junction, counted in squares of the longest side; at least 1, as 0 means no limit."""
     return max(int(profile.stretch_length.amount / longest_m), 1) if profile.stretch_length else None
 
 
 def _portal_cells(profile: Profile, given: _Sections, shortest_m: float, exits: int) -> int:
-    """Least Manhattan distance of portals in squares with which doors around a corner of the site are apart enough.
+    """Least Manhattan distance of portals, in squares, that keeps the profile's distance around a corner of the site.
 
-    Of doors that many squares apart those are nearest that lie as far from the corner, half a square more each. It is
-    never more than what any draw on a rectangle finds, and not asked of sites that are not plain ones.
+    Two doors at a given Manhattan distance are closest if both are equally far from the corner. The result is limited
+    to what every draw on a rectangle can reach; drawn or given contours keep the default.
     """
     default = int(_default("site", "min_portal_distance_cells"))
     is_plain = all(given["site"].get(key) is None for key in _DRAWN) and not _number(given, "site", "rectangles")
@@ -193,10 +196,10 @@ def _portal_cells(profile: Profile, given: _Sections, shortest_m: float, exits: 
 
 
 def _exits(profile: Profile, given: _Sections, side_m: float, column_m: float, width_m: float) -> int:
-    """Exits with which there are enough portals for any number of stalls that the site can hold.
+    """Number of exits that gives enough portals for the most stalls that the site can hold.
 
-    Lanes that form one network serve at most two squares each and two more, so that at most two thirds of the squares
-    hold stalls.
+    A connected network of n lane squares serves at most 2 n + 2 squares, so that at most two thirds of the squares hold
+    stalls.
     """
     default = int(_default("site", "exits"))
     if profile.portals is None:
@@ -212,7 +215,7 @@ def _exits(profile: Profile, given: _Sections, side_m: float, column_m: float, w
 
 
 def _shape(given: _Sections) -> tuple[int, int]:
-    """Rows and columns of a site that is not drawn."""
+    """Rows and columns of a site that is not given as a drawing."""
     height, width = SiteConfig().shape
     return _whole(given, "height_cells", height), _whole(given, "width_cells", width)
 
@@ -223,7 +226,7 @@ def _whole(given: _Sections, key: str, fallback: int) -> int:
 
 
 def _number(given: _Sections, section: str, key: str, fallback: float | None = None) -> Any:  # noqa: ANN401 - not validated
-    """What the user gives for a setting, if it is a number, else `fallback` or the default."""
+    """The user's value of a setting if it is a number, else `fallback` or the default."""
     value = given[section].get(key)
     if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= _LARGEST:
         return value
@@ -248,7 +251,7 @@ def _rounded_up(length_m: float, step_m: float = _STEP_M) -> float:
 
 
 def _within(section: str, key: str, value: float | None) -> Any:  # noqa: ANN401
-    """The nearest value that the setting allows."""
+    """The allowed value of a setting that is nearest to `value`."""
     if value is None:
         return None
     bounds = _MODELS[section].model_fields[key].metadata

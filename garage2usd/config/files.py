@@ -1,4 +1,4 @@
-"""Files beside a configuration: S, R and C as text or files of NumPy, and the folders of textures and models."""
+"""Files that a configuration refers to: S, R and C as text or NumPy arrays, and folders of textures and models."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -11,7 +11,7 @@ __all__ = ["is_array_file", "matrices_of", "with_files", "with_textures", "witho
 
 
 class _Given(NamedTuple):
-    """A matrix: its section, the setting that holds it, the one that names its file, and its name in an .npz file."""
+    """A matrix that a file may hold: section, setting, the setting with the file's path, and name in .npz files."""
 
     section: str
     key: str
@@ -27,17 +27,17 @@ _MATRICES = (
 
 
 def is_array_file(path: Path) -> bool:
-    """Whether a file is one of NumPy, by its name."""
+    """True if a file is a NumPy array, judged by its extension."""
     return path.suffix.lower() in ARRAY_SUFFIXES
 
 
 def matrices_of(path: Path, *, field: str) -> dict[str, dict[str, Any]]:
-    """The settings that a file of NumPy with S, or with S, R and C, stands for.
+    """Read the settings held by a NumPy file with S, or with S, R and C.
 
     Raises
     ------
     ConfigError
-        If it cannot be read, or lacks S.
+        If the file cannot be read, or lacks S.
     """
     arrays = read_arrays(path, field=field, names=[given.name for given in _MATRICES])
     settings: dict[str, dict[str, Any]] = {}
@@ -48,19 +48,19 @@ def matrices_of(path: Path, *, field: str) -> dict[str, dict[str, Any]]:
 
 
 def with_files(settings: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """The settings with what the files hold that they name, in place of their names.
+    """Replace the paths of matrix files by the matrices that they hold.
 
     Parameters
     ----------
     settings
-        Settings that are valid apart from that.
+        Settings that are valid apart from the files.
     folder
-        Where relative paths start.
+        Folder of relative paths.
 
     Raises
     ------
     ConfigError
-        If a file cannot be read, or an .npz file and the settings both give R or C.
+        If a file cannot be read, or both an .npz file and the settings give R or C.
     """
     result = {name: dict(value) if isinstance(value, Mapping) else value for name, value in settings.items()}
     for given in _MATRICES:
@@ -77,7 +77,7 @@ def with_files(settings: Mapping[str, Any], folder: Path) -> dict[str, Any]:
 
 
 def with_textures(settings: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """The settings, valid or not, with the whole paths of folders of textures and models that have relative ones."""
+    """Make the paths of texture and model folders absolute; other settings are returned unchanged, valid or not."""
     result = dict(settings)
     for section, key in (("look", "textures"), ("vehicles", "models")):
         match result.get(section):
@@ -87,7 +87,7 @@ def with_textures(settings: Mapping[str, Any], folder: Path) -> dict[str, Any]:
 
 
 def _put(matrix: Any, given: _Given, settings: dict[str, Any], path: Path) -> None:  # noqa: ANN401
-    """Set a matrix that a file holds, unless the settings have it already."""
+    """Set a matrix read from a file, unless the settings give it already."""
     section = settings.setdefault(given.section, {})
     for key in (given.key, given.file_key):
         if key in section:
@@ -96,7 +96,7 @@ def _put(matrix: Any, given: _Given, settings: dict[str, Any], path: Path) -> No
 
 
 def without_files(error: ConfigError, settings: Mapping[str, Any]) -> ConfigError:
-    """An error of a value that came from a file, as one that names the setting of that file."""
+    """Report an error in a file's value under the setting that names the file."""
     for given in _MATRICES:
         section = settings.get(given.section)
         named = section.get(given.file_key) if isinstance(section, Mapping) else None
@@ -108,7 +108,7 @@ def without_files(error: ConfigError, settings: Mapping[str, Any]) -> ConfigErro
 
 
 def _read(given: _Given, path: Path, field: str) -> dict[str, dict[str, Any]]:
-    """What a file holds, by section and key."""
+    """Read a matrix file; settings by section and key."""
     if is_array_file(path):
         if given.name == "S":
             return matrices_of(path, field=field)
@@ -118,7 +118,7 @@ def _read(given: _Given, path: Path, field: str) -> dict[str, dict[str, Any]]:
 
 
 def _numbers(text: str, path: Path, field: str) -> Any:  # noqa: ANN401 - one number, some, or rows of them
-    """Numbers apart by commas or blanks: all of one line or column, or a matrix."""
+    """Parse numbers separated by commas or blanks: a list for a single line or column, else a matrix."""
     try:
         rows = [[float(word) for word in line.replace(",", " ").split()] for line in text.splitlines() if line.strip()]
     except ValueError as error:

@@ -1,8 +1,8 @@
-"""Settings of how a garage looks: its floor, markings, columns, walls, ceiling, lights and signs.
+"""Settings of a garage's look: floor, markings, numbers, columns, walls, ceiling, lights and signs.
 
-Each axis is given, or drawn by the seed, or stays what it usually is. None of them moves a stall, a column or a car.
+Each axis is given, drawn by the seed, or left at its default. None of them moves a stall, a column or a car.
 """
-# Over 300 lines: every axis of a look, with its values, is told in one place.
+# Over 300 lines: every axis of a look and its values are declared in one place.
 
 import re
 from enum import StrEnum
@@ -46,11 +46,11 @@ __all__ = [
 ]
 
 NATURAL = "natural"
-"""The colour that a material has by itself."""
+"""The material's natural colour."""
 NO_DADO = "none"
-"""Instead of its colour: there is none."""
+"""No dado, in place of a colour."""
 AISLE = "aisle"
-"""The floor of stalls that have that of the aisle."""
+"""The stalls' floor has the finish of the aisle."""
 _HEX = re.compile(r"#[0-9a-f]{6}")
 _COLOURS = {
     "white": "#dedede",
@@ -68,7 +68,7 @@ _COLOURS = {
 
 
 def _colour(value: str) -> str:
-    """A colour as ``#rrggbb``."""
+    """Validate a colour, a name or ``#rrggbb``."""
     colour = _COLOURS.get(value.lower(), value.lower())
     if not _HEX.fullmatch(colour):
         raise ValueError(f"#rrggbb in sRGB, or one of {', '.join(_COLOURS)}")
@@ -81,22 +81,22 @@ def _colour_or(*words: str) -> AfterValidator:
 
 Colour = Annotated[str, AfterValidator(_colour)]
 NaturalColour = Annotated[str, _colour_or(NATURAL)]
-"""A colour, or the one that the material has by itself."""
+"""A colour, or 'natural' for the material's own."""
 
 
 class FloorFinish(StrEnum):
-    """What the floor is made of."""
+    """Finish of the floor."""
 
     CONCRETE = "concrete"
     """Concrete with dust in its pores."""
     TROWELLED = "trowelled"
-    """Concrete that a power trowel closed, with its swirls."""
+    """Power-trowelled concrete with swirls."""
     SAWN = "sawn"
-    """The same, with sawn joints."""
+    """Power-trowelled concrete with sawn joints."""
     CRACKED = "cracked"
     """Concrete with hairline cracks and patches."""
     EPOXY = "epoxy"
-    """A smooth coating, of any colour."""
+    """A smooth epoxy coating of any colour."""
     ASPHALT = "asphalt"
     PATCHED = "patched"
     """Asphalt with patches."""
@@ -105,20 +105,20 @@ class FloorFinish(StrEnum):
 
 
 class Gloss(StrEnum):
-    """How much a floor mirrors."""
+    """Gloss of the floor."""
 
     MATT = "matt"
     SATIN = "satin"
     POLISHED = "polished"
     MIRROR = "mirror"
-    """Lamps stand in it as long streaks."""
+    """Mirror-like: lamps reflect as long streaks."""
 
 
 class Dirt(StrEnum):
-    """How dark wheels have made the lanes."""
+    """Tyre dirt on the lanes."""
 
     SWEPT = "swept"
-    """Not at all: as just cleaned."""
+    """None: freshly cleaned."""
     FAINT = "faint"
     USUAL = "usual"
     FILTHY = "filthy"
@@ -126,7 +126,7 @@ class Dirt(StrEnum):
 
 
 class Drains(StrEnum):
-    """What takes water off the lanes."""
+    """Drains of the lanes."""
 
     NONE = "none"
     GRATINGS = "gratings"
@@ -145,17 +145,18 @@ class FloorLook(Settings):
     gloss: Gloss = Gloss.SATIN
     """'matt', 'satin', 'polished' or 'mirror'."""
     bays: Annotated[str, _colour_or("coated", AISLE)] = "coated"
-    """Floor of the stalls: 'coated' with blue-grey epoxy, as the 'aisle' is, or a colour that fills them."""
+    """Floor of the stalls: 'coated' with blue-grey epoxy, 'aisle' for the aisle's finish, or a fill colour."""
     dirt: Dirt = Dirt.USUAL
-    """'swept', 'faint', 'usual' or 'filthy': how dark wheels have made the lanes."""
+    """Tyre dirt on the lanes: 'swept', 'faint', 'usual' or 'filthy'."""
     wet: float = Field(0.0, ge=0, le=1)
-    """Share of the lane squares without a speed bump that have a puddle; those with drains and before ramps first."""
+    """Share of the lane squares without a speed bump that have a puddle; squares with drains and before ramps come
+    first."""
     drains: Drains = Drains.NONE
     """'none', 'gratings' or 'channels'."""
 
 
 class StallPattern(StrEnum):
-    """Which lines bound a stall."""
+    """Pattern of the lines that bound a stall."""
 
     SIDES = "sides"
     """Both sides and the rear."""
@@ -172,21 +173,21 @@ class StallPattern(StrEnum):
     DASHED = "dashed"
     """As 'closed', by dashes."""
     NONE = "none"
-    """No lines: numbers at most."""
+    """No lines; numbers may remain."""
 
 
 class BandForm(StrEnum):
-    """What runs along the aisle before the stalls' entries."""
+    """Marking along the aisle at the stalls' entries."""
 
     NONE = "none"
     LINE = "line"
     """A second line."""
     BAND = "band"
-    """A coloured band between two lines, as walkways and guide strips are."""
+    """A coloured band between two lines, as for walkways and guide strips."""
 
 
 class Pictogram(StrEnum):
-    """What is painted on coloured bands, every other square."""
+    """Pictogram on coloured bands, in every other square."""
 
     WALKER = "walker"
     CAR = "car"
@@ -195,91 +196,91 @@ class Pictogram(StrEnum):
 
 
 class Wear(StrEnum):
-    """How much of the paint traffic has taken."""
+    """Wear of the paint by traffic."""
 
     LIGHT = "light"
-    """As usual: spots."""
+    """A few worn spots, the default."""
     FRESH = "fresh"
     WORN = "worn"
     FADED = "faded"
-    """Nearly gone."""
+    """Almost gone."""
 
 
 class MarkingsLook(Settings):
-    """Lines on the floor."""
+    """Markings on the floor."""
 
     pattern: StallPattern = StallPattern.SIDES
     """'sides', 'closed', 't_marks', 'l_marks', 'double', 'corners', 'dashed' or 'none'."""
     colour: Colour = "white"
-    """Of the stalls' lines."""
+    """Colour of the stalls' lines."""
     line_width_m: float = Field(0.12, ge=0.05, le=0.3)
-    """Of the stalls' lines."""
+    """Width of the stalls' lines."""
     wear: Wear = Wear.LIGHT
     """'fresh', 'light', 'worn' or 'faded'."""
     band: BandForm = BandForm.NONE
-    """Along the aisle, before entries: 'none', a 'line' or a coloured 'band' between lines."""
+    """Marking along the aisle at the stalls' entries: 'none', a 'line' or a coloured 'band' between lines."""
     band_gap_m: float = Field(0.3, ge=0.1, le=0.6)
-    """From the stalls' entries to it."""
+    """Distance of the marking from the stalls' entries."""
     band_width_m: float = Field(0.6, ge=0.3, le=1.2)
-    """Of a coloured band."""
+    """Width of a coloured band."""
     band_colour: Colour = "green"
-    """Of a coloured band."""
+    """Colour of a coloured band."""
     band_both_sides: bool = True
-    """Whether a coloured band runs on both sides of aisles; else one side has it and the other a line."""
+    """A coloured band on both sides of aisles; if false, the band on one side and a line on the other."""
     pictogram: Pictogram = Pictogram.WALKER
-    """On a coloured band: 'walker', 'car', 'lift' or 'none', with chevrons between them."""
+    """Pictograms on a coloured band, with chevrons between them: 'walker', 'car', 'lift' or 'none'."""
     hatching: bool = False
-    """Whether the floor between rows of stalls, beside columns and at the ends of rows, is hatched."""
+    """Hatching of the floor between rows of stalls, beside columns and at the ends of rows."""
     lane_colour: Colour = "yellow"
-    """Of the lines along the edges of lanes."""
+    """Colour of the lines along the edges of lanes."""
     arrow_colour: Colour = "white"
-    """Of arrows, dashes and crossings."""
+    """Colour of arrows, dashes and crossings."""
     ghosts: float = Field(0.0, ge=0, le=1)
-    """Share of the squares with stalls before which older lines, at other places, still show."""
+    """Share of the squares with stalls where older lines at other positions still show through."""
     zebra: float = Field(0.0, ge=0, le=1)
-    """Share of the straight lane squares with a crossing that leads to no door."""
+    """Share of the straight lane squares with a zebra crossing that leads to no door."""
 
 
 class NumberPlace(StrEnum):
-    """Where a stall's number stands."""
+    """Position of a stall's number."""
 
     MOUTH = "mouth"
     """On the stall, at its entry."""
     MIDDLE = "middle"
     REAR = "rear"
     LANE = "lane"
-    """Before the stall, on the lane, where what runs along the aisle leaves room; else at its entry."""
+    """On the lane before the stall, if the marking along the aisle leaves room; else at its entry."""
     WALL = "wall"
-    """On the wall behind it, where there is one; else at its entry."""
+    """On the wall behind the stall, if there is one; else at its entry."""
     NONE = "none"
 
 
 class NumberForm(StrEnum):
-    """How much of a number is painted."""
+    """Format of a painted stall number."""
 
     SHORT = "short"
-    """Without its zone: 07."""
+    """Number within the zone: 07."""
     FULL = "full"
-    """With it: A1-07."""
+    """Zone and number: A1-07."""
     BOXED = "boxed"
-    """Short, in a frame."""
+    """Number within the zone, in a frame."""
 
 
 class NumbersLook(Settings):
-    """The numbers of stalls."""
+    """Stall numbers."""
 
     place: NumberPlace = NumberPlace.MOUTH
     """'mouth', 'middle', 'rear', 'lane', 'wall' or 'none'."""
     form: NumberForm = NumberForm.SHORT
     """'short', 'full' or 'boxed'."""
     height_m: float = Field(0.45, ge=0.12, le=1.0)
-    """Of the characters; they are lower where the number would be wider than its stall."""
+    """Height of the characters, reduced where the number would be wider than its stall."""
     colour: Colour = "white"
-    """Of the characters."""
+    """Colour of the characters."""
 
 
 class ColumnSection(StrEnum):
-    """Shape of a column's section, within the square that the bay gives it."""
+    """Cross-section of columns, within the square of side `bay.column_size_m`."""
 
     SQUARE = "square"
     ROUND = "round"
@@ -287,7 +288,7 @@ class ColumnSection(StrEnum):
 
 
 class Guard(StrEnum):
-    """What protects the foot of a column."""
+    """Guard at the foot of columns."""
 
     YELLOW_BLACK = "yellow_black"
     RED_WHITE = "red_white"
@@ -298,20 +299,20 @@ class Guard(StrEnum):
 
 
 class ColumnsLook(Settings):
-    """Columns."""
+    """Look of the columns."""
 
     section: ColumnSection = ColumnSection.SQUARE
-    """'square', 'round' or 'rectangular', within the square that `bay.column_size_m` gives them."""
+    """Cross-section: 'square', 'round' or 'rectangular', within the square of side `bay.column_size_m`."""
     colour: NaturalColour = NATURAL
-    """Of the shaft: a colour, or 'natural' for bare concrete."""
+    """Colour of the shaft, or 'natural' for bare concrete."""
     guard: Guard = Guard.YELLOW_BLACK
-    """'yellow_black', 'red_white', 'blue_yellow', 'rubber' corners or 'none'."""
+    """Guard at the foot: 'yellow_black', 'red_white', 'blue_yellow', 'rubber' corners or 'none'."""
     guard_height_m: float = Field(1.2, ge=0.3, le=2.0)
-    """How high it reaches."""
+    """Height of the guard."""
 
 
 class WallFinish(StrEnum):
-    """What walls are made of."""
+    """Finish of walls."""
 
     RAW = "raw"
     """Concrete as the formwork left it."""
@@ -321,30 +322,30 @@ class WallFinish(StrEnum):
 
 
 class WallsLook(Settings):
-    """Walls."""
+    """Look of the walls."""
 
     finish: WallFinish = WallFinish.RAW
     """'raw' concrete, 'painted', 'blockwork' or 'panels'."""
     colour: NaturalColour = NATURAL
-    """Of the wall: a colour, or 'natural'."""
+    """Colour of the wall, or 'natural'."""
     dado: Annotated[str, _colour_or(NATURAL, NO_DADO)] = NATURAL
-    """The painted band at its foot: 'natural' for blue-green under a yellow stripe, a colour, or 'none'."""
+    """Painted band at the wall's foot: 'natural' for blue-green under a yellow stripe, a colour, or 'none'."""
     dado_height_m: float = Field(1.1, ge=0.3, le=1.8)
-    """How high it reaches."""
+    """Height of the painted band."""
 
     @property
     def dado_m(self) -> float:
-        """How high it reaches, 0 without any."""
+        """Height of the painted band in metres; 0 if there is none."""
         return 0.0 if self.dado == NO_DADO else self.dado_height_m
 
     @property
     def has_stripe(self) -> bool:
-        """Whether there is a stripe over it: over the usual one alone."""
+        """True if a yellow stripe runs above the painted band; only with the 'natural' one."""
         return self.dado == NATURAL
 
 
 class CeilingFinish(StrEnum):
-    """What the ceiling's underside is."""
+    """Finish of the ceiling's underside."""
 
     RAW = "raw"
     WHITE = "white"
@@ -354,18 +355,18 @@ class CeilingFinish(StrEnum):
 
 
 class CeilingLook(Settings):
-    """The ceiling and what hangs below it."""
+    """Look of the ceiling and the services below it."""
 
     finish: CeilingFinish = CeilingFinish.RAW
     """'raw' concrete, 'white', 'black' or insulation 'boards'."""
     services: NaturalColour = NATURAL
     """Colour of ducts, trays and pipes, or 'natural' for galvanised steel and red pipes."""
     round_ducts: bool = False
-    """Whether ducts are round."""
+    """Round ducts instead of rectangular ones."""
 
 
 class LampKind(StrEnum):
-    """What the lamps are."""
+    """Type of the lamps."""
 
     TUBES = "tubes"
     PANELS = "panels"
@@ -373,7 +374,7 @@ class LampKind(StrEnum):
 
 
 class Daylight(StrEnum):
-    """What comes in at the doors."""
+    """Daylight at the doors."""
 
     OVERCAST = "overcast"
     SUN = "sun"
@@ -382,63 +383,63 @@ class Daylight(StrEnum):
 
 
 class LightsLook(Settings):
-    """Lights."""
+    """Look of the lights."""
 
     lamps: LampKind = LampKind.TUBES
-    """'tubes', square 'panels' or 'round' ones."""
+    """Type of the lamps: 'tubes', square 'panels' or 'round'."""
     temperature_k: float = Field(5200.0, ge=2200, le=9000)
     """Colour temperature."""
     spread_k: float = Field(0.0, ge=0, le=2000)
-    """Standard deviation of it from lamp to lamp."""
+    """Standard deviation of the colour temperature between lamps."""
     dead_share: float = Field(0.0, ge=0, le=0.9)
-    """Share of the lamps that are dead."""
+    """Share of the lamps that do not burn."""
     emergency_only: bool = False
-    """Whether only one lamp in eight burns, as when the mains have failed."""
+    """Emergency lighting: only one lamp in eight burns, as after a power failure."""
     daylight: Daylight = Daylight.OVERCAST
-    """At the doors: 'overcast', 'sun', 'dusk' or 'night'."""
+    """Daylight at the doors: 'overcast', 'sun', 'dusk' or 'night'."""
 
 
 class SignsOf(StrEnum):
-    """Whose words, colours and numbers signs have."""
+    """Convention that signs follow: words, colours and emergency numbers."""
 
     INTERNATIONAL = "international"
     """EXIT, and 119 for the fire brigade."""
     PROFILE = "profile"
-    """Those of the country of the profile."""
+    """Those of the profile's country."""
 
 
 class SignsLook(Settings):
-    """Signs and plates."""
+    """Look of signs and plates."""
 
     of: SignsOf = SignsOf.INTERNATIONAL
-    """'international', or those of the country of the 'profile'."""
+    """'international', or 'profile' for the convention of the profile's country."""
 
 
 class LookConfig(Settings):
-    """How the garage looks."""
+    """Look of the garage."""
 
     floor: FloorLook = FloorLook()
-    """The floor."""
+    """Floor."""
     markings: MarkingsLook = MarkingsLook()
-    """Lines on it."""
+    """Markings on the floor."""
     numbers: NumbersLook = NumbersLook()
-    """The numbers of stalls."""
+    """Stall numbers."""
     columns: ColumnsLook = ColumnsLook()
     """Columns."""
     walls: WallsLook = WallsLook()
     """Walls."""
     ceiling: CeilingLook = CeilingLook()
-    """The ceiling and what hangs below it."""
+    """Ceiling and the services below it."""
     lights: LightsLook = LightsLook()
     """Lights."""
     signs: SignsLook = SignsLook()
     """Signs and plates."""
     drawn: bool | tuple[str, ...] = False
-    """What the seed draws: true for each axis that is not given, or a list of axes ('floor.gloss') and of groups
-    ('markings', for all in it that are not given)."""
+    """Axes drawn by the seed: true for each axis that is not given, or a list of axes ('floor.gloss') and of groups
+    ('markings', for all axes in it that are not given)."""
 
     textures: TextureFolder | None = None
-    """Textures of one's own by role: a folder (see the page of looks), in place of those that the axes ask for."""
+    """Folder of the user's textures by role (see the page on looks); they replace those of the chosen finishes."""
 
     @field_validator("textures", mode="before")
     @classmethod
@@ -448,13 +449,13 @@ class LookConfig(Settings):
     @field_validator("textures")
     @classmethod
     def _read(cls, textures: TextureFolder | None) -> TextureFolder | None:
-        """The folder with the digest of what it holds; one that has a digest is read when it is used."""
+        """Add a digest of the folder's contents; a folder that has a digest is read on use."""
         return read_texture_sets(textures)[0] if textures is not None and not textures.sha256 else textures
 
     @field_validator("drawn")
     @classmethod
     def _axes(cls, drawn: "bool | tuple[str, ...]", info: ValidationInfo) -> tuple[str, ...]:
-        """Every axis that is drawn by its full name, so that a configuration says so by itself."""
+        """Expand `drawn` to the full names of axes, so that a stored configuration names each of them."""
         sections = {name: section for name, section in info.data.items() if isinstance(section, Settings)}
         left = {
             name: [key for key in type(section).model_fields if key not in section.model_fields_set]
@@ -474,5 +475,5 @@ class LookConfig(Settings):
 
     @property
     def axes(self) -> tuple[str, ...]:
-        """The axes that are drawn, by their full names in order."""
+        """Full names of the drawn axes, in declaration order."""
         return self.drawn if isinstance(self.drawn, tuple) else ()

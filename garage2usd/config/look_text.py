@@ -1,4 +1,4 @@
-"""A look as TOML, which a configuration takes back."""
+"""A look as text: TOML tables that a configuration can include, or a one-line summary."""
 
 import json
 from typing import Any
@@ -15,11 +15,11 @@ _TOLD = (
     ("walls", ("finish",)),
     ("lights", ("temperature_k",)),
 )
-"""What tells looks apart in a line."""
+"""Axes in the one-line summary, by group."""
 
 
 def look_text(look: LookConfig) -> str:
-    """All axes of a look as the tables of a configuration, each axis with its value: nothing is left to the seed."""
+    """Write all axes of a look as TOML tables of a configuration, each with its value; none is left to the seed."""
     tables = {name: group for name in type(look).model_fields if isinstance(group := getattr(look, name), Settings)}
     textures = tables.pop("textures", None)
     blocks = [] if textures is None else [_table("look", {"textures": getattr(textures, "folder")})]  # noqa: B009
@@ -28,7 +28,7 @@ def look_text(look: LookConfig) -> str:
 
 
 def look_in_words(look: LookConfig) -> str:
-    """What tells it apart from others, in a line."""
+    """Summarise a look in one line."""
     values = look.model_dump(mode="json")
     parts = (
         " ".join(f"{values[group][axis]:g}" if axis.endswith("_k") else str(values[group][axis]) for axis in axes)

@@ -1,4 +1,4 @@
-"""The maps of textures by their names, as ambientCG, Poly Haven, glTF and engines of games have them."""
+"""Channels of a texture map by its file name, in the conventions of ambientCG, Poly Haven, glTF and game engines."""
 
 import re
 from enum import StrEnum
@@ -7,7 +7,7 @@ __all__ = ["Channel", "channels_of"]
 
 
 class Channel(StrEnum):
-    """What a map, or one channel of it, tells of a surface."""
+    """Quantity that a texture map, or one channel of it, stores."""
 
     COLOUR = "colour"
     ROUGHNESS = "roughness"
@@ -29,16 +29,19 @@ _CHANNEL_OF = {word: channel for channel, words in _WORDS.items() for word in wo
 _GLOSS = frozenset({"gloss", "glossiness", "smoothness"})
 _DOWNWARDS = frozenset({"dx", "directx", "normaldx", "d3d"})
 _PACKED = (Channel.OCCLUSION, Channel.ROUGHNESS, Channel.METALLIC)
-"""Red, green and blue of a packed map, as glTF has them."""
+"""Red, green and blue of a packed map, in glTF's order."""
 _BY_LETTER = {"o": Channel.OCCLUSION, "a": Channel.OCCLUSION, "r": Channel.ROUGHNESS, "m": Channel.METALLIC}
 _LETTERS = re.compile(r"orm|arm|rma|mra")
 _OF_FILE = re.compile(r"\d+k?|\d+px|jpe?g|png|exr|\d+bit|tex|texture|map|gl|ogl|opengl|dx|directx|d3d|srgb|linear")
-"""Words after the one that says what a map is."""
+"""Trailing words of a file name that do not name the quantity: resolution, format, bit depth."""
 
 
 def channels_of(stem: str) -> list[tuple[Channel, int | None, bool]]:
-    """What a map of some name holds: (channel, band, whether it is the opposite); nothing where it is not used."""
-    # apart by signs and by capitals: Concrete034_1K-JPG_NormalGL
+    """Channels of a texture map by its file stem; empty if the name is not recognised.
+
+    Each is (channel, band or None, whether it is inverted), for example gloss for roughness.
+    """
+    # split at punctuation and capitals: Concrete034_1K-JPG_NormalGL
     found = re.findall(r"[A-Z]{2,}(?![a-z])\d*|[A-Z]?[a-z]+\d*|[A-Z]\d*|\d+[A-Za-z]*", stem)
     words = [word.lower() for word in found]
     looks_down = not _DOWNWARDS.isdisjoint(words)

@@ -1,4 +1,4 @@
-"""Settings of maps and scenarios; none of them decides what the garage is."""
+"""Settings of maps and scenarios; none of them changes the garage."""
 
 from enum import StrEnum
 
@@ -10,7 +10,7 @@ __all__ = ["DriveConfig", "GridConfig", "Leg", "MapsConfig", "ScenarioConfig"]
 
 
 class Leg(StrEnum):
-    """Which part of a visit is driven."""
+    """Part of a visit that is driven: arrival, departure or both."""
 
     BOTH = "both"
     IN = "in"
@@ -18,18 +18,18 @@ class Leg(StrEnum):
 
 
 class GridConfig(Settings):
-    """The occupancy grid of robots."""
+    """The occupancy grid for robots."""
 
     resolution_m: float = Field(0.05, ge=0.01, le=1.0)
     """Side of a cell."""
     low_m: float = Field(0.1, ge=0.0, le=2.0)
-    """What ends lower is driven over."""
+    """Objects that end below this height above the floor are driven over."""
     high_m: float = Field(1.8, gt=0.0, le=10.0)
-    """What begins higher is driven under."""
+    """Objects that begin above this height above the floor are driven under."""
     keepout: bool = False
-    """Whether a mask for nav2's keep-out filter is written beside it: of hatched ground, where robots are not to go."""
+    """Write a mask for nav2's keep-out filter beside the grid, which covers hatched areas."""
     speed: bool = False
-    """Whether a mask for nav2's speed filter is written beside it: slower on ramps and around speed bumps."""
+    """Write a mask for nav2's speed filter beside the grid: slower on ramps and around speed bumps."""
 
     @field_validator("high_m")
     @classmethod
@@ -40,50 +40,50 @@ class GridConfig(Settings):
 
 
 class DriveConfig(Settings):
-    """How the car drives whose trajectory scenarios play."""
+    """Limits of speed, acceleration and steering of the car that scenarios play."""
 
     lane_speed_m_s: float = Field(2.5, gt=0.0, le=15.0)
-    """Most on aisles and ramps."""
+    """Highest speed on aisles and ramps."""
     parking_speed_m_s: float = Field(0.8, gt=0.0, le=5.0)
-    """Most on the way between aisle and stall."""
+    """Highest speed between aisle and stall."""
     acceleration_m_s2: float = Field(1.0, gt=0.0, le=8.0)
-    """Most along the path, speeding up or braking."""
+    """Largest acceleration along the path, speeding up or braking."""
     lateral_acceleration_m_s2: float = Field(1.5, gt=0.0, le=8.0)
-    """Most across the path."""
+    """Largest acceleration across the path."""
     steering_rate_rad_s: float = Field(0.6, gt=0.0, le=5.0)
-    """Most of the front wheels' angle (that of a single wheel between them)."""
+    """Highest steering rate of the equivalent single front wheel (bicycle model)."""
     shift_s: float = Field(1.0, ge=0.0, le=10.0)
-    """Standstill in which the gear is changed."""
+    """Standstill while the gear is changed."""
     parked_s: float = Field(5.0, ge=0.0, le=3600.0)
-    """Standstill in the stall, where a scenario parks and leaves."""
+    """Standstill in the stall, if a scenario parks and leaves."""
 
 
 class ScenarioConfig(Settings):
-    """What the car of an OpenSCENARIO scenario drives."""
+    """Stall, portals and part of a visit that an OpenSCENARIO scenario drives."""
 
     stall: str | None = None
-    """Its name, or the number painted in it; without one the first stall in the stage's order that is free and that a
-    drive is found for, or where there is none the first that a drive is found for, whose parked car is left out."""
+    """Id of the stall, or the number painted in it. If left out, the first free stall in the stage's order to which a
+    drive is found; if there is none, the first stall to which a drive is found, without its parked car."""
     entrance: int | None = Field(None, ge=1)
-    """From 1 on in reading order; without one that of the shortest way."""
+    """Number of the entrance, from 1 in reading order; if left out, that of the shortest path."""
     exit: int | None = Field(None, ge=1)
-    """From 1 on in reading order; without one that of the shortest way."""
+    """Number of the exit, from 1 in reading order; if left out, that of the shortest path."""
     leg: Leg = Leg.BOTH
-    """Whether the car comes (``"in"``), leaves (``"out"``), or comes, parks and leaves (``"both"``)."""
+    """The car arrives (``"in"``), leaves (``"out"``), or arrives, parks and leaves (``"both"``)."""
 
 
 class MapsConfig(Settings):
-    """Maps, scenarios and grids that are made of the stage."""
+    """Maps, scenarios and grids that are exported from the stage."""
 
     latitude_deg: float = Field(49.0, ge=-80.0, le=84.0)
-    """Of the stage's origin on the WGS 84 ellipsoid, where UTM reaches; north is the stage's -Z."""
+    """Latitude of the stage's origin on the WGS 84 ellipsoid, within UTM's range; north is the stage's -Z."""
     longitude_deg: float = Field(9.0, ge=-180.0, lt=180.0)
-    """Of the stage's origin."""
+    """Longitude of the stage's origin."""
     speed_limit_km_h: float = Field(10.0, gt=0.0, le=50.0)
-    """Said of all lanes and ramps."""
+    """Speed limit on all lanes and ramps."""
     grid: GridConfig = GridConfig()
     """The occupancy grid of robots."""
     drive: DriveConfig = DriveConfig()
-    """How the car of scenarios drives."""
+    """Driving limits of the car in scenarios."""
     scenario: ScenarioConfig = ScenarioConfig()
-    """What it drives."""
+    """The drive of an OpenSCENARIO scenario."""

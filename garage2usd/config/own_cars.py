@@ -1,5 +1,5 @@
-"""Cars of one's own: a folder of models, each measured, with its front, wheels and plates found or given."""
-# Over 300 lines: what is given of a model, how the rest is found, and what is refused stand together.
+"""The user's car models: a folder of files, each measured, with front, wheels and plates detected or given."""
+# Over 300 lines: the given facts of a model, the detection of the others, and the validation belong together.
 
 import hashlib
 import re
@@ -25,7 +25,7 @@ FIELD = "vehicles.models"
 FACTS_FILE = "models.toml"
 _MOST_MODELS = 500
 _LENGTH_M, _WIDTH_M, _HEIGHT_M = (2.0, 7.0), (1.2, 2.6), (1.0, 3.0)
-"""Least and largest; the width without mirrors."""
+"""Least and largest measures; the width is without mirrors."""
 _RADIUS_M, _ON_FLOOR_M, _ROUND, _WIDEST_WHEEL_M = (0.2, 0.55), 0.08, 0.12, 0.6
 _PLATE_HALF_M = (0.26, 0.055)
 _PLATE_HEIGHTS_M = (0.5, 0.45, 0.55, 0.6, 0.4, 0.7, 0.8, 0.9)
@@ -34,49 +34,49 @@ _FRONT_WORDS = re.compile(r"(?i)front|head_?(lamp|light)|bonnet|hood|windscreen|
 _REAR_WORDS = re.compile(r"(?i)rear|back|tail|trunk|boot|exhaust|brake_?(lamp|light)|tow")
 _MIRROR_WORDS = re.compile(r"(?i)(wing|side|door|outer|outside|_|^|/)_?mirror")
 _MIRRORS_SHARE = 0.35
-"""Of the length of a car, how far its mirrors are from its nose, where none are found."""
+"""Distance of the mirrors from the nose as a share of a car's length, if no mirrors are found."""
 _AXES = {"+X": (1, 0, 0), "-X": (-1, 0, 0), "+Y": (0, 1, 0), "-Y": (0, -1, 0), "+Z": (0, 0, 1), "-Z": (0, 0, -1)}
 
 
 class ModelFolder(Settings):
-    """Models of cars of one's own."""
+    """Folder of the user's car models."""
 
     folder: str = Field(min_length=1)
-    """A folder with files of USD or GLB, a car each. A relative path starts at the configuration file."""
+    """A folder with files of USD or GLB, one car each. A relative path starts at the configuration file."""
     sha256: str = Field("", pattern=r"^([0-9a-f]{64})?$")
-    """Of what is used of it; found out when it is read."""
+    """Digest of all files used from the folder; computed when the folder is read."""
 
 
 class _Facts(Settings):
-    """What ``models.toml`` says of a model."""
+    """Facts on a model from ``models.toml``."""
 
     front: Annotated[str, Field(pattern=r"^[+-][XYZ]$")] | None = None
-    """Where its nose looks, in the axes of its file."""
+    """Axis of the file along which the nose points."""
     length_m: float | None = Field(None, ge=_LENGTH_M[0], le=_LENGTH_M[1])
-    """How long it is; it is made larger or smaller to that."""
+    """Length to which the model is scaled."""
     wheelbase_m: float | None = Field(None, ge=1.2, le=5.0)
     front_overhang_m: float | None = Field(None, ge=0.2, le=2.0)
     wheel_radius_m: float | None = Field(None, ge=_RADIUS_M[0], le=_RADIUS_M[1])
-    """The three together, where no wheels are found."""
+    """Wheel radius; given together with wheelbase and front overhang if no wheels are detected."""
     plate_heights_m: tuple[float, float] | None = None
-    """Of the middle of the front plate and of the rear one over the floor."""
+    """Heights above the floor of the centres of front and rear plate."""
     semantic_class: VehicleClass = VehicleClass.CAR
-    """What labels, point clouds and masks call it."""
+    """Semantic class in labels, point clouds and masks."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class OwnCar(CarBody):
-    """A car of one's own: its measures as they were found or given, and where its meshes are.
+    """A car model of the user: its measures, detected or given, and the location of its meshes.
 
     Attributes
     ----------
     path, sha256
-        The file, and the digest of it and of all that it refers to when it was read.
+        The file, and a digest of it and of all files that it refers to.
     to_car
-        Rows of the matrix by which points of the file, in metres and Y up, are multiplied, and an offset in metres that
-        is added then: to the axes of a parked car.
+        Matrix rows, shape (3, 3), then an offset in metres: row vectors of the file, in metres and Y up, are multiplied
+        and shifted into the axes of a parked car.
     outlines
-        Convex outlines (x, z) of its body and, where they are known, of its mirrors.
+        Convex outlines (x, z) in metres of the body and, if known, of the mirrors.
     """
 
     path: str
@@ -86,17 +86,17 @@ class OwnCar(CarBody):
 
     @property
     def measures(self) -> CarBody:
-        """Its measures without its file."""
+        """The car's measures, without its file."""
         return CarBody(**{each.name: getattr(self, each.name) for each in fields(CarBody)})
 
 
 class VehiclesConfig(Settings):
-    """Cars of one's own."""
+    """Settings of the user's car models."""
 
     models: ModelFolder | None = None
-    """A folder of models as USD or GLB (see the guide of own cars)."""
+    """A folder of models as USD or GLB (see the guide on own cars)."""
     share: float = Field(0.5, ge=0, le=1)
-    """Share of the parked cars that are models of one's own, where one fits."""
+    """Share of the parked cars that are models of the user, where one fits."""
 
     @field_validator("models", mode="before")
     @classmethod
@@ -106,17 +106,17 @@ class VehiclesConfig(Settings):
     @field_validator("models")
     @classmethod
     def _read(cls, models: ModelFolder | None) -> ModelFolder | None:
-        """The folder with the digest of what it holds; one that has a digest is read when it is used."""
+        """Add a digest of the folder's contents; a folder that has a digest is read on use."""
         return read_own_cars(models)[0] if models is not None and not models.sha256 else models
 
 
 def read_own_cars(folder: ModelFolder) -> tuple[ModelFolder, tuple[OwnCar, ...]]:
-    """The cars of a folder in the order of their names, and the folder with the digest of what they hold.
+    """Read the cars of a folder, sorted by name, and add a digest of their files to the folder.
 
     Raises
     ------
     ConfigError
-        If a file cannot be read, is no car, or the files are not those of the digest.
+        If a file cannot be read or is not a car, or the files do not match the folder's digest.
     """
     place = Path(folder.folder)
     try:
@@ -139,9 +139,9 @@ def read_own_cars(folder: ModelFolder) -> tuple[ModelFolder, tuple[OwnCar, ...]]
 
 
 def cars_by_name(folder: ModelFolder | None) -> dict[str, CarBody]:
-    """The catalogue of cars by name, with the models of a folder by the names of their files without the endings.
+    """Return the catalogue of cars by name, extended by the models of a folder under their file stems.
 
-    A model takes the place of a body of the catalogue that has its name.
+    A model replaces the body of the catalogue with the same name.
 
     Raises
     ------
@@ -154,7 +154,7 @@ def cars_by_name(folder: ModelFolder | None) -> dict[str, CarBody]:
 
 @lru_cache(maxsize=16)
 def _read(folder: str, models: tuple[str, ...], stamps: tuple[tuple[str, int, int], ...]) -> tuple[OwnCar, ...]:
-    """The cars of a folder, which is read once as long as no file in it changes."""
+    """Read the cars of a folder, cached until one of its files changes."""
     del stamps
     facts = _facts(Path(folder), [Path(model).stem for model in models])
     return tuple(_car(Path(model), facts.get(Path(model).stem, _Facts())) for model in models)
@@ -176,7 +176,7 @@ def _facts(folder: Path, names: Sequence[str]) -> dict[str, _Facts]:
 
 
 def placed_parts(car: OwnCar) -> tuple[ForeignPart, ...]:
-    """The parts of a car in its axes: origin in the middle of its footprint on the floor, nose to -Z.
+    """Return the parts of a car in its own axes: origin in the centre of its footprint on the floor, nose along -Z.
 
     Raises
     ------
@@ -246,7 +246,7 @@ def _row(values: NDArray[np.float64]) -> tuple[float, float, float]:
 
 
 def _mirrors(placed: Sequence[NDArray[np.float64]], is_mirror: Sequence[bool], length_m: float) -> float:
-    """From the nose to the middle of the mirrors, or to where most cars have them."""
+    """Distance in metres from the nose to the centre of the mirrors; the usual one if no mirrors are found."""
     mirrors = [points for points, is_one in zip(placed, is_mirror, strict=True) if is_one]
     if not mirrors:
         return round(_MIRRORS_SHARE * length_m, 4)
@@ -255,7 +255,7 @@ def _mirrors(placed: Sequence[NDArray[np.float64]], is_mirror: Sequence[bool], l
 
 
 def _turn(path: Path, parts: Sequence[ForeignPart], facts: _Facts) -> NDArray[np.float64]:
-    """The matrix for row vectors, of metres and Y up, after which the nose looks to -Z."""
+    """Rotation matrix for row vectors, in metres and Y up, that turns the nose to -Z; shape (3, 3)."""
     points = np.concatenate([part.triangles_m.reshape(-1, 3) for part in parts])
     spans = points.max(axis=0) - points.min(axis=0)
     along = 0 if spans[0] > spans[2] else 2
@@ -281,7 +281,7 @@ def _turn(path: Path, parts: Sequence[ForeignPart], facts: _Facts) -> NDArray[np
 
 
 def _axles(path: Path, placed: Sequence[NDArray[np.float64]], facts: _Facts, length_m: float) -> tuple[float, ...]:
-    """Wheelbase, front overhang and radius of the wheels."""
+    """Wheelbase, front overhang and wheel radius in metres."""
     given = facts.wheelbase_m, facts.front_overhang_m, facts.wheel_radius_m
     known = [value for value in given if value is not None]
     if len(known) == len(given):
@@ -305,7 +305,7 @@ def _axles(path: Path, placed: Sequence[NDArray[np.float64]], facts: _Facts, len
 
 
 class _Box(NamedTuple):
-    """Corners of a box, shape (3,) each."""
+    """An axis-aligned box by its lowest and highest corner, each of shape (3,)."""
 
     low: NDArray[np.float64]
     high: NDArray[np.float64]
@@ -322,8 +322,8 @@ def _is_wheel(box: _Box) -> bool:
 
 
 def _pieces(points: NDArray[np.float64]) -> list[_Box]:
-    """The boxes of what hangs together by common points, of corners of triangles, shape (3 n, 3)."""
-    # all wait for imports, and few garages have models of their own
+    """Boxes of the connected components of a mesh, from the corners of its triangles, shape (3 n, 3)."""
+    # imported on use: SciPy is slow to import, and few garages use own models
     from scipy.sparse import coo_array  # noqa: PLC0415
     from scipy.sparse.csgraph import connected_components  # noqa: PLC0415
 
@@ -341,7 +341,7 @@ def _pieces(points: NDArray[np.float64]) -> list[_Box]:
 
 
 def _plate(triangles: NDArray[np.float64], toward: int, height_m: float | None) -> tuple[float, float, float]:
-    """The place of a plate where nose or tail is flattest: the way that it looks, and Y and Z of its middle."""
+    """Place a plate on the flattest part of nose or tail: direction along Z, and Y and Z of its centre in metres."""
     best = (np.inf, 0.0, 0.0)
     for height in _PLATE_HEIGHTS_M if height_m is None else (height_m,):
         half_x, half_y = _PLATE_HALF_M
@@ -358,7 +358,7 @@ def _plate(triangles: NDArray[np.float64], toward: int, height_m: float | None) 
 
 
 def _outermost(triangles: NDArray[np.float64], place: tuple[float, float], toward: int) -> float:
-    """The Z of the outermost surface that a line along Z at (x, y) meets; NaN for none."""
+    """Z of the outermost surface on a line along Z at (x, y); NaN if there is none."""
     a, b, c = (triangles[:, corner] for corner in range(3))
     x, y = place
     area: NDArray[np.float64] = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (c[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1])
@@ -372,7 +372,7 @@ def _outermost(triangles: NDArray[np.float64], place: tuple[float, float], towar
 
 
 def _hull(points: NDArray[np.float64]) -> tuple[tuple[float, float], ...]:
-    """The convex outline (x, z) of points, in the order of `garage2usd.objects.outline.rectangle`."""
+    """Convex hull (x, z) of points, in the vertex order of `garage2usd.objects.outline.rectangle`."""
     from scipy.spatial import ConvexHull  # noqa: PLC0415 - as above
 
     flat = points[:, [0, 2]]

@@ -1,4 +1,4 @@
-"""Settings of the planner."""
+"""Settings of the lane planner."""
 
 from enum import StrEnum
 from typing import Literal, NamedTuple
@@ -21,39 +21,39 @@ __all__ = [
 
 
 class DeadEnds(StrEnum):
-    """What is asked of aisles that end in nothing."""
+    """Rule on dead-end aisles."""
 
     ALLOW = "allow"
-    """Nothing."""
+    """Dead ends are unrestricted."""
     FORBID = "forbid"
-    """There is none."""
+    """Dead ends are forbidden."""
     STANDARD = "standard"
-    """One over 26 m keeps a turning stall free."""
+    """A dead end longer than 26 m keeps a turning stall free."""
 
 
 class CirculationMode(StrEnum):
-    """What is asked of the way traffic circulates."""
+    """Rules on the circulation of traffic."""
 
     LOOPS = "loops"
     """Short dead ends, at least one loop, lanes one square wide, and cross-aisles on large sites."""
     ALLOW = "allow"
-    """Nothing: the score alone decides, and it rewards trees."""
+    """None: the score alone decides, which favours trees."""
     PAPER = "paper"
-    """Nothing, and `DeadEnds.STANDARD` costs nothing either: the agent's own."""
+    """None, and `DeadEnds.STANDARD` costs nothing either: plans as the agent leaves them."""
 
 
 class Aisles(StrEnum):
-    """In which directions aisles are driven."""
+    """Driving directions of aisles."""
 
     TWO_WAY = "two-way"
     ONE_WAY = "one-way"
-    """In one, except where a single aisle leads to a part of the garage."""
+    """One direction, except where a single aisle leads to a part of the garage."""
     MIXED = "mixed"
-    """A share of them in one."""
+    """A share of the aisles is one-way."""
 
 
 class Agent(StrEnum):
-    """What the agent decides over."""
+    """Unit of the agent's decisions: squares or whole aisles."""
 
     AUTO = "auto"
     """Squares on small sites and with the preset 'paper', else aisles."""
@@ -62,33 +62,33 @@ class Agent(StrEnum):
 
 
 class Choice(StrEnum):
-    """Which plan of the archive becomes the garage."""
+    """Selection of the garage's plan from the archive."""
 
     BEST = "best"
     DRAW = "draw"
-    """Any above the quality floor, by seed."""
+    """A plan above the quality floor, drawn by the seed."""
 
 
 class UnreachableStalls(StrEnum):
-    """What becomes of stalls that the design car does not get into and out of without a touch."""
+    """Treatment of stalls that the design car cannot enter and leave without a collision."""
 
     REFUSE = "refuse"
-    """A garage that has some is an error; proven where narrow aisles or stalls leave it in doubt."""
+    """Raise an error; stalls are proven where narrow aisles or stalls leave it in doubt."""
     KEEP = "keep"
-    """They are stalls as the others; nothing is proven."""
+    """Keep them as stalls; nothing is proven."""
     MARK = "mark"
-    """Each stall is proven, and those without ways are hatched and kept free."""
+    """Prove each stall; those without a path are hatched and kept free."""
     DROP = "drop"
-    """Each stall is proven, and those without ways are left out; the floor there is bare."""
+    """Prove each stall; those without a path are left out, and their floor is bare."""
 
     @property
     def are_proven(self) -> bool:
-        """Whether every stall is proven."""
+        """True if every stall is proven."""
         return self in {UnreachableStalls.MARK, UnreachableStalls.DROP}
 
 
 class SarsaParameters(NamedTuple):
-    """Every parameter of Sarsa with its value; see the settings of the same names in `PlanConfig`."""
+    """All parameters of Sarsa with their values; `PlanConfig` describes the settings of the same names."""
 
     alpha: float
     gamma: float
@@ -113,7 +113,7 @@ class SarsaParameters(NamedTuple):
     starts: int
 
 
-# 'paper' is the prototype's reading of the paper, which prints no values; 'tuned' was tuned on the gates G1 to G3 of
+# 'paper' follows the prototype, as the paper prints no values; 'tuned' was tuned on the gates G1 to G3 of
 # benchmarks/gates.py, and is measured on others too
 _PAPER = SarsaParameters(
     alpha=0.1,
@@ -157,63 +157,65 @@ _TUNED = _PAPER._replace(
 )
 _PRESETS = {"paper": _PAPER, "tuned": _TUNED}
 _STARTS_ALONE = 12
-"""Starts of the preset 'tuned' without polish, which evens out on a small site where learning came to."""
+"""Starts of the preset 'tuned' without hill climbing, which otherwise evens out differences between starts on small
+sites."""
 
-# the agent over aisles starts with values from small sites: it explores less at first and learns in smaller steps
+# the agent over aisles starts with values learned on small sites, so that it explores less and learns in smaller steps
 _AISLES = _TUNED._replace(alpha=0.03, gamma=0.9, epsilon_start=0.3, epsilon_min=0.1, revisit_rate=0.9)
 
 
 class PlanConfig(Settings):
-    """How lanes are planned. A parameter of Sarsa that is left out takes the preset's value."""
+    """Settings of the lane planner. A parameter of Sarsa that is left out has the preset's value."""
 
     preset: Literal["paper", "tuned"] = "tuned"
-    """'paper': state D, 5x5 squares and the last action; bumps end an episode. 'tuned': 3x3 squares, no bumps, best
-    prefix of every episode kept and gone on from."""
+    """'paper': state D, 5x5 squares and the last action; a collision ends an episode. 'tuned': 3x3 squares, no
+    collisions, and the best prefix of every episode is archived and resumed."""
     agent: Agent = Agent.AUTO
-    """'squares', 'aisles', or 'auto': aisles on large sites, except with the preset 'paper'."""
+    """Unit of the agent's decisions: 'squares', 'aisles', or 'auto' for aisles on large sites except with the preset
+    'paper'."""
     episodes: int = Field(5000, ge=1, le=1_000_000)
-    """Episodes of learning, of each start; the default is the paper's."""
+    """Learning episodes of each start; the default is the paper's."""
     archive_size: int = Field(200, ge=1, le=10_000)
-    """How many of the best plans are kept; the default is the paper's."""
+    """Number of best plans that are kept; the default is the paper's."""
     climb: bool | None = None
-    """Polish the best plans by flips of squares after learning; left out, except with the preset 'paper'."""
+    """Improve the best plans after learning by hill climbing over squares; if left out, true except with the preset
+    'paper'."""
     climb_top: int = Field(40, ge=1, le=10_000)
-    """How many of the best plans are polished."""
+    """Number of best plans that are improved."""
     dead_ends: DeadEnds = DeadEnds.STANDARD
-    """'allow', 'forbid', or 'standard': a dead-end aisle over 26 m keeps a turning stall free, which the planner
-    counts as one stall lost."""
+    """'allow', 'forbid', or 'standard': a dead-end aisle over 26 m keeps a turning stall free, which costs the plan one
+    stall."""
 
     circulation: CirculationMode | None = None
-    """'loops': every dead end is gone after `dead_end_cells` rounds of pruning (R1), there is a loop (R2), no block of
-    two by two lanes (R3), and no stretch without a junction longer than `longest_stretch_cells` (R4). 'allow': the
-    score alone decides. 'paper': the agent's own plans, without the cost of `dead_ends` = 'standard'. Left out, 'paper'
-    with the preset 'paper', else 'loops'."""
+    """'loops': every dead end disappears within `dead_end_cells` rounds of pruning (R1), there is a loop (R2), no block
+    of two by two lanes (R3), and no stretch without a junction longer than `longest_stretch_cells` (R4). 'allow':
+    the score alone decides. 'paper': plans as the agent leaves them, without the cost of `dead_ends` = 'standard'.
+    If left out, 'paper' with the preset 'paper', else 'loops'."""
     dead_end_cells: int = Field(2, ge=0, le=1000)
-    """R1: how many squares deep a dead end may be."""
+    """R1: greatest depth of a dead end in squares."""
     longest_stretch_cells: int | None = Field(None, ge=0, le=1_000_000)
-    """R4: most squares of a stretch between two junctions or portals, 0 for any; left out, 12 on sites of 400 free
-    squares or more, else any."""
+    """R4: most squares of a stretch between two junctions or portals, 0 for no limit; if left out, 12 on sites of 400
+    free squares or more, else no limit."""
     strict: bool = False
-    """Whether a site on which no plan keeps the rules of circulation is an error; else the report says which rules
-    gave way."""
+    """Raise an error if no plan keeps the rules of circulation; if false, the report names the violated rules."""
 
     unreachable_stalls: UnreachableStalls = UnreachableStalls.REFUSE
-    """What becomes of stalls that a car of 4.8 x 1.8 m with a turning radius of 6 m does not get into and out of
-    without a touch. 'refuse': an error, where aisles under 5.5 m or stalls under 2.3 m leave it in doubt; 'keep':
-    nothing; 'mark': they are hatched and kept free; 'drop': they are left out."""
+    """Treatment of stalls that a car of 4.8 x 1.8 m with a turning radius of 6 m cannot enter and leave without a
+    collision. 'refuse': an error, checked where aisles under 5.5 m or stalls under 2.3 m leave it in doubt; 'keep':
+    no treatment; 'mark': they are hatched and kept free; 'drop': they are left out."""
 
     aisles: Aisles = Aisles.TWO_WAY
-    """'two-way'; 'one-way': aisles are driven in one direction, except where a single aisle leads to a part of the
-    garage; 'mixed': `one_way_share` of them are."""
+    """'two-way'; 'one-way': every aisle has one direction, except where a single aisle leads to a part of the garage;
+    'mixed': `one_way_share` of the aisles are one-way."""
     one_way_share: float = Field(0.5, ge=0, le=1)
-    """Share of the length of aisles that are one-way with 'mixed', of those that can be."""
+    """With 'mixed', share of the length of aisles that is one-way, among those that can be."""
     one_way: tuple[tuple[SquareIndex, SquareIndex], ...] = ()
-    """[from, to] of steps between adjacent lane squares, each of which makes its aisle from junction to junction
-    one-way, instead of drawing them."""
+    """[from, to] pairs of adjacent lane squares, instead of drawn directions; each makes its aisle one-way from
+    junction to junction."""
     choice: Choice = Choice.BEST
-    """'best', or 'draw': any plan of the archive above `quality_floor`, by seed."""
+    """'best', or 'draw' for any plan of the archive above `quality_floor`, drawn by the seed."""
     quality_floor: float = Field(0.95, ge=0, le=1)
-    """Least share of the best plan's value that a drawn plan has."""
+    """Lowest value of a drawn plan, as a share of the best plan's value."""
 
     stall_weight: float = Field(1.0, ge=0, le=1000)
     """k_1, weight of the stalls N_S in the score."""
@@ -225,60 +227,61 @@ class PlanConfig(Settings):
     alpha: float | None = Field(None, gt=0, le=1)
     """Learning rate."""
     gamma: float | None = Field(None, ge=0, le=1)
-    """Discount."""
+    """Discount factor."""
     epsilon_start: float | None = Field(None, ge=0, le=1)
-    """Share of random actions at first."""
+    """Initial share of random actions."""
     epsilon_min: float | None = Field(None, ge=0, le=1)
-    """Least share of random actions."""
+    """Lowest share of random actions."""
     epsilon_decay: float | None = Field(None, gt=0, le=1)
     """Factor on epsilon after each episode."""
     epsilon_refresh: float | None = Field(None, ge=0, le=1)
-    """Epsilon after `patience_episodes` without change."""
+    """Epsilon after `patience_episodes` episodes without a change."""
     patience_episodes: int | None = Field(None, ge=1)
-    """Episodes that end in the same plan before epsilon is refreshed."""
+    """Number of episodes with the same plan after which epsilon is refreshed."""
     turn_back_penalty: float | None = Field(None, ge=0, le=1000)
-    """Penalty for the opposite of the last action."""
+    """Penalty for reversing the last action."""
     interval_penalty: float | None = Field(None, ge=0, le=1000)
     """Penalty for a turn after fewer than `min_run_squares` equal actions."""
     min_run_squares: int | None = Field(None, ge=1, le=100)
-    """Equal actions in a row after which a turn is free."""
+    """Number of equal actions in a row after which a turn is free."""
     wheeling_penalty: float | None = Field(None, ge=0, le=1000)
-    """Penalty for each lane that a new lane square runs beside, other than the one it continues."""
+    """Penalty for each lane beside a new lane square, other than the one that it continues."""
     loop_reward: float | None = Field(None, ge=0, le=1000)
-    """Reward for a new lane square that closes a loop: one that touches another lane than the one it continues."""
+    """Reward for a new lane square that closes a loop, which means that it touches a lane other than the one it
+    continues."""
     step_penalty: float | None = Field(None, ge=0, le=1000)
-    """Penalty for every action; staying costs it twice."""
+    """Penalty for every action, twice for staying."""
     failure_penalty: float | None = Field(None, ge=0, le=1000)
-    """Penalty R_T for the action that ends an episode in a failure."""
+    """Penalty R_T for an action that ends an episode in a failure."""
     window_radius_squares: int | None = Field(None, ge=1, le=4)
-    """How far the agent sees: 2 is the paper's 5x5 squares."""
+    """Radius of the agent's view: 2 for the paper's 5x5 squares."""
     sees_distances: bool | None = None
-    """Whether the state holds D, the distance to the next obstacle or border in each direction."""
+    """Include D in the state: the distance to the next obstacle or border in each direction."""
     masks_actions: bool | None = None
-    """Whether actions that would end in a failure cannot be chosen."""
+    """Exclude actions that would end in a failure."""
     archives_prefixes: bool | None = None
-    """Whether the best state on the way is kept, not only the last unfailed one."""
+    """Archive the best state of an episode, in addition to its last state without a failure."""
     revisit_rate: float | None = Field(None, ge=0, le=1)
-    """Share of the episodes that go on from part of an archived one instead of from the empty site."""
+    """Share of the episodes that start from part of an archived plan instead of the empty site."""
     max_steps_per_square: int | None = Field(None, ge=1, le=100)
-    """Actions in an episode, for each free square of the site."""
+    """Most actions in an episode, per free square of the site."""
     starts: int | None = Field(None, ge=1, le=1000)
-    """How often learning starts with nothing, each time for all episodes; the best plans of all starts are kept. Left
-    out, the preset's: with 'tuned' 4, and 12 where plans are not polished; with 'paper' 1."""
+    """Number of independent learning runs, each with all episodes; the best plans of all are kept. If left out, the
+    preset's: 4 with 'tuned', 12 if plans are not improved by hill climbing, and 1 with 'paper'."""
 
     @property
     def polishes(self) -> bool:
-        """Whether plans are polished after learning."""
+        """True if plans are improved by hill climbing after learning."""
         return self.preset != "paper" if self.climb is None else self.climb
 
     @property
     def circulation_mode(self) -> CirculationMode:
-        """What is asked of circulation: the user's choice, or the preset's."""
+        """Rules on circulation: the user's choice, or the preset's."""
         preset = CirculationMode.PAPER if self.preset == "paper" else CirculationMode.LOOPS
         return self.circulation or preset
 
     def resolved(self, *, aisles: bool = False) -> SarsaParameters:
-        """Every parameter with the user's value or the preset's, or that of the agent over aisles."""
+        """Return all parameters of Sarsa: the user's values, the preset's, or those of the agent over aisles."""
         preset = _AISLES if aisles else _PRESETS[self.preset]
         if self.preset == "tuned" and not aisles and not self.polishes:
             preset = preset._replace(starts=_STARTS_ALONE)

@@ -1,4 +1,4 @@
-"""Settings of the static objects: contour, portals, obstacles, and the size of the squares."""
+"""Settings of the static objects (contour, portals, obstacles) and of the size of squares."""
 
 from pathlib import Path
 from typing import Annotated, Self
@@ -14,17 +14,17 @@ SquareIndex = tuple[Annotated[int, Field(ge=0)], Annotated[int, Field(ge=0)]]
 
 MAX_SQUARES = 250_000
 DEFAULT_SIDE_M = 8.1
-"""Side of squares whose size is not given."""
+"""Side in metres of squares whose size is not given."""
 _DEFAULT_SHAPE = 7, 9
 CARRIAGEWAY_MARGIN_M = 0.05
 DOOR_JAMB_M, DOOR_FRAME_M = 0.6, 0.08
-"""Wall and steel frame on each side of a vehicle door."""
+"""Widths of wall and steel frame on each side of a vehicle door."""
 _MAX_GIVEN_SQUARES = 4_000_000
 _CELLS = (-1, 0, 1, 2, 3)
 
 
 def _drawing(value: object) -> object:
-    """Let arrays and lists of rows, of numbers -1 to 3 or of symbols, stand for the text form."""
+    """Convert an array or a list of rows, of numbers -1 to 3 or of symbols, to the text form."""
     if isinstance(value, list | tuple) and value and all(isinstance(row, str) for row in value):
         return "\n".join(value)
     if not isinstance(value, np.ndarray | list | tuple):
@@ -41,7 +41,7 @@ def _drawing(value: object) -> object:
 
 
 def _lists(value: object) -> object:
-    """Let arrays stand for lists of numbers."""
+    """Convert arrays to lists of numbers."""
     return value.tolist() if isinstance(value, np.ndarray) else value
 
 
@@ -51,30 +51,30 @@ SidesM = Annotated[SideM | tuple[SideM, ...] | tuple[tuple[SideM, ...], ...], Be
 
 
 class SiteConfig(Settings):
-    """Where the garage is: random by the paper's rules, or any part of it given."""
+    """Contour, portals and obstacles: drawn by the paper's rules, or given in part or in whole."""
 
     width_cells: int | None = Field(None, ge=3, le=1000)
-    """Columns of the structure matrix, the paper's w; 9 unless it or a drawing of the site is given."""
+    """Columns of the structure matrix, the paper's w; 9 unless this or a drawing of the site is given."""
     height_cells: int | None = Field(None, ge=3, le=1000)
-    """Rows of the structure matrix, the paper's h; 7 unless it or a drawing of the site is given."""
+    """Rows of the structure matrix, the paper's h; 7 unless this or a drawing of the site is given."""
     rectangles: int = Field(0, ge=0, le=64)
-    """How many random rectangles make the contour, the paper's n; 0 fills the whole width and height."""
+    """Number of random rectangles whose union is the contour, the paper's n; 0 fills the whole width and height."""
     min_fill: float = Field(0.5, ge=0, le=0.9)
-    """Least share of the squares that a random contour covers; 0 takes any, as the paper does."""
+    """Least share of the squares that a random contour covers; 0 accepts any, as in the paper."""
     entrances: int = Field(1, ge=1, le=16)
-    """How many entrances are drawn."""
+    """Number of entrances to draw."""
     exits: int = Field(1, ge=1, le=16)
-    """How many exits are drawn."""
+    """Number of exits to draw."""
     min_portal_distance_cells: int = Field(4, ge=1, le=2000)
     """Least Manhattan distance between two portals, the paper's sigma_1."""
     obstacles: int = Field(0, ge=0, le=10_000)
-    """How many inner squares become obstacles."""
+    """Number of inner squares that become obstacles."""
     min_obstacle_distance_cells: int = Field(3, ge=1, le=2000)
     """Least Manhattan distance between two obstacles, the paper's sigma_2."""
 
     contour: Drawing | None = None
-    """The contour as text: one line a row, '#' outside and '.' inside; also rows as a list, and in
-    Python an array of -1 and 0."""
+    """The contour as text: one line per row, '#' outside and '.' inside; also a list of rows, and in Python an array of
+    -1 and 0."""
     entrance_cells: tuple[SquareIndex, ...] | None = None
     """[row, col] of each entrance, instead of drawing them."""
     exit_cells: tuple[SquareIndex, ...] | None = None
@@ -82,11 +82,11 @@ class SiteConfig(Settings):
     obstacle_cells: tuple[SquareIndex, ...] | None = None
     """[row, col] of each obstacle, instead of drawing them."""
     structure: Drawing | None = None
-    """The paper's S as text: '#', '.', '=' lane, 'E' entrance, 'X' exit, or numbers -1 to 3; also rows as a list, of
-    symbols or of numbers, and in Python an array. Without lanes it is planned, with lanes it is taken as it is."""
+    """The paper's S as text: '#', '.', '=' lane, 'E' entrance, 'X' exit, or numbers -1 to 3; also a list of rows, of
+    symbols or of numbers, and in Python an array. Lanes are planned if there are none, else kept unchanged."""
     structure_file: Path | None = None
-    """A file that holds such a text, or an .npy or .npz file of NumPy with such numbers; an .npz file may hold S, R
-    and C. A relative path starts at the configuration file."""
+    """A text file with such a matrix, or an .npy or .npz file of NumPy; an .npz file may hold S, R and C. A relative
+    path starts at the configuration file."""
 
     @model_validator(mode="after")
     def _one_source(self) -> Self:
@@ -104,42 +104,43 @@ class SiteConfig(Settings):
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Rows and columns of a site that is not drawn."""
+        """Rows and columns of a site that is not given as a drawing."""
         return self.height_cells or _DEFAULT_SHAPE[0], self.width_cells or _DEFAULT_SHAPE[1]
 
 
 class BayConfig(Settings):
-    """Size of the squares and of the stalls on them."""
+    """Sizes of squares, stalls, columns, aisles and doors."""
 
     square_side_m: float = Field(DEFAULT_SIDE_M, ge=1, le=50)
-    """Side of the squares whose size is neither given nor chosen by `dimensioned`: three stalls between columns. Who
-    gives it asks for a uniform grid: then `dimensioned` is false unless it is given too."""
+    """Side of the squares whose size is neither given nor chosen by `dimensioned`: three stalls between columns. A
+    given value means a uniform grid: `dimensioned` is then false by default."""
     column_widths_m: SidesM | None = None
-    """The paper's R: width along X of every column, of each, or of each square, constant along a column;
-    `square_side_m` or what `dimensioned` chooses unless it is given."""
+    """The paper's R: widths of the columns along X, one value for all, one each, or one for each square, constant along
+    a column; if left out, `square_side_m` or the result of `dimensioned`."""
     row_depths_m: SidesM | None = None
-    """The paper's C: depth along Z of every row, of each, or of each square, constant along a row;
-    `square_side_m` or what `dimensioned` chooses unless it is given."""
+    """The paper's C: depths of the rows along Z, one value for all, one each, or one for each square, constant along a
+    row; if left out, `square_side_m` or the result of `dimensioned`."""
     column_widths_file: Path | None = None
     """A file that holds R: numbers as text, an .npy file, or R in an .npz file. A relative path starts at the
     configuration file."""
     row_depths_file: Path | None = None
-    """A file that holds C, likewise."""
+    """A file that holds C: numbers as text, an .npy file, or C in an .npz file. A relative path starts at the
+    configuration file."""
     stall_width_m: float = Field(2.4, ge=1.8, le=6)
     """Width of one stall between its lines."""
     stall_length_m: float = Field(5.3, ge=3.5, le=12)
-    """Length of one stall from its mouth on the lane to its rear line."""
+    """Length of one stall from its entry on the lane to its rear line."""
     column_size_m: float = Field(0.6, ge=0.2, le=1.2)
     """Side of the square structural columns between bays."""
     wall_gap_m: float = Field(0.3, ge=0, le=3)
-    """Least room between a wall and the line of the stall beside it; half a column leaves as much or more."""
+    """Least gap between a wall and the line of the adjacent stall; half a column leaves at least as much."""
     dimensioned: bool = True
-    """Whether R and C are chosen for the finished plan, each where it is not given: aisles of `aisle_width_m`, stalls
-    that just fit, least floor a stall."""
+    """Choose R and C for the finished plan, unless they are given: aisles of `aisle_width_m`, stalls that just fit, and
+    the least floor area per stall."""
     aisle_width_m: float = Field(6.0, ge=5, le=12)
-    """Clear width of the aisles between columns where R and C are chosen."""
+    """Clear width of the aisles between columns if R and C are chosen."""
     portal_width_m: float = Field(5.0, ge=2.5, le=6)
-    """Least clear width of vehicle doors where R and C are chosen."""
+    """Least clear width of vehicle doors if R and C are chosen."""
 
     @model_validator(mode="before")
     @classmethod
@@ -150,7 +151,7 @@ class BayConfig(Settings):
 
     @property
     def chosen_sides(self) -> tuple[bool, bool]:
-        """Whether C, the depths of the rows, is chosen with the plan, and whether R, the widths of the columns, is."""
+        """True for C (row depths), and for R (column widths), if they are chosen with the plan."""
         return self.dimensioned and self.row_depths_m is None, self.dimensioned and self.column_widths_m is None
 
     @model_validator(mode="after")
@@ -162,24 +163,24 @@ class BayConfig(Settings):
 
     @property
     def carriageway_setback_m(self) -> float:
-        """How far the carriageway stays from squares that are not lanes: half a column and a margin."""
+        """Distance of the carriageway from squares that are not lanes, in metres: half a column and a margin."""
         return self.column_size_m / 2 + CARRIAGEWAY_MARGIN_M
 
     @property
     def row_ends_m(self) -> float:
-        """What both ends of a row of stalls leave of a square's edge: half a column each, or the gap to a wall."""
+        """Length in metres that both ends of a row of stalls take from a square's edge: half a column or a wall gap."""
         return max(self.column_size_m, 2 * self.wall_gap_m)
 
     @property
     def aisle_side_m(self) -> float:
-        """Side across an aisle of `aisle_width_m` of a line of squares."""
+        """Side of a line of squares across an aisle of `aisle_width_m`, in metres."""
         return self.aisle_width_m + 2 * self.carriageway_setback_m
 
     def row_m(self, stalls: int) -> float:
-        """Side of a square along the edge with so many stalls between columns."""
+        """Side in metres of a square with `stalls` stalls between columns along its edge."""
         return stalls * self.stall_width_m + self.row_ends_m
 
     @property
     def portal_side_m(self) -> float:
-        """Least side of a square along the edge with a door of `portal_width_m`."""
+        """Least side in metres of a square with a door of `portal_width_m`."""
         return self.portal_width_m + 2 * (DOOR_JAMB_M + DOOR_FRAME_M)

@@ -14,53 +14,53 @@ _NESTED_FROM_SQUARES = 2000
 
 
 class TextureQuality(StrEnum):
-    """How fine the textures are."""
+    """Resolution of the textures."""
 
     LOW = "low"
     """A quarter of the full width and height, 0.15 MB in all."""
     MEDIUM = "medium"
     """Half of the full width and height, 0.5 MB in all."""
     HIGH = "high"
-    """As they were baked, 2 MB in all."""
+    """The full width and height, 2 MB in all."""
 
 
 class StageForm(StrEnum):
-    """How the stage is put together."""
+    """Composition of the stage."""
 
     AUTO = "auto"
-    """Nested from 2000 squares on, instanced below."""
+    """Nested from 2000 squares on, else instanced."""
     INSTANCED = "instanced"
     """References to one asset for each shape, instanced."""
     NESTED = "nested"
-    """Equal squares share a prototype as well, so that large garages stay light; no opinions on objects in a square."""
+    """Equal squares share a prototype too, which keeps large garages light; their objects cannot be overridden."""
     FLAT = "flat"
-    """Everything in one layer without references, variants or instances, for readers that do not compose."""
+    """Everything in one layer without references, variants or instances, for readers without composition."""
 
 
 class AssetPlace(StrEnum):
-    """Where the assets of a stage are, which are the same in every garage."""
+    """Location of a stage's assets, which are the same in every garage."""
 
     OWN = "own"
-    """In a folder of the stage's own beside it, or in a ``.usdz``."""
+    """In a folder beside the stage that belongs to it, or inside a ``.usdz``."""
     SHARED = "shared"
-    """In a folder that many stages share."""
+    """In a folder shared by many stages."""
 
 
 class StageConfig(Settings):
-    """The stage's files."""
+    """Files of the stage."""
 
     texture_quality: TextureQuality = TextureQuality.MEDIUM
-    """'low', 'medium' or 'high': the budget for textures."""
+    """Resolution of the textures: 'low', 'medium' or 'high'."""
     form: StageForm = StageForm.AUTO
-    """'instanced', 'nested' for large garages, 'auto' for one of these by size, or 'flat' for readers without
-    composition: meshes are repeated for each object."""
+    """'instanced', 'nested' for large garages, 'auto' to choose one of these by size, or 'flat' for readers without
+    composition, which repeats the meshes for each object."""
     arrangements: int = Field(16, ge=1, le=100_000)
-    """In the nested form: how many different draws of cars and the like the squares share."""
+    """In the nested form, number of different arrangements of cars and other movable objects that the squares share."""
     assets: AssetPlace = AssetPlace.OWN
-    """'own', or 'shared' for one folder of assets and textures that the ``.usda`` and ``.usdc`` of many garages refer
-    to."""
+    """'own', or 'shared' for a folder of assets and textures that the ``.usda`` and ``.usdc`` files of many garages
+    refer to."""
     asset_folder: str = Field("../assets", min_length=1, max_length=200, pattern=r"^[^@:\\\x00-\x1f\x7f]+$")
-    """Where shared assets are: a path with slashes, relative to the folder of the stage."""
+    """Folder of shared assets: a path with forward slashes, relative to the stage's folder."""
 
     @field_validator("assets")
     @classmethod
@@ -78,5 +78,5 @@ class StageConfig(Settings):
         return str(path)
 
     def is_nested(self, squares: int) -> bool:
-        """Whether equal squares share a prototype in a garage of so many squares."""
+        """True if equal squares share a prototype in a garage of `squares` squares."""
         return self.form is StageForm.NESTED or (self.form is StageForm.AUTO and squares >= _NESTED_FROM_SQUARES)

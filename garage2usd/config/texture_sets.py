@@ -1,4 +1,4 @@
-"""Texture sets of one's own: a folder with the maps of each role, told by their names, and how large a repeat is."""
+"""The user's texture sets: a folder with maps for each role, identified by their names, and the size of a repeat."""
 
 import hashlib
 import re
@@ -26,7 +26,7 @@ _MOST_FILES = 2000
 
 
 class Role(StrEnum):
-    """What of a garage a texture set is for."""
+    """Surface of a garage that a texture set covers."""
 
     FLOOR = "floor"
     STALL = "stall"
@@ -50,20 +50,20 @@ REPEAT_M = {
     Role.LANE_PAINT: 1.0,
     Role.STEEL: 1.5,
 }
-"""Metres that a repeat covers where nothing says so."""
+"""Size of a texture's repeat in metres, if none is given."""
 
 
 class MapFile(NamedTuple):
-    """A channel of a file.
+    """A channel of an image file.
 
     Attributes
     ----------
     path, sha256
-        The file, and what it held when it was read.
+        The file, and the digest of its contents.
     band
-        Which of red, green and blue; None for all of them, or grey.
+        Index of red, green or blue; None for all of them, or for a grey image.
     is_turned
-        Whether it has the opposite: gloss for roughness, or a normal whose green looks down.
+        Whether the values are inverted: gloss instead of roughness, or a normal map whose green points down.
     """
 
     path: str
@@ -73,14 +73,14 @@ class MapFile(NamedTuple):
 
 
 class TextureSet(NamedTuple):
-    """The maps of a role.
+    """Texture maps of a role.
 
     Attributes
     ----------
     maps
         (channel, file) pairs in the order of `Channel`.
     repeat_m
-        Metres that a repeat covers along U, and along V; None where the picture's shape decides.
+        Metres that a repeat covers along U and along V; None for V if the aspect ratio of the image decides.
     """
 
     maps: tuple[tuple[Channel, MapFile], ...]
@@ -88,35 +88,35 @@ class TextureSet(NamedTuple):
 
 
 class TextureFolder(Settings):
-    """Textures of one's own."""
+    """Folder of the user's textures."""
 
     folder: str = Field(min_length=1)
-    """A folder with a folder for each role, or with files whose names begin with one: 'floor', 'stall', 'wall', 'dado',
-    'ceiling', 'column', 'paint', 'lane_paint' or 'steel'. A relative path starts at the configuration file."""
+    """A folder with a subfolder for each role, or with files whose names begin with a role: 'floor', 'stall', 'wall',
+    'dado', 'ceiling', 'column', 'paint', 'lane_paint' or 'steel'. A relative path starts at the configuration file."""
     sha256: str = Field("", pattern=r"^([0-9a-f]{64})?$")
-    """Of what is used of it; found out when it is read."""
+    """Digest of all files used from the folder; computed when the folder is read."""
 
 
 class _RoleSizes(Settings):
-    """What ``textures.toml`` says of a role."""
+    """Facts on a role from ``textures.toml``."""
 
     repeat_m: (
         Annotated[float, Field(gt=0, le=1000)]
         | tuple[Annotated[float, Field(gt=0, le=1000)], Annotated[float, Field(gt=0, le=1000)]]
         | None
     ) = None
-    """Metres that a repeat covers, or two numbers: along and up."""
+    """Metres that a repeat covers, or two numbers: horizontal and vertical."""
     normal: Annotated[str, Field(pattern="^(gl|dx)$")] | None = None
-    """Which way green looks in the normal map: 'gl' up, 'dx' down; in place of what its name says."""
+    """Direction of green in the normal map: 'gl' up, 'dx' down; overrides the file's name."""
 
 
 def read_texture_sets(folder: TextureFolder) -> tuple[TextureFolder, dict[Role, TextureSet]]:
-    """The sets of a folder by role, and the folder with the digest of what they hold.
+    """Read the texture sets of a folder by role, and add a digest of their files to the folder.
 
     Raises
     ------
     ConfigError
-        If a file cannot be read, a role, a map or a size is unknown, or the files are not those of the digest.
+        If a file cannot be read, a role, a map or a size is unknown, or the files do not match the folder's digest.
     """
     sets = _sets(folder.folder)
     told = [(role, [(channel, *file[1:]) for channel, file in each.maps], each.repeat_m) for role, each in sets.items()]
@@ -138,7 +138,7 @@ def _sets(folder: str) -> dict[Role, TextureSet]:
 
 @lru_cache(maxsize=64)
 def _read(folder: str, stamps: tuple[tuple[str, int, int], ...]) -> dict[Role, TextureSet]:
-    """The sets of a folder with some files, which are read once as long as none of them changes."""
+    """Read the texture sets of a folder, cached until one of its files changes."""
     place = Path(folder)
     sizes = _sizes(place)
     found: dict[Role, list[Path]] = {}
@@ -155,7 +155,7 @@ def _read(folder: str, stamps: tuple[tuple[str, int, int], ...]) -> dict[Role, T
 
 
 def _files(folder: Path) -> Iterator[Path]:
-    """Files that are or may be pictures, in the folder and in those below it."""
+    """Yield image files, and files that may be images, in the folder and its subfolders."""
     count = 0
     for path in folder.iterdir():
         for file in path.rglob("*") if path.is_dir() else (path,):
@@ -182,7 +182,7 @@ def _sizes(folder: Path) -> dict[Role, _RoleSizes]:
 
 
 def _role_of(path: Path, folder: Path) -> Role | None:
-    """Which role a file is of, by the folder that it stands in or how its name begins; None for other files."""
+    """Role of a file, by its folder or the beginning of its name; None if it has none."""
     first = path.relative_to(folder).parts[0].lower()
     if path.suffix.lower() == ".toml":
         return None
@@ -197,7 +197,7 @@ def _role_of(path: Path, folder: Path) -> Role | None:
 
 
 class _Found(NamedTuple):
-    """A file for a channel; the least of several is taken: not packed, not the opposite, a PNG."""
+    """A candidate file for a channel; the least candidate is chosen: not packed, not inverted, PNG before JPEG."""
 
     is_packed: bool
     is_turned: bool
@@ -207,7 +207,7 @@ class _Found(NamedTuple):
 
 
 def _set(role: Role, files: list[Path], sizes: _RoleSizes) -> TextureSet:
-    """The maps of a role."""
+    """Build the texture set of a role."""
     field = f"{FIELD}.{role}"
     chosen = _chosen(role, files)
     if Channel.COLOUR not in chosen:
@@ -225,7 +225,7 @@ def _set(role: Role, files: list[Path], sizes: _RoleSizes) -> TextureSet:
 
 
 def _chosen(role: Role, files: list[Path]) -> dict[Channel, _Found]:
-    """The file of each channel that there is."""
+    """Choose the file of each channel."""
     field = f"{FIELD}.{role}"
     found: dict[Channel, list[_Found]] = {}
     others: dict[Channel, Path] = {}

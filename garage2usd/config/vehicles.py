@@ -1,4 +1,4 @@
-"""The catalogue of parked cars: measures that layout and meshes share."""
+"""The catalogue of parked cars: the measures that layout and meshes share."""
 
 import math
 from dataclasses import dataclass
@@ -17,11 +17,11 @@ __all__ = [
 ]
 
 SEGMENTS = ("city", "hatchback", "saloon", "estate", "suv", "mpv", "van", "pickup", "sports")
-"""The classes of bodies, by which markets differ."""
+"""Body classes, whose shares differ between markets."""
 
 
 class VehicleClass(StrEnum):
-    """The semantic class of a parked vehicle; those of the catalogue are all cars."""
+    """Semantic class of a parked vehicle; every body of the catalogue is a car."""
 
     CAR = "car"
     VAN = "van"
@@ -37,22 +37,22 @@ class CarBody:
     name
         Key of the body.
     length_m, width_m, height_m
-        Length and height over all; width without mirrors.
+        Overall length and height; width without mirrors.
     overall_width_m
-        Width over the mirrors.
+        Width with mirrors.
     wheelbase_m, front_overhang_m
-        Between the axles, and from the nose to the front axle.
+        Distance between the axles, and from the nose to the front axle.
     wheel_radius_m
         Radius of the tyres.
     mirrors_m
-        From the nose to the middle of the mirrors.
+        Distance from the nose to the centre of the mirrors.
     segment
-        Its class, one of `SEGMENTS`; empty for models of one's own.
+        Body class, one of `SEGMENTS`; empty for the user's models.
     plates
-        Of the front plate and of the rear one, where they are given: the way along Z that it looks, -1 or 1, and Y and
-        Z of its middle in metres; else they follow from the shape.
+        Front and rear plate, if given: direction along Z, -1 or 1, and Y and Z of the centre in metres. If empty, they
+        follow from the shape.
     semantic_class
-        What labels call it.
+        Class in labels.
     """
 
     name: str
@@ -70,20 +70,20 @@ class CarBody:
 
     @property
     def ahead_m(self) -> float:
-        """From the rear axle to the nose."""
+        """Distance from the rear axle to the nose, in metres."""
         return self.front_overhang_m + self.wheelbase_m
 
     @property
     def rear_axle_m(self) -> float:
-        """From the middle of the body back to the rear axle."""
+        """Distance from the centre of the body back to the rear axle, in metres."""
         return self.ahead_m - self.length_m / 2
 
     def fits(self, width_m: float, length_m: float, height_m: float = math.inf) -> bool:
-        """Whether it stands, with its mirrors, within a room of some measures in metres."""
+        """True if the car with its mirrors fits a box of these measures in metres."""
         return self.overall_width_m <= width_m and self.length_m <= length_m and self.height_m <= height_m
 
     def half_extents_m(self, yaw_rad: float, *, width_m: float | None = None) -> tuple[float, float]:
-        """Half the width and length of the box around it where it is turned, with its mirrors or of another width."""
+        """Half the width and length in metres of the turned car's bounding box, with mirrors or for another width."""
         cos, sin = abs(math.cos(yaw_rad)), abs(math.sin(yaw_rad))
         wide_m = self.overall_width_m if width_m is None else width_m
         return (wide_m * cos + self.length_m * sin) / 2, (self.length_m * cos + wide_m * sin) / 2
@@ -131,7 +131,7 @@ CAR_BODIES: tuple[CarBody, ...] = (
 )
 
 DRIVEN_BODIES = CAR_BODIES[:6]
-"""Those that drive: a garage's design car is drawn as the longest of them that lies within it."""
+"""Bodies that drive: a garage's driven car is the longest of them that lies within its design car."""
 
 PAINTS: tuple[str, ...] = (
     "white",
@@ -146,14 +146,14 @@ PAINTS: tuple[str, ...] = (
 )
 
 DRIVEN_PAINT = "blue"
-"""Of the car that drives."""
+"""Paint of the driven car."""
 DRIVEN_PLATE = "G47 B16"
-"""What is to be read on its number plates, and on no other car's."""
+"""Text on the driven car's number plates; no other car has it."""
 
 
 _BY_NAME = {body.name: body for body in CAR_BODIES}
 
 
 def body_named(name: str) -> CarBody:
-    """A body of the catalogue."""
+    """Return a body of the catalogue by its name."""
     return _BY_NAME[name]

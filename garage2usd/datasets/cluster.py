@@ -73,7 +73,7 @@ class Workers:
             return
         client = self._client
         left = iter(range(len(tasks)))
-        running: dict[Any, int] = {}  # futures, whose type says nothing of what they hold
+        running: dict[Any, int] = {}  # futures are not generic in the type of their result
         lost: Counter[int] = Counter()
         done = as_completed([], with_results=False)
 
@@ -129,10 +129,10 @@ def workers(*, count: int | None = None, scheduler: str | None = None) -> Iterat
         return
     settings = {
         "distributed.worker.daemon": True,
-        # a worker of ours needs a gigabyte for 20 x 30 squares; without limits none is stopped for what others take
+        # no memory limit: a worker needs 1 GB for 20 x 30 squares, and must not be stopped for the use of others
         "distributed.worker.memory.terminate": False,
         "distributed.worker.memory.pause": False,
-        # what Dask measures for a dashboard, up to a hundred times a second in each process
+        # intervals of Dask's measurements for its dashboard, up to a hundred per second in each process
         "distributed.worker.profile.enabled": False,
         "distributed.admin.system-monitor.interval": "10s",
         "distributed.admin.tick.interval": "1s",

@@ -21,15 +21,15 @@ def chosen_garages(path: Path, numbers: Sequence[int]) -> Iterator[SheetGarage]:
     Parameters
     ----------
     path
-        The recipe. Of a data set's own, ``recipe.json``, the plans are those that the data set has. Of another one
-        each garage is drawn until it is possible; a data set may draw it once more, where its plan is there already.
+        The recipe. For a data set's own ``recipe.json``, the plans are read from the data set. For any other recipe
+        each garage is drawn until it is feasible; a data set redraws it if its plan is a duplicate.
     numbers
-        Of the garages, from 0 on.
+        Numbers of the garages, from 0.
 
     Raises
     ------
     ConfigError
-        If the recipe cannot be used, or has no such garage.
+        If the recipe is invalid, or has no garage with one of the numbers.
     """
     recipe = load_recipe(path)
     plans = path.with_name(PLAN_FILE)

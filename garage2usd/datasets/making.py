@@ -97,11 +97,11 @@ def make_dataset(
     Raises
     ------
     ConfigError
-        If the folder holds something else, no garage is possible by the recipe, or the scheduler cannot be used.
+        If the folder has other contents, every garage of the recipe is infeasible, or the scheduler cannot be used.
     MissingExtraError
-        If what records drives or writes maps is not installed.
+        If a package that records drives or writes maps is not installed.
     OutputError
-        If files cannot be written, as where the disk is full; what was made until then stays for `resume`.
+        If files cannot be written, for example to a full disk; finished shards are kept for `resume`.
     """
     folder = Path(folder).absolute()
     recipe.check()
@@ -116,7 +116,7 @@ def make_dataset(
         with writing(folder):
             folder.mkdir(parents=True, exist_ok=True)
         with only_run(folder):
-            _check_folder(recipe, folder, resume=resume)  # as another run may have begun here until workers were there
+            _check_folder(recipe, folder, resume=resume)  # again: another run may have started here meanwhile
             store(folder / RECIPE_FILE, recipe.record().encode())
             sweep(folder)
             return _make(recipe, folder, pool, progress)
@@ -128,7 +128,7 @@ def _make(recipe: Recipe, folder: Path, pool: "Workers", progress: Progress) -> 
     rows = _made(recipe, folder, pool, shards, progress)
     rows += [failed_row(drawn, drawn.error) for drawn in plans if drawn.error]
     rows.sort(key=lambda row: row.number)
-    sweep(folder)  # what workers that were killed left
+    sweep(folder)  # unfinished files of killed workers
     with writing(folder):
         _finish(recipe, folder, plans, rows)
     return DataSet(folder, tuple(rows), tuple(recipe.splits))
@@ -160,10 +160,10 @@ def _plans(recipe: Recipe, folder: Path, pool: "Workers", progress: Progress) ->
             return plans
     draw = PlanDraw(recipe, _journalled(journal))
     with writing(file), journal.open("a", encoding="utf-8", newline="\n") as lines:
-        while asked := draw.asked():
-            left = len(asked)
+        while requests := draw.missing():
+            left = len(requests)
             progress("plans", recipe.count - left, recipe.count)
-            for part, made in pool.each(planned, chunks(asked), recipe):
+            for part, made in pool.each(planned, chunks(requests), recipe):
                 draw.add(made)
                 lines.write("".join(f"{drawn.model_dump_json()}\n" for drawn in made))
                 lines.flush()
@@ -201,7 +201,7 @@ def _made(
         rows[shard.name] = made
         done += len(made)
         progress("garages", done, total)
-    # what is left of the damaged assets is made again with the garages that refer to them
+    # damaged assets are made again together with the garages that refer to them
     for shard in shards:
         if all((folder / name).exists() for name in damaged):
             break

@@ -34,37 +34,38 @@ class ManifestRow(Record):
     Attributes
     ----------
     number
-        From 0 on.
+        Number of the garage, from 0.
     key
-        What the names of its files begin with: ``train-000003/00000312``; empty where there is none.
+        Prefix of its files' paths, such as ``train-000003/00000312``; empty if it failed.
     split, shard
-        Where it is: ``train``, ``train-000003``.
+        Its split and shard, such as ``train`` and ``train-000003``.
     seed, attempt
-        By which it was drawn.
+        Its seed, and the number of the draw.
     alternatives
-        Name of the alternative of each group of the recipe.
+        Name of the alternative drawn from each group of the recipe.
     config_digest, structure_digest
-        As its report has them.
+        As in its report.
     plan_digest
-        Of its plan in squares, the same if it is turned or mirrored.
+        Digest of its plan in squares, equal for rotations and reflections.
     rows, cols
-        Of S.
+        Shape of S.
     squares
-        How many are inside.
+        Number of squares inside the contour.
     stalls, standard_stalls, ev_stalls, accessible_stalls, cars
-        How many. Stalls are those that cars park in: these three kinds.
+        Numbers of stalls for cars, in total and of the three kinds, and of parked cars.
     loops, longest_dead_end_m, area_per_stall_m2, stair_cores, mean_lux
-        As its report has them.
+        As in its report.
     difficulty, difficulty_score
-        Of the garage (`garage2usd.datasets.difficulty`); empty and -1 where it was not asked for or no stall is proven.
+        Difficulty of the garage (`garage2usd.datasets.difficulty`); empty and -1 if it is not rated or no stall is
+        proven.
     normal_stalls, complex_stalls, extreme_stalls, unproven_stalls
-        How many stalls that take cars are of each level, or have no proven way; 0 where it was not asked for.
+        Numbers of stalls for cars of each level, and of those without a proven drive; 0 if difficulty is not rated.
     check_errors, check_warnings
-        Findings of the rules that `garage2usd build` runs.
+        Numbers of findings of the rules that `garage2usd build` checks.
     files
         Its files.
     error
-        Why there is no garage; empty where there is one.
+        Reason for its failure; empty if it was made.
     """
 
     number: int
@@ -111,12 +112,12 @@ MANIFEST_SCHEMA = pa.schema(
         for name, field in ManifestRow.model_fields.items()
     ]
 )
-"""Columns of ``manifest.parquet``: those of `ManifestRow`, ``alternatives`` as JSON, none nullable."""
+"""Columns of ``manifest.parquet``: the fields of `ManifestRow`, ``alternatives`` as JSON, none nullable."""
 
 
 def manifest_table(rows: Sequence[ManifestRow]) -> pa.Table:
     """Convert manifest rows to a table."""
-    return pa.Table.from_pylist([_flat(row) for row in rows], schema=MANIFEST_SCHEMA)
+    return pa.Table.from_pylist([_record(row) for row in rows], schema=MANIFEST_SCHEMA)
 
 
 def rows_of_table(table: pa.Table) -> list[ManifestRow]:
@@ -126,7 +127,7 @@ def rows_of_table(table: pa.Table) -> list[ManifestRow]:
 
 def text_of_rows(rows: Iterable[ManifestRow]) -> str:
     """Format manifest rows as JSON lines with the table's columns."""
-    return "".join(json.dumps(_flat(row), separators=(",", ":")) + "\n" for row in rows)
+    return "".join(json.dumps(_record(row), separators=(",", ":")) + "\n" for row in rows)
 
 
 def rows_of_text(text: str) -> list[ManifestRow]:
@@ -145,6 +146,6 @@ def _row(values: dict[str, Any]) -> ManifestRow:
     return ManifestRow.model_validate({**values, "alternatives": json.loads(values["alternatives"])})
 
 
-def _flat(row: ManifestRow) -> dict[str, Any]:
+def _record(row: ManifestRow) -> dict[str, Any]:
     values = row.model_dump(mode="json")
     return {**values, "alternatives": json.dumps(values["alternatives"], sort_keys=True, separators=(",", ":"))}

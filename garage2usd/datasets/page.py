@@ -53,15 +53,15 @@ def write_page(
     path
         The HTML file.
     plans
-        The plans, in the order in which they are drawn.
+        The plans, in the order in which the page shows them.
     title
-        What the page is headed with.
+        Heading of the page.
     facts
-        What else is said under the title, by name: the seed, say, or a version.
+        Facts below the title, by name, such as the seed or a version.
     most_drawn
-        How many plans are drawn at most, evenly spread over all of them.
+        Maximum number of plans in the page, evenly spaced among all of them.
     sheets
-        Contact sheets, PNG or JPEG, which the page holds.
+        Contact sheets, PNG or JPEG, to embed.
 
     Returns
     -------
@@ -70,7 +70,7 @@ def write_page(
 
     Notes
     -----
-    The page needs nothing but itself. The same plans give the same bytes, with the same version of matplotlib.
+    The page is self-contained. The same plans give the same bytes with the same version of matplotlib.
     """
     variety = Variety(plans)
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)

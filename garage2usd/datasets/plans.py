@@ -20,7 +20,17 @@ from garage2usd.report import learning_figures
 from garage2usd.structure.grid import Structure, cells_from_text
 from garage2usd.structure.symmetry import plan_digest
 
-__all__ = ["DrawnPlan", "PlanDraw", "chunks", "plan_table", "planned", "plans_of", "proportional", "replanned", "said"]
+__all__ = [
+    "DrawnPlan",
+    "PlanDraw",
+    "chunks",
+    "error_line",
+    "plan_table",
+    "planned",
+    "plans_of",
+    "proportional",
+    "replanned",
+]
 
 Key = TypeVar("Key")
 
@@ -34,25 +44,25 @@ class DrawnPlan(Record):
     Attributes
     ----------
     number, attempt
-        Which garage it is of, from 0 on, and the how manieth draw, from 0 on.
+        Number of the garage and number of its draw, both from 0.
     seed
-        The garage's, by which its settings are drawn too.
+        Seed of the garage, from which its settings are drawn.
     alternatives
         Name of the alternative of each group of the recipe.
     rows
-        S with lanes, a string of symbols a row (see `garage2usd.structure.grid.Cell`); none where drawing failed.
+        S with lanes, one string of symbols per row (see `garage2usd.structure.grid.Cell`); empty if drawing failed.
     column_widths_mm, row_depths_mm
-        R and C.
+        R and C in millimetres.
     digest
-        Of S, the same if it is turned or mirrored (`garage2usd.structure.symmetry.plan_digest`).
+        Digest of S, equal for rotations and reflections (`garage2usd.structure.symmetry.plan_digest`).
     gave_way
-        The rules of circulation that the plan breaks though they are asked for, and where.
+        Required rules of circulation that the plan violates, with their places.
     learning
-        What learning alone found.
+        Result of learning, before hill climbing.
     level
-        How difficult the garage is, where the recipe asks for levels; else None.
+        Difficulty of the garage; None if the recipe does not control levels.
     error
-        Why there is no garage; empty where there is one.
+        Reason for the failure; empty if the garage was planned.
     """
 
     number: int
@@ -75,17 +85,17 @@ class DrawnPlan(Record):
         return Structure(cells, np.array(self.column_widths_mm), np.array(self.row_depths_mm))
 
 
-def planned(recipe: Recipe, asked: Sequence[tuple[int, int]]) -> list[DrawnPlan]:
+def planned(recipe: Recipe, requests: Sequence[tuple[int, int]]) -> list[DrawnPlan]:
     """Draw the settings of garages and plan their lanes.
 
     Parameters
     ----------
     recipe
         The recipe.
-    asked
-        (number, attempt) of each.
+    requests
+        (number, attempt) of each garage to draw.
     """
-    return [_planned(recipe, number, attempt) for number, attempt in asked]
+    return [_planned(recipe, number, attempt) for number, attempt in requests]
 
 
 def _planned(recipe: Recipe, number: int, attempt: int) -> DrawnPlan:
@@ -94,10 +104,10 @@ def _planned(recipe: Recipe, number: int, attempt: int) -> DrawnPlan:
         config, alternatives = recipe.drawn(seed)
         plan = generate_plan(config)
         level = _level(config, plan) if recipe.difficulty else None
-    except (OSError, MissingExtraError):  # of the machine, and not of this garage
+    except (OSError, MissingExtraError):  # a failure of the machine, not of this garage
         raise
     except Exception as error:  # noqa: BLE001 - one garage that fails does not end ten thousand
-        return DrawnPlan(number=number, attempt=attempt, seed=seed, error=said(error))
+        return DrawnPlan(number=number, attempt=attempt, seed=seed, error=error_line(error))
     structure = plan.structure
     return DrawnPlan(
         number=number,
@@ -118,7 +128,7 @@ def _level(config: GarageConfig, plan: Plan) -> Level | None:
     return garage_difficulty(stall_difficulties(generate(config, plan=plan))).level
 
 
-def said(error: Exception) -> str:
+def error_line(error: Exception) -> str:
     """Format an error in one line."""
     text = " ".join(str(error).split())
     return text if isinstance(error, Garage2UsdError) else f"{type(error).__name__}: {text}"
@@ -133,15 +143,15 @@ def replanned(drawn: DrawnPlan, config: GarageConfig) -> Plan:
 class PlanDraw:
     """Selection of distinct plans: each garage is redrawn until its plan differs from all earlier ones.
 
-    Of two garages that draw one plan at the same attempt the one with the lesser number keeps it, and one that was
-    taken at an earlier attempt stays, so that the outcome is the same in whatever order plans are made.
+    If two garages draw the same plan at the same attempt, the one with the lower number keeps it. A plan accepted at an
+    earlier attempt is kept. The result is therefore independent of the order in which plans are made.
 
     Parameters
     ----------
     recipe
         The recipe.
     known
-        What was drawn before, in a run that was interrupted.
+        Plans drawn before, in an interrupted run.
     """
 
     def __init__(self, recipe: Recipe, known: Iterable[DrawnPlan] = ()) -> None:
@@ -157,20 +167,20 @@ class PlanDraw:
         """Add drawn plans."""
         self._found.update(((each.number, each.attempt), each) for each in drawn)
 
-    def asked(self) -> list[tuple[int, int]]:
+    def missing(self) -> list[tuple[int, int]]:
         """Return the (number, attempt) pairs to draw next; empty if every garage has a plan or no attempts left.
 
         Raises
         ------
         ConfigError
-            If no garage at all could be drawn.
+            If every garage is infeasible.
         """
         while self._pending and self._attempt < self._recipe.attempts:
-            asked = [(number, self._attempt) for number in self._pending]
-            missing = [each for each in asked if each not in self._found]
+            requests = [(number, self._attempt) for number in self._pending]
+            missing = [each for each in requests if each not in self._found]
             if missing:
                 return missing
-            self._pending = [number for number, attempt in asked if not self._takes(self._found[number, attempt])]
+            self._pending = [number for number, attempt in requests if not self._takes(self._found[number, attempt])]
             self._attempt += 1
         missing_levels = {level: count for level, count in self._room.items() if count}
         if missing_levels and any(not self._found[number, self._attempt - 1].error for number in self._pending):
@@ -225,9 +235,9 @@ def proportional(ratios: Mapping[Key, float], total: int) -> dict[Key, int]:
     return dict(zip(ratios, counts.tolist(), strict=True))
 
 
-def chunks(asked: Sequence[tuple[int, int]]) -> list[Sequence[tuple[int, int]]]:
-    """Split requested plans into tasks of some seconds, so that a lost worker costs little."""
-    return [asked[first : first + _CHUNK] for first in range(0, len(asked), _CHUNK)]
+def chunks(requests: Sequence[tuple[int, int]]) -> list[Sequence[tuple[int, int]]]:
+    """Split requests for plans into tasks of some seconds, so that a lost worker costs little."""
+    return [requests[first : first + _CHUNK] for first in range(0, len(requests), _CHUNK)]
 
 
 _SCHEMA = pa.schema(

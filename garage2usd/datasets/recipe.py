@@ -20,7 +20,7 @@ from garage2usd.config import GarageConfig, config_from_mapping, profile_setting
 from garage2usd.datasets.difficulty import Level
 from garage2usd.datasets.distribution import Weight, distribution_of
 from garage2usd.datasets.drives import DrivesConfig
-from garage2usd.datasets.settings_table import first_value, over, pin_textures, resolved
+from garage2usd.datasets.settings_table import first_value, merge_settings, pin_textures, resolved
 from garage2usd.sensors.rig.rig import read_rig
 
 __all__ = ["Alternative", "Distinct", "MakeConfig", "Recipe", "ShardForm", "ShardsConfig", "load_recipe"]
@@ -163,13 +163,13 @@ class Recipe(Settings):
     def drawn(self, seed: int) -> tuple[GarageConfig, dict[str, str]]:
         """Draw the configuration of a garage and its alternatives, by group.
 
-        Each distribution has a generator of its own, by the name of its setting, so that one that is added or taken
-        away leaves the others' draws as they are.
+        Each distribution has its own random generator, seeded by the name of its setting, so that adding or removing
+        one distribution does not change the draws of the others.
 
         Raises
         ------
         ConfigError
-            If settings were drawn that cannot be used.
+            If the drawn settings are invalid.
         """
         chosen = {}
         settings = self.garage
@@ -178,7 +178,7 @@ class Recipe(Settings):
             place = _generator(seed, f"groups.{group}").random() * weights[-1]
             alternative = alternatives[int(np.searchsorted(weights, place, side="right"))]
             chosen[group] = alternative.name
-            settings = over(settings, alternative.garage)
+            settings = merge_settings(settings, alternative.garage)
 
         def draw(value: object, field: str) -> object:
             distribution = distribution_of(value, field=field)
@@ -191,14 +191,14 @@ class Recipe(Settings):
         return json.dumps({_VERSION_KEY: VERSION, _RECIPE_KEY: self.model_dump(mode="json")}, indent=1) + "\n"
 
     def check(self) -> None:
-        """Check that the settings which a recipe may draw are valid.
+        """Check that all settings which a recipe may draw are valid.
 
-        Tried are the ends of each distribution, with the first values of the others.
+        The extreme values of each distribution are tested, together with the first values of the others.
 
         Raises
         ------
         ConfigError
-            If they cannot; names the setting, the value and what is allowed.
+            If a combination is invalid; names the setting, the value and what is allowed.
         """
         for settings in self._variants():
             ends_of: dict[str, tuple[Any, ...]] = {}
@@ -211,13 +211,13 @@ class Recipe(Settings):
         """Yield the settings of each alternative, combined with the first ones of other groups."""
         first = self.garage
         for alternatives in self.groups.values():
-            first = over(first, alternatives[0].garage)
+            first = merge_settings(first, alternatives[0].garage)
         yield first
         for group, alternatives in self.groups.items():
             for alternative in alternatives[1:]:
                 settings = self.garage
                 for other, others in self.groups.items():
-                    settings = over(settings, (alternative if other == group else others[0]).garage)
+                    settings = merge_settings(settings, (alternative if other == group else others[0]).garage)
                 yield settings
 
     def _config(self, settings: dict[str, Any], seed: int) -> GarageConfig:
@@ -239,14 +239,13 @@ def load_recipe(path: str | Path) -> Recipe:
     Parameters
     ----------
     path
-        The file; a profile, a rig and textures of one's own that it names are looked for in its folder. Of textures the
-        recipe has the whole path and the digest of what they hold.
+        The file. Relative paths of a profile, a rig or the user's textures are resolved against its folder. Textures
+        are recorded by their absolute path and a digest of their contents.
 
     Raises
     ------
     ConfigError
-        If it cannot be read, has an unknown key or a value that is not allowed, or could draw settings that cannot be
-        used.
+        If the file cannot be read, has an unknown key or a value that is not allowed, or could draw invalid settings.
     """
     path = Path(path)
     settings = _recorded(path) if path.suffix.lower() == ".json" else read_toml(path, field="RECIPE")

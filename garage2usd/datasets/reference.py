@@ -38,9 +38,9 @@ def reference_settings(seed: int) -> dict[str, Any]:
 
     Notes
     -----
-    Around the default settings: sizes from 5 x 5 to 16 x 20 squares, four profiles, free contours and obstacles on the
-    large ones, aisles of 5 to 7 m or a uniform grid, stalls of 2.2 to 2.6 m, no car to a car in each stall, half to
-    twice the default's light. Plans are learnt with little effort: they need not be the best.
+    The settings vary around the defaults: sizes from 5 x 5 to 16 x 20 squares, four profiles, random contours and
+    obstacles on large sites, aisles of 5 to 7 m or a uniform grid, stalls of 2.2 to 2.6 m, occupancies from 0 to 1,
+    half to twice the default illuminance. Plans are learned with few episodes, as they need not be optimal.
     """
     draw = np.random.default_rng([18, seed])
     rows, cols = _SIZES[draw.choice(len(_SIZES), p=_SHARES)]
@@ -84,7 +84,7 @@ def make_reference(garages: Mapping[int, tuple[StallFeatures, ...]]) -> Referenc
     Parameters
     ----------
     garages
-        The stalls of each by its seed; at least one is proven.
+        Stall features of each garage by its seed; at least one stall is proven.
     """
     stalls = [stall for found in garages.values() for stall in found]
     quantiles = {name: _quantiles(values) for name, values in proven_values(stalls).items()}
@@ -129,7 +129,7 @@ def _garages() -> Iterator[tuple[int, tuple[StallFeatures, ...]]]:
 @click.command()
 @click.argument("folder", type=click.Path(file_okay=False, path_type=Path))
 def main(folder: Path) -> None:
-    """Make the reference set of difficulties and write it into FOLDER."""
+    """Make the difficulty reference set and write it into FOLDER."""
     garages = {}
     for seed, stalls in _garages():
         garages[seed] = stalls

@@ -44,25 +44,25 @@ def make_scene(
     Parameters
     ----------
     recipe
-        What is made.
+        The recipe, which selects the outputs.
     drawn
-        Its plan.
+        Plan of the garage.
     folder
-        An existing folder, as deep in the data set as the one in which the files will stand.
+        An existing folder, at the same depth of the data set as the final one, so that relative paths stay valid.
     split, shard
-        Where it goes.
+        Split and shard of the garage.
     assets
-        Folder of the assets that all stages share; None where each is self-contained.
+        Folder of the assets shared by all stages; None if each stage is self-contained.
 
     Returns
     -------
     ManifestRow
-        Its row in the manifest.
+        Manifest row of the garage.
 
     Raises
     ------
     Garage2UsdError
-        If it cannot be made.
+        If the garage cannot be built.
     """
     config, alternatives = recipe.drawn(drawn.seed)
     garage = generate(config, plan=replanned(drawn, config))

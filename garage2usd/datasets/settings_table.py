@@ -8,15 +8,15 @@ from garage2usd.config.files import with_textures
 from garage2usd.config.texture_sets import TextureFolder, read_texture_sets
 from garage2usd.datasets.distribution import distribution_of
 
-__all__ = ["first_value", "over", "pin_textures", "resolved"]
+__all__ = ["first_value", "merge_settings", "pin_textures", "resolved"]
 
 
-def over(settings: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:
+def merge_settings(settings: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:
     """Merge settings over others, table by table; a distribution replaces a table or value as a whole."""
     merged = dict(settings)
     for key, value in above.items():
         below = merged.get(key)
-        merged[key] = over(below, value) if _is_table(below, key) and _is_table(value, key) else value
+        merged[key] = merge_settings(below, value) if _is_table(below, key) and _is_table(value, key) else value
     return merged
 
 
@@ -56,14 +56,14 @@ def pin_textures(recipe: Mapping[str, Any], folder: Path) -> None:
     Parameters
     ----------
     recipe
-        A recipe as it was read, valid or not; its tables of settings are changed.
+        Parsed recipe, valid or not; its tables of settings are changed in place.
     folder
-        Where relative paths start.
+        Folder of relative paths.
 
     Raises
     ------
     ConfigError
-        If textures cannot be used.
+        If textures are invalid.
     """
     groups = recipe.get("groups")
     of_groups = groups.values() if isinstance(groups, dict) else ()

@@ -14,7 +14,7 @@ from garage2usd.common.errors import MissingExtraError
 from garage2usd.common.output import HIDDEN_PREFIX, store, writing
 from garage2usd.common.randomness import Step, generator
 from garage2usd.datasets.manifest import ManifestRow, rows_of_text, text_of_rows
-from garage2usd.datasets.plans import DrawnPlan, proportional, said
+from garage2usd.datasets.plans import DrawnPlan, error_line, proportional
 from garage2usd.datasets.recipe import ASSET_FOLDER, Recipe, ShardForm
 from garage2usd.datasets.scene import make_scene
 
@@ -31,11 +31,11 @@ class Shard:
     Attributes
     ----------
     name
-        ``train-000003``: its split, and its number within it.
+        Split and number within the split, such as ``train-000003``.
     split
-        Its split.
+        Name of the split.
     plans
-        Those of its garages, by number.
+        Plans of its garages, ordered by number.
     """
 
     name: str
@@ -49,9 +49,9 @@ def shards_of(recipe: Recipe, plans: Sequence[DrawnPlan]) -> list[Shard]:
     Parameters
     ----------
     recipe
-        Ratios, seed, and how many garages a shard has.
+        Recipe with the ratios of splits, the seed, and the number of garages per shard.
     plans
-        One a garage; those with an error are left out.
+        One plan per garage; plans with an error are left out.
     """
     good = [drawn for drawn in plans if not drawn.error]
     order = generator(recipe.seed, Step.SPLITS).permutation(len(good))
@@ -77,21 +77,21 @@ def make_shard(recipe: Recipe, folder: Path, shard: Shard) -> list[ManifestRow]:
     Parameters
     ----------
     recipe
-        What is made.
+        The recipe.
     folder
-        Of the data set.
+        Folder of the data set.
     shard
-        Its garages.
+        Shard to generate.
 
     Returns
     -------
     list of ManifestRow
-        Of its garages; one that could not be made has its error there.
+        Rows of the shard's garages; the row of a failed garage has its error.
 
     Raises
     ------
     OutputError
-        If files cannot be written; no shard is left.
+        If files cannot be written; no part of the shard remains.
     """
     is_tar = recipe.shards.form is ShardForm.TAR
     parent = folder / SHARD_FOLDER
@@ -106,7 +106,7 @@ def make_shard(recipe: Recipe, folder: Path, shard: Shard) -> list[ManifestRow]:
         else:
             shutil.rmtree(place, ignore_errors=True)
             staging.rename(place)
-        # the rows come last: where they stand, all of it does
+        # the rows are published last, as a mark that the shard is complete
         store(parent / f"{shard.name}.jsonl", text_of_rows(rows).encode())
     return rows
 
@@ -114,12 +114,12 @@ def make_shard(recipe: Recipe, folder: Path, shard: Shard) -> list[ManifestRow]:
 def _row(recipe: Recipe, drawn: DrawnPlan, staging: Path, shard: Shard, assets: Path | None) -> ManifestRow:
     try:
         return make_scene(recipe, drawn, staging, split=shard.split, shard=shard.name, assets=assets)
-    except (OSError, MissingExtraError):  # of the machine, and not of this garage
+    except (OSError, MissingExtraError):  # a failure of the machine, not of this garage
         raise
     except Exception as error:  # noqa: BLE001 - one garage that fails does not end ten thousand
         for path in staging.glob(f"{drawn.number:08}.*"):
             path.unlink()
-        return failed_row(drawn, said(error), split=shard.split)
+        return failed_row(drawn, error_line(error), split=shard.split)
 
 
 def failed_row(drawn: DrawnPlan, error: str, *, split: str = "") -> ManifestRow:

@@ -26,20 +26,20 @@ class StallFeatures:
     Attributes
     ----------
     stall
-        Its name.
+        Name of the stall.
     gear_changes_in, gear_changes_out
-        How often the design car stops to go the other way on the proven ways in and out; None where none are proven.
+        Gear changes of the design car on the proven drives in and out; None without proven drives.
     clearance_m
-        What is left at least between the car and everything else on both ways, at most 1 m; None where none are proven.
+        Least distance of the car from all obstacles on both drives, at most 1 m; None without proven drives.
     is_clear_when_full
-        Whether the ways are clear with a car in every other stall, not only with those that stand there; None where
-        none are proven.
+        Whether the drives are free of collisions with a car in every other stall, in addition to the parked ones; None
+        without proven drives.
     aisle_width_m
-        Clear width between the columns on both sides of the lane at its mouth.
+        Clear width between the columns on both sides of the lane at the stall's entry.
     occupied_neighbours
-        How many of the two stalls beside it hold a car, also across a column: 0 to 2.
+        Number of occupied stalls among the two neighbours, also across a column: 0 to 2.
     illuminance_lux
-        Direct light on the floor in its middle, by the point-by-point method.
+        Direct illuminance of the floor at the stall's centre, by the point-by-point method.
     """
 
     stall: str
@@ -65,7 +65,7 @@ def measured_stalls(garage: Garage, *, proofs: Sequence[StallProof] | None = Non
     garage
         The garage.
     proofs
-        What `garage2usd.driving.prove_stalls` found for it; left out, it is asked here.
+        Result of `garage2usd.driving.prove_stalls` for the garage; computed if left out.
 
     Raises
     ------
@@ -124,7 +124,7 @@ def _occupied_neighbours(layout: Layout) -> NDArray[np.int64]:
     mouth = corners[:, 1] - corners[:, 0]
     width_m = np.linalg.norm(mouth, axis=1)
     x, z = corners.mean(axis=1).T
-    # a row lies along the mouths of its stalls, also where their sides are slanted
+    # rows run along the entries of their stalls, also if the stalls are angled
     mouth_x, mouth_z = (mouth / width_m[:, None]).T
     along, across = x * mouth_x + z * mouth_z, z * mouth_x - x * mouth_z
     order = np.lexsort((along, np.round(across, 3), yaw_rad))

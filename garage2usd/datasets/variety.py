@@ -28,23 +28,23 @@ class PlanFigures:
     Attributes
     ----------
     key
-        Its name in the data set.
+        Key of the plan in the data set.
     split
-        Name of the part of the data set that it belongs to, ``train`` for example.
+        Name of its split, for example ``train``.
     cells
         S, int8, shape (rows, cols).
     stalls
-        How many it has.
+        Number of stalls.
     loops
-        How many independent loops its lanes have.
+        Number of independent loops of the lane graph.
     longest_dead_end_m
-        Depth of its deepest dead end, 0 without any.
+        Depth of the deepest dead end; 0 if there is none.
     area_per_stall_m2
-        Floor inside the contour over the number of stalls.
+        Floor area inside the contour per stall.
     contour
-        Shape of its contour.
+        Shape of the contour.
     level
-        How difficult its garage is; None where that is not known.
+        Difficulty of the garage; None if it is not rated.
     """
 
     key: str
@@ -93,9 +93,9 @@ class Spread:
     Attributes
     ----------
     count
-        How many plans have it.
+        Number of plans that have the figure.
     least, mean, greatest
-        None where no plan has it.
+        None if no plan has the figure.
     """
 
     count: int
@@ -112,9 +112,9 @@ class Variety:
     plans
         The plans in their order.
     splits
-        Names of the splits, each where its first plan comes.
+        Names of the splits, in the order of their first plans.
     nearest_share
-        How far each plan is from the nearest other one, see `nearest_shares`; float64, shape (plans,).
+        Distance of each plan to the nearest other plan, see `nearest_shares`; float64, shape (plans,).
     """
 
     def __init__(self, plans: Sequence[PlanFigures]) -> None:
@@ -128,9 +128,9 @@ class Variety:
         Parameters
         ----------
         figure
-            Its name.
+            Name of the figure, a key of `FIGURES`.
         split
-            The split whose plans are asked for; all of them if left out.
+            Split of the plans; all plans if left out.
         """
         if figure == "nearest_share":
             found = 100 * self.nearest_share
@@ -185,14 +185,14 @@ def nearest_shares(plans: Sequence[CellArray]) -> NDArray[np.float64]:
     Returns
     -------
     ndarray
-        float64, shape (plans,): the least share of the shape's squares, those outside the contour included, that differ
-        from another plan of the same shape however that is turned and mirrored. 0 where there is the same plan again,
-        NaN where no other plan has its shape.
+        float64, shape (plans,): the least share of differing squares over all other plans of the same shape and their
+        rotations and reflections, squares outside the contour included. 0 for duplicates, NaN if no other plan has the
+        same shape.
 
     Notes
     -----
-    Squares that agree are counted for all pairs at once, by products of matrices that hold 1 where a square has a
-    value: ten thousand plans of 7 x 9 squares take a few seconds.
+    Equal squares are counted for all pairs at once by matrix products of one-hot encodings; ten thousand plans of 7 x 9
+    squares take a few seconds.
     """
     shares = np.full(len(plans), np.nan)
     members: dict[tuple[int, ...], list[int]] = {}
@@ -208,7 +208,7 @@ def _nearest_of_shape(plans: NDArray[np.int8]) -> NDArray[np.float64]:
     """Compute nearest distances of at least two plans of one shape; int8, shape (plans, rows, cols)."""
     count, squares = len(plans), plans[0].size
     own = _indicators(plans)
-    # the image of each plan under a symmetry is that symmetry of the numbers of the squares
+    # a symmetry of the plans as a permutation of the numbers of the squares
     order = np.arange(squares).reshape(plans[0].shape)
     turns = [image.ravel() for image in eight_symmetries(order) if image.shape == order.shape]
     most = np.zeros(count, dtype=np.float32)

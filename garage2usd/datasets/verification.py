@@ -45,25 +45,25 @@ def verify_dataset(
 ) -> list[Fault]:
     """Verify a data set and list its faults.
 
-    That is files that are not as they were made, stages that do not open or have errors by `garage2usd check`, rows
-    that contradict files, and plans that are there twice.
+    Faults are missing or changed files, stages that do not open or have errors by `garage2usd check`, rows that
+    contradict files, and duplicate plans.
 
     Parameters
     ----------
     folder
-        The data set, which is only read.
+        The data set, which is not changed.
     worker_count, scheduler, progress
         As for `garage2usd.datasets.make_dataset`.
 
     Returns
     -------
     list of Fault
-        Sorted by place; empty where nothing is wrong.
+        Faults sorted by place; empty if there are none.
 
     Raises
     ------
     ConfigError
-        If the folder is no data set that was finished.
+        If the folder does not hold a finished data set.
     """
     folder = Path(folder).absolute()
     if not (folder / RECIPE_FILE).is_file():

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from garage2usd.driving.sweep import Floats, Scene
-from garage2usd.native import Int64s, in_c
+from garage2usd.native import Float64Table, Int64s, in_c
 
 __all__ = ["HEADINGS", "Found", "Task", "reeds_shepp_words", "search"]
 
@@ -44,7 +44,7 @@ class Task(NamedTuple):
 
     scene: Scene
     start: Floats
-    goals: Floats
+    goals: Float64Table
     radius: float
     margin: float
     reach: float

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from garage2usd.native import Bools, Float64s, Int64s, in_c
+from garage2usd.native import Bools, Float64Cube, Float64s, Float64Table, Int64s, in_c
 
 __all__ = ["Floats", "Scene", "bulge", "least_clearance", "touched_shapes"]
 
@@ -24,8 +24,8 @@ class Scene(NamedTuple):
         Distances from the rear axle to nose and tail, and half the width.
     """
 
-    shapes: Floats
-    boxes: Floats
+    shapes: Float64Cube
+    boxes: Float64Table
     body: Floats
 
 

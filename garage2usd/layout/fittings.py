@@ -1,4 +1,4 @@
-"""What hangs over single squares or stands on them: tube lights, speed bumps, cones."""
+"""Fittings of single squares: tube lights, speed bumps, cones."""
 
 import math
 from collections.abc import Collection, Container, Mapping
@@ -25,7 +25,7 @@ __all__ = ["TUBE_DEPTH_M", "cones", "speed_bumps", "tube_lights"]
 
 _QUARTER_TURN = np.pi / 2
 TUBE_DEPTH_M = 0.105
-"""How far it hangs below the ceiling."""
+"""Depth of a tube light below the ceiling."""
 _CONES_ACROSS_M = (-0.75, 0.0, 0.75)
 _CONES_FROM_MOUTH_M = 0.9
 _CONES_FROM_EDGE_M = 0.95
@@ -37,10 +37,10 @@ _LOWEST_BUMP_M = 0.02
 def tube_lights(
     grid: TileGrid, fittings: FittingsConfig, levels: CeilingLevels, cores: Mapping[Square, Core] | None = None
 ) -> list[Placement]:
-    """Tube lights under the ceiling: in line along lanes, one over each square with stalls or a portal.
+    """Place tube lights under the ceiling: in line along lanes, one over each square with stalls or a portal.
 
-    There are no more of them in a line than find room between the beams, and over junctions and bends between the
-    pipes and ducts that hang as high. Beside a core, the tube hangs over the stalls that are left.
+    Their number is limited by the space between beams and, over junctions and bends, between pipes and ducts at the
+    same height. Beside a core, the tube hangs over the remaining stalls.
     """
     lights: list[Placement] = []
     for tile in grid:
@@ -84,9 +84,9 @@ def speed_bumps(
     seed: int,
     crossings: Collection[Square] = (),
 ) -> list[Placement]:
-    """Speed bumps across straight lanes, never on two squares in a row and never on a crossing.
+    """Place speed bumps across straight lanes, never on two consecutive squares and never on a crossing.
 
-    There are none where they would have to be too low to be felt.
+    There are none if the height limit of the profile makes them ineffective.
     """
     clause = profile.speed_bump_height
     height_m = min(SPEED_BUMP_HEIGHT_M, clause.amount if clause else math.inf)
@@ -118,7 +118,7 @@ def cones(
     *,
     built_on: Container[Square] = (),
 ) -> list[Placement]:
-    """Cones across the mouths of some standard stalls that are not taken, and on corners of some hatched squares."""
+    """Place cones across the entries of some free standard stalls, and on corners of some hatched squares."""
     most = max((stall.ordinal for stall in stalls), default=0)
     numbers = draws.of_step(Step.CONES, most + 1)
     found: list[Placement] = []

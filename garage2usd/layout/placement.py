@@ -1,4 +1,4 @@
-"""What stands where: engine-neutral values in metres, Y up, +X along columns, +Z along rows."""
+"""Placements of objects and stalls: engine-neutral values in metres, Y up, +X along columns, +Z along rows."""
 
 import math
 from collections.abc import Iterable, Iterator
@@ -36,23 +36,23 @@ _S = TypeVar("_S", bound=Spec)
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """One object in the world.
+    """An object placed in the garage.
 
     Attributes
     ----------
     name
-        Prim name, PascalCase, unique within its square or, without a square, within its kind. On squares that hold
-        the same, the same.
+        Prim name, PascalCase, unique within its square or, without a square, within its kind. Equal on squares with
+        equal objects.
     spec
-        The shape that is placed, which says what kind of object it is; equal specs share one prototype.
+        Shape of the object, whose type determines its kind; equal specs share one prototype.
     position_m
         (x, y, z) of the shape's origin.
     yaw_rad
-        Right-handed turn about +Y.
+        Right-handed rotation about +Y.
     square
-        (row, col) of the tile that it belongs to, None for what belongs to the building.
+        (row, col) of its tile; None for objects of the whole building.
     ordinal
-        Number on that square of the stall that it belongs to, None for what belongs to no stall.
+        Number on that square of its stall; None for objects without a stall.
     """
 
     name: str
@@ -64,55 +64,55 @@ class Placement:
 
     @property
     def kind(self) -> str:
-        """Name of its kind of object, one of `garage2usd.objects.KINDS`."""
+        """Name of its kind of object, a key of `garage2usd.objects.KINDS`."""
         return self.spec.kind.name
 
     def to_world(self, point: Point) -> Point:
-        """The (x, z) in the garage of a point of the shape."""
+        """Transform a point of the shape to (x, z) in the garage."""
         x, _, z = self.position_m
         return to_world(point, (x, z), self.yaw_rad)
 
     @property
     def stall(self) -> str | None:
-        """Name of the stall that it belongs to, as a car, a wheel stop or a painted number does."""
+        """Name of the stall that it belongs to, such as that of a car, a wheel stop or a painted number."""
         return None if self.square is None or self.ordinal is None else stall_name(self.square, self.ordinal)
 
     def outlines(self) -> list[Polygon]:
-        """Convex outlines (x, z) in the garage of what a car could touch of it; empty where a car touches nothing."""
+        """Convex outlines (x, z) in the garage of its parts within reach of a car; empty if there are none."""
         return [tuple(map(self.to_world, outline)) for outline in self.spec.outlines()]
 
 
 @dataclass(frozen=True, slots=True)
 class PlacedStall:
-    """One parking stall on its square, as `garage2usd.garage.Stall` is without one.
+    """A parking stall on its square; `garage2usd.garage.Stall` is its counterpart without squares.
 
     Attributes
     ----------
     square
-        (row, col) of the free square that it lies on.
+        (row, col) of its free square.
     ordinal
-        Its number on the square, from 1.
+        Number on the square, from 1.
     edge
-        Edge of the square that its mouth lies on.
+        Edge of the square at the stall's entry.
     stall_type
         The paper's type of the square.
     centre_m
-        (x, z) of its middle.
+        (x, z) of its centre.
     width_m, length_m
-        Sides of its rectangle for a car, between the lines' middles.
+        Sides of its rectangle for a car, between the centres of the lines.
     yaw_rad
-        Turn about +Y; at 0 a car parked nose-in looks to -Z, and the mouth of all but parallel stalls to +Z.
+        Rotation about +Y; at 0 a car parked nose-in faces -Z, and the entry of all but parallel stalls faces +Z.
     use
-        What it is for.
+        Use of the stall.
     angle_deg
         Angle of its long sides to the lane.
     turn
-        1 for a stall that is entered by a turn to the right off the lane, -1 by one to the left; for parallel stalls
-        the side of the lane that they lie on.
+        1 for a stall entered by a right turn off the lane, -1 for a left turn; for parallel stalls, the side of the
+        lane.
     size
-        Its size class.
+        Size class.
     number
-        As people read it, ``B2-07``: zone, and what is painted at its mouth; empty where nobody parks.
+        Painted number with its zone, ``B2-07``; empty if nobody parks there.
     """
 
     square: Square
@@ -136,7 +136,7 @@ class PlacedStall:
 
     @property
     def access_square(self) -> Square:
-        """(row, col) of the lane square beyond the mouth."""
+        """(row, col) of the lane square at its entry."""
         return self.edge.beyond(self.square)
 
     def placement(
@@ -148,10 +148,10 @@ class PlacedStall:
         yaw_rad: float | None = None,
         piece: int | None = None,
     ) -> Placement:
-        """Place an object that belongs to this stall at (x, z) from its middle, the mouth at +Z.
+        """Place an object of this stall at (x, z) from its centre, with the entry at +Z.
 
-        It is turned as the stall is unless `yaw_rad` is given. In the second stall of a square, ``Car`` is named
-        ``Car_2``, and piece 3 of ``Cone`` is named ``Cone_2_3``.
+        It has the stall's yaw unless `yaw_rad` is given. In the second stall of a square, ``Car`` is named ``Car_2``,
+        and piece 3 of ``Cone`` is named ``Cone_2_3``.
         """
         return placed(
             f"{name}_{self.ordinal}" + ("" if piece is None else f"_{piece}"),
@@ -163,25 +163,25 @@ class PlacedStall:
         )
 
     def to_world(self, point: Point) -> Point:
-        """The (x, z) in the garage of a point around the stall's middle, its mouth at +Z."""
+        """Transform a point relative to the stall's centre, with the entry at +Z, to (x, z) in the garage."""
         return to_world(point, self.centre_m, self.yaw_rad)
 
     def corners_m(self) -> Polygon:
-        """(x, z) of the four corners: mouth left, mouth right, rear right, rear left as a driver sees them."""
+        """(x, z) of the four corners: entry left, entry right, rear right, rear left as seen by an entering driver."""
         return tuple(map(self.to_world, self.outline()))
 
     @property
     def stall_kind(self) -> StallKind:
-        """Its orientation to the lane."""
+        """Orientation of the stall to the lane."""
         return kind_of_angle(self.angle_deg)
 
     @property
     def slope(self) -> float:
-        """How far its mouth and rear rise towards the mouth with each metre to the right, in its coordinates."""
+        """Slope of entry and rear: rise towards the entry per metre to the right, in the stall's coordinates."""
         return self.turn * slope_of_angle(self.angle_deg)
 
     def outline(self) -> Polygon:
-        """The same corners from its middle: the mouth is at +Z, and beside a car in a parallel stall."""
+        """Corners relative to its centre, with the entry at +Z; in a parallel stall, the entry is beside the car."""
         x, z = self.width_m / 2, self.length_m / 2
         if self.stall_kind is StallKind.PARALLEL:
             x, z = -x * self.turn, -z * self.turn
@@ -192,7 +192,7 @@ class PlacedStall:
 
 
 def stall_name(square: Square, ordinal: int) -> str:
-    """Id of a stall by its square and its number there."""
+    """Id of a stall by its square and its number on the square."""
     return f"Stall_r{square[0]:02d}_c{square[1]:02d}_{ordinal}"
 
 
@@ -206,23 +206,23 @@ def placed(
     square: Square | None = None,
     ordinal: int | None = None,
 ) -> Placement:
-    """An object over a point (x, z) of the garage, which is rounded to the micrometre."""
+    """Place an object above a point (x, z) of the garage, rounded to the micrometre."""
     x, z = rounded(point)
     return Placement(name, spec, (x, height_m, z), yaw_rad, square, ordinal)
 
 
 def of_spec(placements: Iterable[Placement], spec: type[_S]) -> Iterator[tuple[Placement, _S]]:
-    """The placements whose shape is of a type, each with its shape."""
+    """Yield the placements whose shape has a type, each with its shape."""
     return ((place, place.spec) for place in placements if isinstance(place.spec, spec))
 
 
 def rounded(point: Point) -> Point:
-    """A point to the micrometre."""
+    """Round a point to the micrometre."""
     return round(point[0], 6), round(point[1], 6)
 
 
 def box_inside(edge: Edge, half_m: Point, along_m: tuple[float, float], depth_m: tuple[float, float]) -> Box:
-    """A box on a square, by where it lies along an edge, from the edge's middle, and how far inside the edge.
+    """Make a box on a square from its extents along an edge, from the edge's centre, and inwards from the edge.
 
     Parameters
     ----------
@@ -231,12 +231,12 @@ def box_inside(edge: Edge, half_m: Point, along_m: tuple[float, float], depth_m:
     half_m
         Half the square's extent along X and Z.
     along_m, depth_m
-        From where to where.
+        Start and end along the edge, and inwards.
 
     Returns
     -------
     Box
-        Left, top, right and bottom, from the square's middle.
+        Left, top, right and bottom, relative to the square's centre.
     """
     x, z = half_m
     (start, end), (near, far) = along_m, depth_m
@@ -249,7 +249,7 @@ def box_inside(edge: Edge, half_m: Point, along_m: tuple[float, float], depth_m:
 
 
 def point_inside(structure: Structure, square: Square, edge: Edge, along_m: float, inside_m: float) -> Point:
-    """The (x, z) in the garage of a point by where it lies along an edge of a square, and how far inside it."""
+    """Point (x, z) in the garage at a distance along an edge of a square, from its centre, and inwards."""
     row, col = square
     x, z = structure.column_edges_m, structure.row_edges_m
     left, top, right, bottom = float(x[col]), float(z[row]), float(x[col + 1]), float(z[row + 1])
@@ -259,12 +259,12 @@ def point_inside(structure: Structure, square: Square, edge: Edge, along_m: floa
 
 
 def edge_yaw_rad(edge: Edge) -> float:
-    """Yaw that turns +Z towards an edge of a square."""
+    """Yaw that rotates +Z towards an edge of a square."""
     return _EDGE_YAWS_RAD[edge]
 
 
 def turned_yaw_rad(edge: Edge, turn: int, angle_deg: float) -> float:
-    """Yaw of a car in a stall whose long sides have an angle to an edge of a square; exact for quarter turns."""
+    """Yaw of a car in a stall with an angle to an edge of a square; exact for multiples of 90 degrees."""
     if angle_deg == PERPENDICULAR_DEG:
         return _EDGE_YAWS_RAD[edge]
     turned = math.remainder(_EDGE_YAWS_RAD[edge] + turn * math.radians(PERPENDICULAR_DEG - angle_deg), math.tau)
@@ -278,12 +278,12 @@ _EXACT_QUARTER = {math.pi: (-1.0, 0.0), 0.0: (1.0, 0.0), -math.pi / 2: (0.0, -1.
 
 
 def cos_sin(yaw_rad: float) -> tuple[float, float]:
-    """Cosine and sine of a yaw; those of quarter turns are exact."""
+    """Cosine and sine of a yaw; exact for multiples of 90 degrees."""
     return _EXACT_QUARTER.get(yaw_rad) or (elementary.cos(yaw_rad), elementary.sin(yaw_rad))
 
 
 def to_world(point: Point, origin: Point, yaw_rad: float) -> Point:
-    """Turn a local (x, z) by a yaw about +Y and move it to `origin`; quarter turns are exact."""
+    """Rotate a local (x, z) by a yaw about +Y and translate it to `origin`; exact for multiples of 90 degrees."""
     cos, sin = cos_sin(yaw_rad)
     x, z = point
     return origin[0] + x * cos + z * sin, origin[1] - x * sin + z * cos

@@ -1,4 +1,4 @@
-"""Squares in metres: where each one lies, what surrounds it, and its ceiling."""
+"""Tiles: squares in metres with their surroundings, and their ceiling slabs."""
 
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator
@@ -43,17 +43,17 @@ class Tile:
     square
         (row, col).
     cell
-        What it holds.
+        Content of the square in S.
     x_m, z_m
-        Its middle.
+        Its centre.
     width_m, depth_m
-        Its extent along X and Z.
+        Extent along X and Z.
     drivable
-        For each `Edge`, whether a car drives across it.
+        For each `Edge`, whether cars cross it.
     stall_mouths
         For each `Edge`, whether stalls open across it (lanes only).
     way
-        On a straight one-way lane the edge that cars leave over, else None.
+        Edge over which cars leave a straight one-way lane, else None.
     """
 
     square: Square
@@ -68,22 +68,22 @@ class Tile:
 
     @property
     def middle_m(self) -> Point:
-        """(x, z) of its middle."""
+        """(x, z) of its centre."""
         return self.x_m, self.z_m
 
     @property
     def half_x_m(self) -> float:
-        """Half its extent along X."""
+        """Half of its extent along X."""
         return self.width_m / 2
 
     @property
     def half_z_m(self) -> float:
-        """Half its extent along Z."""
+        """Half of its extent along Z."""
         return self.depth_m / 2
 
     @property
     def axis_is_x(self) -> bool | None:
-        """Whether a straight lane runs along X; None for bends and junctions."""
+        """True if a straight lane runs along X; None for bends and junctions."""
         up, down, left, right = self.drivable
         if (left or right) and not (up or down):
             return True
@@ -93,18 +93,18 @@ class Tile:
 
 
 class StallPlace(NamedTuple):
-    """Where a stall lies in its row.
+    """Position of a stall in its row.
 
     Attributes
     ----------
     ordinal
-        Its number on the square, from 1.
+        Number on the square, from 1.
     row
         The row.
     slot
-        Its place in the row, from 0.
+        Position in the row, from 0.
     is_first, is_last
-        Whether no stall lies beside it in the row, before it and after it.
+        Whether there is no stall before it, or after it, in the row.
     """
 
     ordinal: int
@@ -115,12 +115,12 @@ class StallPlace(NamedTuple):
 
 
 class TileGrid:
-    """All tiles of a structure, by square."""
+    """Grid of all tiles of a structure, by square."""
 
     def __init__(
         self, structure: Structure, graph: LaneSquares, bay: BayConfig, *, left_out: Collection[str] = ()
     ) -> None:
-        """Place every square of `structure` and look at what surrounds it; `left_out` names stalls to leave out."""
+        """Place every square of `structure` in metres with its surroundings; `left_out` names stalls to omit."""
         self.structure, self.bay = structure, bay
         self.setback_m = bay.carriageway_setback_m
         self.doors = door_edges(structure.cells)
@@ -147,27 +147,27 @@ class TileGrid:
         }
 
     def __iter__(self) -> Iterator[Tile]:
-        """The tiles in reading order."""
+        """Iterate over the tiles in reading order."""
         return iter(self.tiles.values())
 
     def neighbour(self, tile: Tile, *edges: Edge) -> Tile | None:
-        """The tile beyond one edge, or beyond a corner of two; None outside and on obstacles."""
+        """Tile beyond one edge, or beyond a corner between two edges; None outside and on obstacles."""
         square = tile.square
         for edge in edges:
             square = edge.beyond(square)
         return self.tiles.get(square)
 
     def has_upright_stalls(self, square: Square) -> bool:
-        """Whether a square has stalls, all of them perpendicular."""
+        """True if a square has stalls, and all of them are perpendicular."""
         places = self.stall_places.get(square, ())
         return bool(places) and all(place.row.shape.kind is StallKind.PERPENDICULAR for place in places)
 
     def is_bare(self, tile: Tile) -> bool:
-        """Whether a tile is free and no stall lies on it, nor part of an angled one of a tile beside."""
+        """True if a tile is free, and neither its own stalls nor angled stalls of adjacent tiles cover it."""
         return tile.cell is Cell.FREE and not self.stall_places.get(tile.square) and not self.openings(tile)
 
     def openings(self, tile: Tile) -> tuple[Polygon, ...]:
-        """Outlines of the stalls on a tile, in its coordinates, with the parts of angled stalls of the tiles beside."""
+        """Outlines of the stalls on a tile in its coordinates, including parts of angled stalls of adjacent tiles."""
         own = [stall_outline(tile, place.row, place.slot) for place in self.stall_places.get(tile.square, [])]
         beside = [
             (self.tiles[other], place)
@@ -191,7 +191,7 @@ class TileGrid:
 
 
 def _way(square: Square, graph: LaneSquares) -> Edge | None:
-    """The edge that cars leave a square over, if they enter it over the opposite one only and both are one-way."""
+    """Edge over which cars leave a one-way square, if they enter only over the opposite edge; else None."""
     one_way = graph.directions.one_way
     ways = [
         edge
@@ -204,7 +204,7 @@ def _way(square: Square, graph: LaneSquares) -> Edge | None:
 
 
 def _stall_places(rows: Iterable[StallRow], left_out: Collection[str]) -> dict[Square, list[StallPlace]]:
-    """The stalls of each square that has any, as they are numbered there."""
+    """Positions of the stalls of each square with stalls, in the order of their numbers."""
     ordinals: Counter[Square] = Counter()
     places: dict[Square, list[StallPlace]] = {}
     for row in rows:
@@ -224,25 +224,25 @@ def _stall_places(rows: Iterable[StallRow], left_out: Collection[str]) -> dict[S
 
 
 def lane_edges(tile: Tile) -> list[Edge]:
-    """The edges of a tile that a car drives across."""
+    """Edges of a tile that cars cross."""
     return [edge for edge in Edge if tile.drivable[edge]]
 
 
 def ceiling_panel(tile: Tile, fittings: FittingsConfig) -> Placement:
-    """The ceiling slab over one square."""
+    """Make the ceiling slab over one square."""
     spec = CeilingSpec(tile.width_m, tile.depth_m, CEILING_THICKNESS_M)
     position = (tile.x_m, fittings.ceiling_height_m, tile.z_m)
     return Placement("Ceiling", spec, position, square=tile.square)
 
 
 def stall_outline(tile: Tile, row: StallRow, slot: int) -> Polygon:
-    """The rectangle or parallelogram of one stall of a row in the tile's coordinates."""
+    """Rectangle or parallelogram of one stall of a row, in the tile's coordinates."""
     start, shape = row.starts_m[slot], row.shape
     return row_strip(tile, row, start, start + shape.pitch_m, (0.0, shape.depth_m))
 
 
 def row_strip(tile: Tile, row: StallRow, start: float, end: float, depth: tuple[float, float]) -> Polygon:
-    """A strip of a row on a tile, as far inside the mouths as given, which leans as its stalls do."""
+    """Strip of a row on a tile between two distances inside the entries, with the slant of its stalls."""
     lean = row.lean * row.shape.slope
     if not lean:
         return row_rectangle(tile, row.edge, start, end, depth)
@@ -252,13 +252,13 @@ def row_strip(tile: Tile, row: StallRow, start: float, end: float, depth: tuple[
 
 
 def row_point(tile: Tile, edge: Edge, along_m: float, inside_m: float) -> Point:
-    """A point on a tile by how far it lies along an edge, from the edge's middle, and inside it."""
+    """Point on a tile by its distance along an edge, from the edge's centre, and inwards."""
     x, z, *_ = box_inside(edge, (tile.half_x_m, tile.half_z_m), (along_m, along_m), (inside_m, inside_m))
     return round(x, 6), round(z, 6)
 
 
 def row_rectangle(tile: Tile, edge: Edge, start: float, end: float, depth: tuple[float, float]) -> Polygon:
-    """A rectangle on a tile by how far it lies inside one edge, from `start` to `end` along that."""
+    """Rectangle on a tile from `start` to `end` along an edge, with a depth inwards."""
     box = box_inside(edge, (tile.half_x_m, tile.half_z_m), (start, end), depth)
     return rectangle(*(round(side, 6) for side in box))
 

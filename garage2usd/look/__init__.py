@@ -1,4 +1,4 @@
-"""How a garage looks: what its seed draws of it, and the finishes that take the place of usual materials."""
+"""Look of a garage: axes drawn by its seed, and the finishes that replace standard materials."""
 
 from garage2usd.assets import Finish
 from garage2usd.config.look import LookConfig
@@ -17,9 +17,9 @@ __all__ = ["drawn_look", "finishes_of"]
 
 
 def drawn_look(look: LookConfig, seed: int) -> LookConfig:
-    """The look of a garage: what is given, and in the place of what is drawn, what its seed draws.
+    """Complete a look: draw the axes in `drawn` by the seed, and keep the given ones.
 
-    Each axis has a generator of its own, so that one that is given leaves the others as they are.
+    Each axis has its own random generator, so that a given axis does not change the draws of the others.
     """
     axes = Axes(look, seed)
     return LookConfig(
@@ -36,12 +36,12 @@ def drawn_look(look: LookConfig, seed: int) -> LookConfig:
 
 
 def finishes_of(look: LookConfig) -> dict[str, Finish]:
-    """The finishes of a look by the keys of the materials that they stand for; without those that stay as usual.
+    """Collect the finishes of a look by the keys of the materials that they replace; standard materials are left out.
 
     Raises
     ------
     ConfigError
-        If textures of the user's own cannot be used.
+        If the user's textures are invalid.
     """
     floor = floor_finishes(look.floor)
     drawn = {

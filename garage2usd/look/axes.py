@@ -1,4 +1,4 @@
-"""The axes of a look: what is given of each, or what the seed draws."""
+"""Axes of a look: the given value of each, or a value drawn by the seed."""
 
 from collections.abc import Mapping
 from typing import TypeVar
@@ -16,13 +16,13 @@ _BYTE = 255
 
 
 class Axes:
-    """All axes of a look."""
+    """Source of all axes of a look."""
 
     def __init__(self, look: LookConfig, seed: int) -> None:
         self._look, self._drawn, self._seed = look, frozenset(look.axes), seed
 
     def of(self, group: str) -> "Group":
-        """The axes of one group."""
+        """Return the axes of one group."""
         section = getattr(self._look, group)
         given = {
             key: getattr(section, key) for key in type(section).model_fields if f"{group}.{key}" not in self._drawn
@@ -31,28 +31,28 @@ class Axes:
 
 
 class Group:
-    """The axes of one group: each method gives the value of an axis, drawn if it is not given."""
+    """Axes of one group: each method returns the value of an axis, drawn if it is not given."""
 
     def __init__(self, name: str, given: Mapping[str, object], seed: int) -> None:
         self._name, self._given, self._seed = name, given, seed
 
     def one_of(self, axis: str, weights: Mapping[Value, float]) -> Value:
-        """One of some values, each as often as its weight says in relation to the others."""
+        """Draw one of several values by relative weights."""
         if axis in self._given:
             return self._given[axis]  # type: ignore[return-value]
         return self._pick(self._generator(axis), weights)
 
     def colour(self, axis: str, weights: Mapping[str, float], *, tone: float = 0.0, hue: float = 0.0) -> str:
-        """One of some colours ``#rrggbb``, made darker or lighter.
+        """Draw one of several colours ``#rrggbb``, made darker or lighter.
 
         Parameters
         ----------
         axis, weights
-            As for `one_of`; what is no such colour is left as it is.
+            As for `one_of`; a value that is not a colour is returned unchanged.
         tone
-            Standard deviation of the logarithm of a factor for all three channels.
+            Standard deviation of the logarithm of a factor on all three channels.
         hue
-            The same of one for each.
+            Standard deviation of the logarithm of a factor on each channel.
         """
         if axis in self._given:
             return str(self._given[axis])
@@ -66,7 +66,7 @@ class Group:
         return f"#{red:02x}{green:02x}{blue:02x}"
 
     def between(self, axis: str, low: float, high: float, step: float) -> float:
-        """A multiple of `step` between two that are, each as often."""
+        """Draw a multiple of `step` between two multiples of it, uniformly."""
         if axis in self._given:
             return float(self._given[axis])  # type: ignore[arg-type]
         steps = round((high - low) / step)

@@ -1,4 +1,4 @@
-"""Which ceilings are drawn, and what they and the services below them are painted with."""
+"""Ceilings of a look: drawn values, and finishes of the ceiling and the services below it."""
 
 from garage2usd.assets import Finish
 from garage2usd.config.look import NATURAL, CeilingFinish, CeilingLook
@@ -16,7 +16,7 @@ _SERVICES = ("service_steel", "service_pipe", "service_hanger")
 
 
 def drawn_ceiling(axes: Group) -> CeilingLook:
-    """A ceiling, and the colour of what hangs below it."""
+    """Draw a ceiling and the colour of its services."""
     return CeilingLook(
         finish=axes.one_of(
             "finish",
@@ -28,7 +28,7 @@ def drawn_ceiling(axes: Group) -> CeilingLook:
 
 
 def ceiling_finishes(ceiling: CeilingLook) -> dict[str, Finish]:
-    """What slabs and beams have in the place of raw concrete, and services in that of bare steel and red lacquer."""
+    """Finishes of slabs and beams instead of raw concrete, and of services instead of bare steel and red lacquer."""
     finishes = {}
     if ceiling.finish in _UNDERSIDES:
         finishes["ceiling_concrete"] = tinted(*_UNDERSIDES[ceiling.finish])

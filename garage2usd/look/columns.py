@@ -1,4 +1,4 @@
-"""Which columns are drawn, and what they are painted with."""
+"""Columns of a look: drawn values and finishes."""
 
 from garage2usd.assets import Finish
 from garage2usd.config.look import NATURAL, ColumnSection, ColumnsLook, Guard
@@ -9,7 +9,7 @@ __all__ = ["column_finishes", "drawn_columns"]
 
 
 def drawn_columns(axes: Group) -> ColumnsLook:
-    """Columns: mostly painted white, square more often than round, with all kinds of guards."""
+    """Draw the look of columns: mostly painted white, square more often than round, with all kinds of guards."""
     return ColumnsLook(
         section=axes.one_of(
             "section", {ColumnSection.SQUARE: 0.55, ColumnSection.ROUND: 0.25, ColumnSection.RECTANGULAR: 0.2}
@@ -32,5 +32,5 @@ def drawn_columns(axes: Group) -> ColumnsLook:
 
 
 def column_finishes(columns: ColumnsLook) -> dict[str, Finish]:
-    """What shafts have in the place of bare concrete."""
+    """Finishes of shafts instead of bare concrete."""
     return {} if columns.colour == NATURAL else {"column_concrete": tinted("column_painted", columns.colour)}

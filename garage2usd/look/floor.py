@@ -1,4 +1,4 @@
-"""What floors are drawn, and what they are made of."""
+"""Floors of a look: drawn values and finishes."""
 
 from dataclasses import replace
 
@@ -30,7 +30,7 @@ _EPOXIES = {
     "#b7aa8c": 0.07,
     "#8f4a3f": 0.06,
 }
-"""sRGB: grey, light grey, nearly white, dark grey, green, blue, beige, red."""
+"""Shares by sRGB colour: grey, light grey, nearly white, dark grey, green, blue, beige, red."""
 _COLOURS = {
     FloorFinish.CONCRETE: {NATURAL: 0.5, "#6e6d6a": 0.5},
     FloorFinish.TROWELLED: _CONCRETES,
@@ -70,9 +70,9 @@ _NATURAL = {
     FloorFinish.EPOXY: "#8e9290",
     FloorFinish.PAVERS: "#9c9a95",
 }
-"""The natural colours of finishes whose textures are made to be tinted."""
+"""Natural colours of finishes with tintable textures."""
 _ROUGHNESS = {Gloss.MATT: 0.88, Gloss.SATIN: 0.6, Gloss.POLISHED: 0.35, Gloss.MIRROR: 0.15}
-"""Of finishes that have one roughness: rain and sealing make them smoother."""
+"""Roughness by gloss, for finishes with a uniform roughness."""
 _DIRTS = {Dirt.SWEPT: 0.2, Dirt.FAINT: 0.3, Dirt.USUAL: 0.35, Dirt.FILTHY: 0.15}
 _WETS = {0.0: 0.8, 0.06: 0.08, 0.15: 0.07, 0.35: 0.05}
 _DRAINS = {Drains.NONE: 0.5, Drains.GRATINGS: 0.3, Drains.CHANNELS: 0.2}
@@ -80,7 +80,7 @@ _COATED_STALLS = ("stall_green", "stall_blue")
 
 
 def drawn_floor(axes: Group) -> FloorLook:
-    """A floor: mostly grey, mostly one for aisles and bays, glossy where it is coated, and mostly dry."""
+    """Draw a floor: mostly grey, mostly equal for aisles and stalls, glossy if coated, and mostly dry."""
     finish = axes.one_of("finish", _FINISHES)
     return FloorLook(
         finish=finish,
@@ -99,7 +99,7 @@ def drawn_floor(axes: Group) -> FloorLook:
 
 
 def floor_finishes(floor: FloorLook) -> dict[str, Finish]:
-    """What aisles and bays have in the place of their usual materials."""
+    """Finishes of aisles and stalls instead of their standard materials."""
     if FloorLook(finish=floor.finish, colour=floor.colour, gloss=floor.gloss, bays=floor.bays) == FloorLook():
         return {}
     natural = _NATURAL.get(floor.finish, NATURAL) if floor.colour == NATURAL else floor.colour
@@ -113,7 +113,7 @@ def floor_finishes(floor: FloorLook) -> dict[str, Finish]:
 
 
 def _glossy(finish: Finish, gloss: Gloss) -> Finish:
-    """The same as glossy as it is to be; satin is what the usual floor is."""
+    """Set the gloss of a finish; satin is the standard floor's."""
     if finish.key == _KEYS[FloorFinish.CONCRETE] and gloss is Gloss.SATIN:
         return finish
     if finish.material.packed_texture is None:

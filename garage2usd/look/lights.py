@@ -1,4 +1,4 @@
-"""Which lights are drawn, and what is seen of the sky at doors."""
+"""Lights of a look: drawn values, and the finish of the sky at doors."""
 
 from dataclasses import replace
 
@@ -13,11 +13,11 @@ _SKIES: dict[Daylight, tuple[Rgb, Rgb]] = {
     Daylight.DUSK: ((0.62, 0.36, 0.40), (0.10, 0.09, 0.12)),
     Daylight.NIGHT: ((0.010, 0.011, 0.016), (0.004, 0.004, 0.005)),
 }
-"""Radiance and colour of the sky other than the usual, overcast one: clear and four times as bright, red, and dark."""
+"""Radiance and colour of the sky for clear, dusk and night skies; the clear one is four times the overcast one."""
 
 
 def drawn_lights(axes: Group) -> LightsLook:
-    """Lights: mostly cold tubes, a few of them dead."""
+    """Draw lights: mostly cold tubes, a few of them dead."""
     return LightsLook(
         lamps=axes.one_of("lamps", {LampKind.TUBES: 0.75, LampKind.PANELS: 0.13, LampKind.ROUND: 0.12}),
         temperature_k=axes.one_of(
@@ -34,7 +34,7 @@ def drawn_lights(axes: Group) -> LightsLook:
 
 
 def light_finishes(lights: LightsLook) -> dict[str, Finish]:
-    """What the sky at doors is in the place of an overcast one."""
+    """Finish of the sky at doors instead of an overcast one."""
     if lights.daylight not in _SKIES:
         return {}
     radiance_rgb, colour_rgb = _SKIES[lights.daylight]

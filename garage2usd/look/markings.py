@@ -1,4 +1,4 @@
-"""Which lines are drawn on a floor, and the paints that they have."""
+"""Markings of a look: drawn lines and the finishes of their paints."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -15,7 +15,7 @@ _YELLOW, _DULL_YELLOW, _ORANGE, _BLUE = "#d8a62e", "#b0924a", "#d87822", "#3f6fb
 
 
 def drawn_markings(axes: Group) -> MarkingsLook:
-    """Lines: mostly white, mostly closed along the aisle, more or less worn."""
+    """Draw the lines: mostly white, mostly closed along the aisle, with various wear."""
     colour = axes.colour(
         "colour",
         {
@@ -76,14 +76,14 @@ def drawn_markings(axes: Group) -> MarkingsLook:
 
 
 _WORSE = {Wear.LIGHT: Wear.WORN, Wear.WORN: Wear.FADED}
-"""How worn paint is where wheels roll over it, where that is worse than elsewhere."""
+"""Wear of paint in the wheel tracks, if it is worse than elsewhere."""
 _STEPS = 24
 _WORN = {Wear.FRESH: None, Wear.LIGHT: "paint_fresh", Wear.WORN: "paint_worn", Wear.FADED: "paint_gone"}
-"""The material of each degree of wear; without one paint is even."""
+"""Material of each degree of wear; None for even paint."""
 
 
 def paint_finishes(markings: MarkingsLook, numbers: NumbersLook, floor: Mapping[str, Finish]) -> dict[str, Finish]:
-    """The paints on a floor with some finishes of its own."""
+    """Finishes of the paints on a floor with given finishes."""
     aisle, bay = (_colour_of(key, floor) for key in ("floor_concrete", "stall_epoxy"))
     usual, usual_numbers = MarkingsLook(), NumbersLook()
     wear, driven = markings.wear, _WORSE.get(markings.wear, markings.wear)
@@ -107,7 +107,7 @@ def paint_finishes(markings: MarkingsLook, numbers: NumbersLook, floor: Mapping[
 
 
 def _painted(colour: str, ground: Rgb, wear: Wear | None) -> Finish:
-    """Paint of a colour on ground of another, which shows where it is worn; without a degree only its trace."""
+    """Paint of a colour on a ground of another colour, which shows where it is worn; None for only a trace."""
     paint = linear_rgb(colour)
     worn = "paint_ghost" if wear is None else _WORN[wear]
     if worn is None:
@@ -117,13 +117,13 @@ def _painted(colour: str, ground: Rgb, wear: Wear | None) -> Finish:
 
 
 def _coarse(ground: Rgb) -> Rgb:
-    """A colour in steps that nobody sees between specks of paint, so that garages share textures."""
+    """Quantise a colour below the visible threshold, so that garages share textures."""
     red, green, blue = (round((round(channel**0.5 * _STEPS) / _STEPS) ** 2, 6) for channel in ground)
     return red, green, blue
 
 
 def _mask(material: Material) -> str:
-    """The picture of how worn a paint is."""
+    """Texture of a paint's wear."""
     mask = material.colour_texture
     if not isinstance(mask, str):
         raise TypeError(mask)

@@ -1,4 +1,4 @@
-"""How the numbers of stalls are drawn."""
+"""Stall numbers of a look."""
 
 from garage2usd.config.look import NumberForm, NumberPlace, NumbersLook
 from garage2usd.look.axes import Group
@@ -7,7 +7,7 @@ __all__ = ["drawn_numbers"]
 
 
 def drawn_numbers(axes: Group) -> NumbersLook:
-    """Numbers: mostly on the floor at the entry."""
+    """Draw the look of numbers: mostly on the floor at the entry."""
     place = axes.one_of(
         "place",
         {
@@ -20,7 +20,7 @@ def drawn_numbers(axes: Group) -> NumbersLook:
         },
     )
     form = axes.one_of("form", {NumberForm.SHORT: 0.42, NumberForm.FULL: 0.5, NumberForm.BOXED: 0.08})
-    # long numbers are small
+    # long numbers have lower characters
     heights = {0.2: 0.2, 0.25: 0.35, 0.3: 0.3, 0.35: 0.15}
     if form is not NumberForm.FULL:
         heights = {0.2: 0.1, 0.3: 0.3, 0.4: 0.3, 0.5: 0.2, 0.6: 0.1}

@@ -1,4 +1,4 @@
-"""Finishes of textures of the user's own."""
+"""Finishes made of the user's textures."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -22,29 +22,29 @@ _KEYS = {
     Role.LANE_PAINT: ("paint_yellow",),
     Role.STEEL: ("steel_galvanised", "service_steel"),
 }
-"""The materials of each role."""
+"""Keys of the materials of each role."""
 _ROUGHNESS = {Role.STALL: 0.4, Role.PAINT: 0.55, Role.LANE_PAINT: 0.55, Role.STEEL: 0.4}
-"""Where no map tells it; others are as rough as concrete."""
+"""Roughness without a map; that of concrete for other roles."""
 _OF_CONCRETE = 0.75
 _METALLIC = {Role.STEEL: 1.0}
 
 
 def own_finishes(folder: TextureFolder, floor: FloorLook, finishes: Mapping[str, Finish]) -> dict[str, Finish]:
-    """What the roles that have textures of their own have in the place of their materials.
+    """Make the finishes of the roles for which the user has textures.
 
     Parameters
     ----------
     folder
         The textures.
     floor
-        Bays that are as the aisle is have the textures of the floor, where they have none of their own.
+        Look of the floor; stalls with the aisle's floor use its textures, unless they have their own.
     finishes
-        What they would have: of that stays what they are to touch and to sensors.
+        Finishes of the look, from which friction and non-visual properties are kept.
 
     Raises
     ------
     ConfigError
-        If a file cannot be used, or the textures are not those that the settings were read with.
+        If a file is invalid, or has changed since the settings were read.
     """
     _, sets = read_texture_sets(folder)
     if floor.bays == AISLE and Role.FLOOR in sets:

@@ -1,4 +1,4 @@
-"""Materials in a colour of one's own."""
+"""Tinting of materials."""
 
 from dataclasses import replace
 
@@ -12,7 +12,7 @@ _DARKEST = 1e-3
 
 
 def tinted(key: str, colour: str) -> Finish:
-    """A material whose mean colour is that of ``#rrggbb``, as far as its texture is bright enough; or as it is."""
+    """Tint a material to the mean colour ``#rrggbb``, limited by its texture's brightness; unchanged for 'natural'."""
     material = MATERIALS[key]
     if colour == NATURAL:
         return Finish(key, material)

@@ -1,4 +1,4 @@
-"""Which walls are drawn, and what they are made of."""
+"""Walls of a look: drawn values and finishes."""
 
 from garage2usd.assets import Finish
 from garage2usd.config.look import NATURAL, NO_DADO, WallFinish, WallsLook
@@ -16,7 +16,7 @@ _MATERIALS = {
 
 
 def drawn_walls(axes: Group) -> WallsLook:
-    """Walls: mostly painted light, with or without a dado."""
+    """Draw walls: mostly painted light, with or without a dado."""
     finish = axes.one_of(
         "finish", {WallFinish.PAINTED: 0.55, WallFinish.RAW: 0.25, WallFinish.BLOCKWORK: 0.13, WallFinish.PANELS: 0.07}
     )
@@ -43,7 +43,7 @@ def drawn_walls(axes: Group) -> WallsLook:
 
 
 def wall_finishes(walls: WallsLook) -> dict[str, Finish]:
-    """What walls, cores and obstacles have in the place of raw concrete, and of the usual dado."""
+    """Finishes of walls, cores and obstacles instead of raw concrete, and of the dado."""
     finishes = {}
     if walls.finish is not WallFinish.RAW or walls.colour != NATURAL:
         finishes["wall_concrete"] = tinted(_MATERIALS[walls.finish], walls.colour)

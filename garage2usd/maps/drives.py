@@ -7,7 +7,7 @@ from functools import cached_property
 from garage2usd.as_built.driven_road import driven_road
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.spelling import called
+from garage2usd.common.spelling import find_named
 from garage2usd.config.maps import DriveConfig, Leg
 from garage2usd.driving import DesignCar, Portal, StallProof
 from garage2usd.driving.route import Route, Router
@@ -144,10 +144,10 @@ class DrivePlanner:
         return timed(path, self._settings, car=self._car, ramps=self.road.ramps, parked_after=parked_after)
 
     def _stall(self, asked: str) -> Stall:
-        names = called(asked, {name: _names(outline) for name, outline in self._outlines.items()})
+        names = find_named(asked, {name: _names(outline) for name, outline in self._outlines.items()})
         if len(names) == 1:
             return self._driven[names[0]]
-        if called(asked, self._others):
+        if find_named(asked, self._others):
             raise ConfigError("stall", asked, "a stall that takes a car, which this one does not")
         known = ", ".join([*self._outlines][:_NAMED]) + (", ..." if len(self._outlines) > _NAMED else "")
         raise ConfigError("stall", asked, f"one of the garage's {len(self._outlines)} stalls: {known}")

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from pathlib import Path
-from typing import Annotated, Any, ParamSpec, TypeVar, cast
+from typing import Annotated, Any, NamedTuple, ParamSpec, TypeVar, cast, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,11 +21,20 @@ from garage2usd.native.digest import digest_of
 
 __all__ = [
     "LIBRARY",
+    "BoolTable",
     "Bools",
+    "Float32Table",
     "Float32s",
+    "Float64Cube",
+    "Float64Table",
     "Float64s",
+    "Int8Table",
     "Int8s",
+    "Int32Cube",
+    "Int32Table",
     "Int32s",
+    "Int64Cube",
+    "Int64Table",
     "Int64s",
     "UInt64s",
     "in_c",
@@ -44,10 +53,19 @@ UInt64s = Annotated[NDArray[np.uint64], np.dtype(np.uint64)]
 Float32s = Annotated[NDArray[np.float32], np.dtype(np.float32)]
 Float64s = Annotated[NDArray[np.float64], np.dtype(np.float64)]
 
+# Fields of named tuples that have two or three dimensions carry their number too; all others have one.
+BoolTable = Annotated[Bools, 2]
+Int8Table = Annotated[Int8s, 2]
+Int32Table = Annotated[Int32s, 2]
+Int64Table = Annotated[Int64s, 2]
+Float32Table = Annotated[Float32s, 2]
+Float64Table = Annotated[Float64s, 2]
+Int32Cube = Annotated[Int32s, 3]
+Int64Cube = Annotated[Int64s, 3]
+Float64Cube = Annotated[Float64s, 3]
+
 P = ParamSpec("P")
 T = TypeVar("T")
-Words = tuple[str, list[int | float]]
-"""Layout of a C struct's fields as a format string of the module `struct`, and their values."""
 
 LIBRARY = Path(__file__).with_name(f"loops{LIBRARY_SUFFIX}")
 """Path of the shared library that `hatch_build.py` compiles from the C files."""
@@ -100,15 +118,16 @@ def in_c(function: Callable[P, T]) -> Callable[P, T]:
 
     The body of the decorated function never runs. Named tuples are passed by the address of their fields, which
     `planning.h` declares in the same order. Arrays are passed by the address of their first number, numbers by value.
-    Arrays are annotated as `Int64s` and the like. Arguments are positional.
+    Arrays are annotated as `Int64s` and the like. Fields of named tuples with two or three dimensions are annotated as
+    `Int64Table` or `Int64Cube` and the like. Arguments are positional.
 
     Raises
     ------
     TypeError
-        If an annotation is none of these; when called, if an argument is given by keyword, or if an array has another
-        type than annotated or is not contiguous.
+        If an annotation is none of these; when called, if an argument is given by keyword, if an array has another
+        type than annotated, is not contiguous or is read-only, or if a field has another number of dimensions.
     """
-    hints = typing.get_type_hints(function, include_extras=True)
+    hints = get_type_hints(function, include_extras=True)
     returns = hints.pop("return")
     packers = [_packer(hint) for hint in hints.values()]
 
@@ -150,42 +169,69 @@ def _packer(hint: Any) -> tuple[Callable[[Any], Any], Any]:  # noqa: ANN401 - an
 
 def packed(kind: type, value: Any) -> bytes:  # noqa: ANN401 - a named tuple
     """Pack a named tuple as its C struct."""
-    layout, numbers = _words(kind, value)
-    return struct.pack(f"={layout}", *numbers)
-
-
-def _words(kind: type, value: Any) -> Words:  # noqa: ANN401 - a named tuple
-    """Return the fields of a named tuple as 8-byte words for its C struct."""
-    layout: list[str] = []
     numbers: list[int | float] = []
-    for field, (hint, dtype) in zip(value, _fields(kind), strict=True):
+    _add_numbers(kind, value, numbers)
+    return _layout(kind).pack(*numbers)
+
+
+class _Field(NamedTuple):
+    """A field of a named tuple: the number type and the dimensions of an array, or a named tuple, or neither."""
+
+    dtype: np.dtype[Any] | None
+    dimensions: int
+    inner: type | None
+
+
+def _add_numbers(kind: type, value: Any, numbers: list[int | float]) -> None:  # noqa: ANN401 - a named tuple
+    """Add the fields of a named tuple as the 8-byte words of its C struct."""
+    for field, (dtype, dimensions, inner) in zip(value, _fields(kind), strict=True):
         if dtype is not None:
-            layout.append("qqqq"[: 1 + field.ndim])
-            numbers += (_address(dtype, field), *field.shape)
-        elif hint is float:
-            layout.append("d")
-            numbers.append(field)
-        elif hint in _NUMBERS:
-            layout.append("q")
-            numbers.append(int(field))
+            numbers.append(_address(dtype, field))
+            if field.ndim != dimensions:
+                raise TypeError(f"an array of {field.ndim} dimensions in {kind.__name__}, where C takes {dimensions}")
+            numbers.extend(field.shape)
+        elif inner is not None:
+            _add_numbers(inner, field, numbers)
         else:
-            inner, more = _words(hint, field)
-            layout.append(inner)
-            numbers += more
-    return "".join(layout), numbers
+            numbers.append(field)
 
 
 @functools.cache
-def _fields(kind: type) -> list[tuple[Any, np.dtype[Any] | None]]:
-    """Return the annotations of a named tuple's fields, with the number type of each array."""
-    hints = typing.get_type_hints(kind, include_extras=True).values()
-    return [(hint, numbers_of(hint)) for hint in hints]
+def _layout(kind: type) -> struct.Struct:
+    """Compile the layout of the C struct of a named tuple."""
+
+    def words(kind: type) -> str:
+        letters = []
+        for (dtype, dimensions, inner), hint in zip(_fields(kind), get_type_hints(kind).values(), strict=True):
+            if dtype is not None:
+                letters.append("q" * (1 + dimensions))
+            else:
+                letters.append(words(inner) if inner is not None else "d" if hint is float else "q")
+        return "".join(letters)
+
+    return struct.Struct(f"={words(kind)}")
+
+
+@functools.cache
+def _fields(kind: type) -> tuple[_Field, ...]:
+    """Read the annotations of a named tuple's fields."""
+    fields = []
+    for hint in get_type_hints(kind, include_extras=True).values():
+        dimensions = next((one for one in typing.get_args(hint)[1:] if isinstance(one, int)), 1)
+        fields.append(_Field(numbers_of(hint), dimensions, hint if hasattr(hint, "_fields") else None))
+    return tuple(fields)
 
 
 def _address(dtype: np.dtype[Any], array: np.ndarray[Any, Any]) -> int:
-    if array.dtype != dtype or not array.flags.c_contiguous:
-        raise TypeError(f"an array of {array.dtype}, strides {array.strides}, where C takes {dtype} side by side")
-    # a third of the time of NumPy's own answer, but only for what has bytes that may be written
-    if array.size and array.flags.writeable:
-        return ctypes.addressof(ctypes.c_char.from_buffer(array.data))
-    return array.ctypes.data
+    """Return the address of an array's first number."""
+    if array.dtype == dtype:
+        try:  # a third of the time of NumPy's own answer; it takes no gaps and only what may be written
+            return _address_of(_first_byte(array.data))
+        except (TypeError, ValueError):
+            if array.size == 0:
+                return array.ctypes.data
+    told = f"strides {array.strides}{'' if array.flags.writeable else ', read-only'}"
+    raise TypeError(f"an array of {array.dtype}, {told}, where C takes {dtype} side by side that it may write")
+
+
+_address_of, _first_byte = ctypes.addressof, ctypes.c_char.from_buffer

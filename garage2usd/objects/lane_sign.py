@@ -24,7 +24,7 @@ _HEAD = ((-0.18, 0.06), (0.18, 0.06), (0.0, 0.34))
 
 
 class LaneSignText(StrEnum):
-    """What a sign says."""
+    """Text of a lane sign."""
 
     NO_ENTRY = "no_entry"
     ONE_WAY = "one_way"

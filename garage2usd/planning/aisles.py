@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from garage2usd.config.plan import SarsaParameters
-from garage2usd.native import Float64s, Int8s, Int64s, UInt64s, in_c
+from garage2usd.native import Float64s, Int8s, Int64Cube, Int64s, UInt64s, in_c
 from garage2usd.planning.archive import Archive
 from garage2usd.planning.board import Board
 from garage2usd.planning.ground import Ground
@@ -17,14 +17,14 @@ OPTIONS = 4
 """Skip the run, an aisle along all of it, one that stops a square short of its ends, one along its even part."""
 
 _PROFILES, _SHARES, _AHEAD = 9, 2, 4
-"""How many profiles, shares of the commonest one and numbers of free squares ahead tell the states of a run apart."""
+"""Numbers of profiles, of shares of the most frequent one, and of free squares ahead in the state of a run."""
 _ANY_STRETCH = 1000
 """Squares, as many as `site.width_cells` and `height_cells` allow: a stretch of any length."""
 _INSETS = 3
 """Places of the first and the last rail: at the ends, or one or two squares inside of them. With rails at the ends
 alone learning finds 937 instead of 975 points on average of six sites of 20 x 30; polish ends at 1007, not 1014."""
 _SIDE_RUNS, _APART = 3, 3
-"""How many runs make a side of the contour, and how far rails are apart, as aisles with a row between them are."""
+"""Number of runs per side of the contour, and least distance of rails, as for aisles with a row between them."""
 _SPREAD_SPINES = 12
 """Single spines beside those that lead away from portals, where loops are not asked for. Not measured."""
 _STATES = _PROFILES * _SHARES * _AHEAD
@@ -54,7 +54,7 @@ class Runs(NamedTuple):
     length: Int64s
     ahead: Int64s
     turned: Int64s
-    spines: Int64s
+    spines: Int64Cube
 
 
 def runs_of(ground: Ground) -> Runs:
@@ -124,7 +124,7 @@ def _ladders(ground: Ground, runs: Runs) -> Int64s:
 
 
 def _of_direction(runs: Runs, direction: int) -> slice:
-    """Which runs lie along rows (0) or columns (1)."""
+    """Slice of the runs along rows (0) or columns (1)."""
     return slice(0 if direction == 0 else int(runs.turned[0]), int(runs.turned[direction]))
 
 

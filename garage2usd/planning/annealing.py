@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from garage2usd.native import Float64s, Int8s, Int32s, Int64s, UInt64s, in_c
+from garage2usd.native import Float64s, Int8s, Int32s, Int64s, Int64Table, UInt64s, in_c
 from garage2usd.planning.board import Board
 from garage2usd.planning.dimensions import Sizes
 from garage2usd.planning.ground import Ground
@@ -42,7 +42,7 @@ class Workspace(NamedTuple):
     """
 
     cells: Int8s
-    kept_mm: Int64s
+    kept_mm: Int64Table
     order: Int64s
     known: Int64s
     hops: Int32s
@@ -149,7 +149,7 @@ class TrialMove(NamedTuple):
     """
 
     label: Int8s
-    stamp: Int64s
+    stamp: Int64Table
     marks: Int64s
     moved: Int64s
     around: Int64s
@@ -160,7 +160,7 @@ class TrialMove(NamedTuple):
     old_hops: Int32s
     cells: Int8s
     hops: Int32s
-    lines: Int64s
+    lines: Int64Table
     size: Int64s
     lengths: Int64s
     tally: Int64s

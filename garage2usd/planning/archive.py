@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from garage2usd.native import Bools, Float64s, Int8s, Int64s, UInt64s, in_c
+from garage2usd.native import BoolTable, Float64s, Int8Table, Int64s, UInt64s, in_c
 from garage2usd.planning.ground import Ground, Lanes
 
 __all__ = ["Archive", "new_archive", "next_random", "ranked_lanes"]
@@ -32,8 +32,8 @@ class Archive(NamedTuple):
 
     values: Float64s
     keys: UInt64s
-    lanes: Bools
-    tapes: Int8s
+    lanes: BoolTable
+    tapes: Int8Table
     starts: Int64s
     lengths: Int64s
     in_use: Int64s

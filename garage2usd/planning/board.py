@@ -26,7 +26,7 @@ FAR = 1 << 28
 NO_VALUE = -1.0e9
 
 FAULTS = 5
-"""Where `Board.tally` holds how often the rules of circulation are broken."""
+"""Index in `Board.tally` of the number of violations of the rules of circulation."""
 
 
 class Board(NamedTuple):

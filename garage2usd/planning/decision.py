@@ -52,7 +52,7 @@ _OPPOSITE = dict(zip(_MOVES, (Action.DOWN, Action.UP, Action.RIGHT, Action.LEFT)
 
 
 class Ending(Enum):
-    """How an episode ended."""
+    """Outcome of an episode."""
 
     RETURNED = "returned"
     """The car stayed on the square that it started from: the goal of the paper."""
@@ -114,7 +114,7 @@ class DecisionProcess:
 
     @property
     def entrances(self) -> tuple[Square, ...]:
-        """Where episodes start, in reading order."""
+        """Start squares of episodes, in reading order."""
         return tuple(self.site.where(Cell.ENTRANCE))
 
     @cached_property

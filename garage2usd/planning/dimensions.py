@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig
-from garage2usd.native import Bools, Float64s, Int32s, Int64s
+from garage2usd.native import Bools, Float64s, Float64Table, Int32Cube, Int64s, Int64Table
 from garage2usd.planning.ground import Ground, capacity_by_edges
 from garage2usd.structure.border import bordered
 from garage2usd.structure.doors import door_edges
@@ -272,16 +272,16 @@ class Sizes(NamedTuple):
     free_mm: Int64s
     aisle_mm: int
     sides_mm: Int64s
-    held: Int32s
-    line_of: Int64s
-    kept_mm: Int64s
-    actual_mm: Int64s
-    place: Int64s
-    driven: Int64s
-    least_mm: Int64s
+    held: Int32Cube
+    line_of: Int64Table
+    kept_mm: Int64Table
+    actual_mm: Int64Table
+    place: Int64Table
+    driven: Int64Table
+    least_mm: Int64Table
     is_floor: Bools
     area_m2: Float64s
-    hint: Float64s
+    hint: Float64Table
     price: Float64s
     change: Int64s
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from garage2usd.native import Bools, Float64s, Int8s, Int64s, in_c
+from garage2usd.native import Bools, Float64s, Float64Table, Int8s, Int64s, Int64Table, in_c
 from garage2usd.planning.board import Board
 from garage2usd.planning.ground import Ground
 
@@ -59,7 +59,7 @@ class SquareTable(NamedTuple):
     depth: int
     kinds: Int8s
     portals: Int64s
-    worth: Float64s
+    worth: Float64Table
     asks_loop: bool
 
 
@@ -185,15 +185,15 @@ class Enumeration(NamedTuple):
         int64, shape (2,): how many squares of the layout begun are decided, -1 at the end; layouts scored.
     """
 
-    ways: Int64s
-    next_keys: Int64s
-    next_values: Float64s
-    bounds: Float64s
+    ways: Int64Table
+    next_keys: Int64Table
+    next_values: Float64Table
+    bounds: Float64Table
     children: Int64s
     tried: Int64s
     keys: Int64s
     values: Float64s
-    room: Int64s
+    room: Int64Table
     best_cells: Int8s
     best: Float64s
     counts: Int64s

@@ -6,7 +6,7 @@ import numpy as np
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
-from garage2usd.native import Bools, Float64s, Int8s, Int32s, Int64s
+from garage2usd.native import Bools, Float64s, Int8s, Int32s, Int32Table, Int64s, Int64Table
 from garage2usd.planning.circulation import CirculationRules, rules_of
 from garage2usd.structure.dead_ends import DEAD_END_LIMIT_MM
 from garage2usd.structure.grid import Cell, CellArray, Structure
@@ -51,8 +51,8 @@ class Ground(NamedTuple):
 
     stride: int
     cells: Int8s
-    capacity: Int32s
-    sides_mm: Int64s
+    capacity: Int32Table
+    sides_mm: Int64Table
     squares: Int64s
     entrances: Int64s
     portals: Int64s

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from garage2usd.config.plan import SarsaParameters
-from garage2usd.native import Bools, Float32s, Float64s, Int8s, Int64s, UInt64s, in_c
+from garage2usd.native import Bools, Float32Table, Float64s, Int8s, Int64s, UInt64s, in_c
 from garage2usd.planning.archive import Archive
 from garage2usd.planning.board import Board
 from garage2usd.planning.ground import Ground
@@ -38,7 +38,7 @@ class Memory(NamedTuple):
     """
 
     keys: UInt64s
-    q: Float32s
+    q: Float32Table
     used: Int64s
     course: Float64s
     last: UInt64s

@@ -1,4 +1,4 @@
-"""Standards as data: which sizes a garage is designed to and checked against, each with its source."""
+"""Standards as data: the sizes that a garage is designed to and checked against, each with its source."""
 
 import tomllib
 from functools import cache
@@ -30,28 +30,29 @@ __all__ = [
 
 DEFAULT_PROFILE = "cn-jgj100"
 PROFILE_NAMES = ("cn-jgj100", "de-garvo", "uk-istructe", "us-ada")
-"""The profiles that are shipped."""
+"""Names of the shipped profiles."""
 
 
 def is_profile_file(name: str) -> bool:
-    """Whether a profile is given by a file instead of a name."""
+    """True if a profile is given by the path of a file instead of a name."""
     return name not in PROFILE_NAMES and (name.lower().endswith(".toml") or "/" in name or "\\" in name)
 
 
 def load_profile(name_or_file: str | Path, *, folder: Path | None = None) -> Profile:
-    """A shipped profile by its name, or one of a user's own from a TOML file.
+    """Load a shipped profile by its name, or a profile of the user from a TOML file.
 
     Parameters
     ----------
     name_or_file
         One of `PROFILE_NAMES`, or a path.
     folder
-        Where a relative path starts; the working directory if left out.
+        Folder of a relative path; the working directory if left out.
 
     Raises
     ------
     ConfigError
-        If there is no such profile, or the file cannot be read or holds what no profile has.
+        If there is no such profile, the file cannot be read, or it holds an unknown clause or a value that is not
+        allowed.
     """
     name = str(name_or_file)
     if name in PROFILE_NAMES:
@@ -67,7 +68,7 @@ def read_profile(settings: dict[str, Any]) -> Profile:
     Raises
     ------
     ConfigError
-        With the clause, its value and what is allowed.
+        If a clause is unknown or its value is not allowed; names the clause, the value and the allowed ones.
     """
     return validated(Profile, settings, within="profile")
 

@@ -1,4 +1,4 @@
-"""What one clause of a standard asks for: a value with its unit, source and confidence."""
+"""Clauses of a standard: each a value with its unit, source and confidence."""
 
 import math
 from enum import StrEnum
@@ -29,18 +29,18 @@ LengthUnit = Literal["m", "mm", "cm", "ft", "in"]
 
 
 class Confidence(StrEnum):
-    """How well a value is known."""
+    """Confidence in the value of a clause."""
 
     HIGH = "high"
-    """Several sources agree."""
+    """Confirmed by several sources."""
     MEDIUM = "medium"
-    """One or two sources."""
+    """Found in one or two sources."""
     LOW = "low"
-    """A weak source."""
+    """Found in a weak source."""
 
 
 class Severity(StrEnum):
-    """How grave it is to miss a clause."""
+    """Severity of a violated clause."""
 
     ERROR = "error"
     WARNING = "warning"
@@ -48,22 +48,22 @@ class Severity(StrEnum):
 
 
 class Clause(Settings):
-    """What every clause says of itself."""
+    """Fields of every clause: source, confidence, severity and wording."""
 
     source: str = Field(min_length=1, max_length=500)
     """Where the value was found."""
     confidence: Confidence
     """'high': several sources agree, 'medium': one or two, 'low': a weak one."""
     verified: bool = False
-    """Whether the value was read in the wording of the source, not in what others say of it."""
+    """True if the value was read in the original text of the source instead of a secondary one."""
     severity: Severity = Severity.ERROR
-    """'error', 'warning' or 'info': what a finding of this clause is."""
+    """'error', 'warning' or 'info': severity of a violation."""
     text: str = Field("", max_length=2000)
-    """What the clause asks for, in words."""
+    """Requirement of the clause in words."""
 
 
 class Amount(Clause):
-    """A clause with one value, the least or the most that is allowed."""
+    """A clause with one value, the least or the greatest that is allowed."""
 
     value: float = Field(gt=0, le=1e6)
     """The value, in `unit`."""
@@ -75,7 +75,7 @@ class Amount(Clause):
 
     @property
     def reported_in(self) -> str:
-        """The unit of `amount`."""
+        """Unit of `amount`."""
         unit: str = self.unit  # type: ignore[attr-defined]
         return unit
 
@@ -119,7 +119,7 @@ class Ratio(Amount):
 
 
 class Count(Amount):
-    """A number of things."""
+    """A count of objects."""
 
     value: Annotated[int, Field(ge=1, le=1_000_000)]
     """The number."""
@@ -128,12 +128,12 @@ class Count(Amount):
 
 
 class LengthRange(Clause):
-    """A length between two values."""
+    """A length with a lower and an upper bound."""
 
     least: float = Field(gt=0, le=1e6)
-    """The least, in `unit`."""
+    """Lower bound, in `unit`."""
     most: float = Field(gt=0, le=1e6)
-    """The most, in `unit`."""
+    """Upper bound, in `unit`."""
     unit: LengthUnit
     """'m', 'mm', 'cm', 'ft' or 'in'."""
 
@@ -145,18 +145,18 @@ class LengthRange(Clause):
 
     @property
     def bounds(self) -> tuple[float, float]:
-        """Least and most in metres."""
+        """Lower and upper bound in metres."""
         factor = _METRES[self.unit]
         return round(self.least * factor, 9), round(self.most * factor, 9)
 
 
 class LengthsByAngle(Clause):
-    """A least length for stalls at several angles to their aisle, interpolated between these."""
+    """A least length for stalls by their angle to the aisle, interpolated between the given angles."""
 
     angles_deg: tuple[Annotated[float, Field(gt=0, lt=90)], ...] = Field(min_length=1)
-    """Angles of stalls to their aisle, ascending."""
+    """Angles of stalls to the aisle in degrees, ascending."""
     values: tuple[Annotated[float, Field(gt=0, le=1e6)], ...] = Field(min_length=1)
-    """The least length for each angle, in `unit`."""
+    """Least length for each angle, in `unit`."""
     unit: LengthUnit
     """'m', 'mm', 'cm', 'ft' or 'in'."""
 
@@ -174,14 +174,14 @@ class LengthsByAngle(Clause):
         return "m"
 
     def amount_at(self, angle_deg: float, perpendicular_m: float | None = None) -> float:
-        """The least length in metres for an angle; that of the nearest angle outside their range.
+        """Least length in metres for stalls at an angle; outside the given angles, that of the nearest one.
 
         Parameters
         ----------
         angle_deg
-            Angle of the stalls.
+            Angle of the stalls to the aisle.
         perpendicular_m
-            The length for 90 degrees, if it is known from another clause.
+            Length in metres for 90 degrees, if another clause gives it.
         """
         angles_deg, values_m = list(self.angles_deg), [value * _METRES[self.unit] for value in self.values]
         if perpendicular_m is not None:
@@ -190,14 +190,14 @@ class LengthsByAngle(Clause):
 
 
 class Steps(Clause):
-    """A least number that grows with the number of stalls."""
+    """A least count that grows with the number of stalls."""
 
     steps: tuple[tuple[Annotated[int, Field(ge=1)], Annotated[int, Field(ge=0)]], ...] = Field(min_length=1)
-    """[number of stalls, least number up to it], ascending."""
+    """[number of stalls, least count up to this number], ascending."""
     above: Annotated[int, Field(ge=0)] | None = None
-    """Least number over the last step."""
+    """Least count above the last step."""
     above_percent: float | None = Field(None, gt=0, le=100)
-    """Least number over the last step, as a share of the stalls."""
+    """Least count above the last step, as a percentage of the stalls."""
     unit: Literal["count"]
     """'count'."""
 
@@ -211,7 +211,7 @@ class Steps(Clause):
         return self
 
     def required(self, stalls: int) -> int:
-        """Least number for so many stalls."""
+        """Least count for a number of stalls."""
         for end, number in self.steps:
             if stalls <= end:
                 return number

@@ -1,4 +1,4 @@
-"""A profile: the clauses of a standard that a garage is designed to and checked against."""
+"""A profile: the clauses of a standard, for the design and the checks of a garage."""
 
 from collections.abc import Iterator
 
@@ -20,57 +20,57 @@ from garage2usd.profiles.clauses import (
 __all__ = ["USUAL_CAR_LENGTH_M", "USUAL_CAR_WIDTH_M", "Profile"]
 
 USUAL_CAR_LENGTH_M, USUAL_CAR_WIDTH_M = 4.8, 1.8
-"""Of the design car where a profile gives none: JGJ 100's small car."""
+"""Measures of the design car if a profile gives none: the small car of JGJ 100."""
 _LEFT_HAND_TRAFFIC = frozenset({"AU", "GB", "HK", "IE", "IN", "JP", "MT", "MY", "NZ", "SG", "TH", "ZA"})
 _TRANSITION_SLOPE_PERCENT, _TRANSITION_LENGTH_M = 10.0, 3.6
-"""Where a profile gives only one of the two."""
+"""Transition of ramps, for a profile that gives only its slope or only its length."""
 
 
 class Profile(Settings):
-    """Clauses of a standard; those that are left out ask for nothing.
+    """The clauses of a standard; a clause that is left out requires nothing.
 
-    A report says "checked against" a profile; it certifies nothing.
+    A report says "checked against" a profile; it is no certificate.
     """
 
     name: str = Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$")
     """Short name of the profile."""
     title: str = Field("", max_length=500)
-    """What it is taken from."""
+    """Title of the standard that the profile follows."""
     country: str = Field("", pattern=r"^([A-Z]{2})?$")
-    """ISO 3166 code of the country whose signs garages have that ask for those of their profile: CN, DE, GB and US are
-    known, all others have international ones."""
+    """ISO 3166 code of the country whose signs are used if `look.signs.of` is 'profile': CN, DE, GB and US are known,
+    all others have international signs."""
 
     design_car_length: Length | None = None
     """Length of the car that a stall is designed for."""
     design_car_width: Length | None = None
-    """Its width, without mirrors."""
+    """Width of the design car, without mirrors."""
     design_car_height: Length | None = None
-    """Its height."""
+    """Height of the design car."""
     turning_radius: Length | None = None
-    """Least turning radius of that car."""
+    """Least turning radius of the design car."""
 
     stall_width: Length | None = None
     """Least width of a stall at right angles to its aisle."""
     stall_length: Length | None = None
-    """Least length of it."""
+    """Least length of a stall at right angles to its aisle."""
     parallel_stall_width: Length | None = None
     """Least width of a stall parallel to its aisle."""
     parallel_stall_length: Length | None = None
-    """Least length of it."""
+    """Least length of a stall parallel to its aisle."""
     compact_stall_width: Length | None = None
     """Least width of a stall for compact cars at right angles to its aisle."""
     compact_stall_length: Length | None = None
-    """Least length of it."""
+    """Least length of a stall for compact cars at right angles to its aisle."""
     compact_share: Ratio | None = None
     """Greatest share of stalls for compact cars."""
     wall_clearance: Length | None = None
     """Least distance of the design car's sides from walls."""
     end_clearance: Length | None = None
-    """Least distance of its front and rear from what stands before and behind it."""
+    """Least distance of the design car's front and rear from objects before and behind it."""
     column_clearance: Length | None = None
-    """Least distance of it from columns."""
+    """Least distance of the design car from columns."""
     column_spacing: LengthRange | None = None
-    """Distance of the columns on the two sides of a row of stalls."""
+    """Distance of the columns at the two ends of a row of stalls."""
 
     aisle_width: Length | None = None
     """Least clear width of an aisle that serves stalls at right angles to it."""
@@ -82,76 +82,76 @@ class Profile(Settings):
     """Length over which a dead-end aisle keeps a turning stall free."""
 
     dead_end_depth: Length | None = None
-    """Greatest depth of a dead end with all its branches, whether or not a turning stall is kept free."""
+    """Greatest depth of a dead end with all its branches, even if it keeps a turning stall free."""
     loops: Steps | None = None
-    """Least number of loops of the lanes, on which cars drive round again."""
+    """Least number of loops in the lane graph, which let a car drive round again."""
     stretch_length: Length | None = None
     """Longest stretch of lanes between two junctions, or a junction and a portal."""
     lane_field_width: Length | None = None
-    """Greatest clear width of lanes that lie side by side."""
+    """Greatest clear width of adjacent parallel lanes."""
 
     clear_height: Length | None = None
-    """Least height that nothing hangs below."""
+    """Least clear height: nothing hangs lower."""
     van_clear_height: Length | None = None
-    """The same on the ways to and from accessible stalls for vans."""
+    """Least clear height on the paths to and from van-accessible stalls."""
 
     portals: Steps | None = None
     """Least number of vehicle entrances and exits together."""
     portal_distance: Length | None = None
-    """Distance between two of them that must be exceeded."""
+    """Distance between two portals, which must be exceeded."""
     portal_width: Length | None = None
-    """Least clear width of one with one-way traffic."""
+    """Least clear width of a portal with one-way traffic."""
 
     ramp_slope: Ratio | None = None
-    """Steepest slope of a straight ramp."""
+    """Greatest slope of a straight ramp."""
     ramp_transition_slope: Ratio | None = None
-    """Slope over which a ramp needs gentler pieces at its foot and its top."""
+    """Slope above which a ramp needs transitions at its foot and its top."""
     ramp_transition_length: Length | None = None
-    """Least length of each of those."""
+    """Least length of each transition."""
 
     accessible_stalls: Steps | None = None
     """Least number of accessible stalls."""
     accessible_stall_width: Length | None = None
-    """Least width of one."""
+    """Least width of an accessible stall."""
     access_aisle_width: Length | None = None
-    """Least width of the access aisle beside one."""
+    """Least width of the access aisle beside an accessible stall."""
     stalls_per_van_stall: Count | None = None
-    """One in so many accessible stalls, and one at least, takes vans."""
+    """One in this number of accessible stalls, and at least one, takes vans."""
     van_stall_width: Length | None = None
-    """Least width of an accessible stall for vans."""
+    """Least width of a van-accessible stall."""
     van_access_aisle_width: Length | None = None
-    """Width of the access aisle beside an accessible stall with which it takes vans too."""
+    """Width of the access aisle at which any accessible stall takes vans."""
 
     lane_illuminance: Illuminance | None = None
     """Least mean illuminance of the lanes' floor."""
     stall_illuminance: Illuminance | None = None
-    """The same of the stalls."""
+    """Least mean illuminance of the stalls' floor."""
 
     fire_compartment_area: Area | None = None
     """Largest fire compartment without sprinklers."""
     fire_compartment_area_sprinklered: Area | None = None
-    """Largest one with sprinklers."""
+    """Largest fire compartment with sprinklers."""
     personnel_exits: Count | None = None
     """Least number of exits on foot."""
     exit_distance: Length | None = None
-    """Largest distance of a stall to an exit on foot without sprinklers."""
+    """Greatest distance of a stall from an exit on foot without sprinklers."""
     exit_distance_sprinklered: Length | None = None
-    """The same with sprinklers."""
+    """Greatest distance of a stall from an exit on foot with sprinklers."""
 
     hydrant_reach: Length | None = None
-    """Largest distance of a stall or a lane from the two nearest fire hydrants."""
+    """Greatest distance of a stall or a lane from the two nearest fire hydrants."""
     hydrant_spacing: Length | None = None
-    """Largest distance of a fire hydrant from the next one."""
+    """Greatest distance of a fire hydrant from the next one."""
     extinguisher_distance: Length | None = None
-    """Largest distance of a stall or a lane from the nearest fire extinguisher, walked along X and then along Z."""
+    """Greatest distance of a stall or a lane from the nearest fire extinguisher, walked along X and then along Z."""
 
     speed_bump_height: Length | None = None
-    """Largest height of a speed bump."""
+    """Greatest height of a speed bump."""
     wheel_stop_height: Length | None = None
-    """Largest height of a wheel stop."""
+    """Greatest height of a wheel stop."""
 
     def clauses(self) -> Iterator[tuple[str, Clause]]:
-        """Name and clause of all that it has."""
+        """Yield name and clause of every clause that is given."""
         for name in type(self).model_fields:
             clause = getattr(self, name)
             if isinstance(clause, Clause):
@@ -159,36 +159,36 @@ class Profile(Settings):
 
     @property
     def drives_on_left(self) -> bool:
-        """Whether traffic of its country keeps to the left."""
+        """True if traffic in the profile's country keeps to the left."""
         return self.country in _LEFT_HAND_TRAFFIC
 
     @property
     def car_length_m(self) -> float:
-        """Length of the design car."""
+        """Length of the design car in metres."""
         return self.design_car_length.amount if self.design_car_length else USUAL_CAR_LENGTH_M
 
     @property
     def car_width_m(self) -> float:
-        """Its width, without mirrors."""
+        """Width of the design car in metres, without mirrors."""
         return self.design_car_width.amount if self.design_car_width else USUAL_CAR_WIDTH_M
 
     @property
     def transition_slope_percent(self) -> float:
-        """Slope over which a ramp needs gentler pieces, if it needs any."""
+        """Slope in percent above which a ramp needs transitions; meaningful only if `transition_length_m` is not 0."""
         clause = self.ramp_transition_slope
         return clause.amount if clause else _TRANSITION_SLOPE_PERCENT
 
     @property
     def transition_length_m(self) -> float:
-        """Least length of each of those; 0 where none are asked for."""
+        """Least length in metres of a ramp's transitions; 0 if none are required."""
         if self.ramp_transition_length:
             return self.ramp_transition_length.amount
         return _TRANSITION_LENGTH_M if self.ramp_transition_slope else 0.0
 
     def compartment_area(self, *, sprinklered: bool) -> Area | None:
-        """The clause on the largest fire compartment; sprinklers change nothing where it has no clause for them."""
+        """The clause on the largest fire compartment; without a clause for sprinklers, the plain one."""
         return (self.fire_compartment_area_sprinklered if sprinklered else None) or self.fire_compartment_area
 
     def way_out(self, *, sprinklered: bool) -> Length | None:
-        """The clause on the distance to an exit on foot, likewise."""
+        """The clause on the distance to an exit on foot; without a clause for sprinklers, the plain one."""
         return (self.exit_distance_sprinklered if sprinklered else None) or self.exit_distance

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.spelling import called
+from garage2usd.common.spelling import find_named
 from garage2usd.reading.values import metres_per_unit
 from garage2usd.sensors.rays.around_view import SEAM_M, AroundView
 from garage2usd.sensors.rays.birds_eye import Orthographic
@@ -205,7 +205,7 @@ def find_views(
 
 
 def _named(name: str, found: dict[str, UsdGeom.Camera]) -> list[str]:
-    matching = called(name, {path: (path, path.rpartition("/")[2]) for path in found})
+    matching = find_named(name, {path: (path, path.rpartition("/")[2]) for path in found})
     if not matching:
         raise ConfigError("camera", name, ", ".join(found) or "a stage with cameras")
     return matching

@@ -17,28 +17,28 @@ _CONTOUR_ATTEMPTS = 64
 
 
 def make_site(site: SiteConfig, *, bay: BayConfig, seed: int, fittings: FittingsConfig | None = None) -> Structure:
-    """Make the structure matrix with its static objects and the size of its squares.
+    """Make the structure matrix S with contour, portals and obstacles, and with the sizes of its squares.
 
     Parameters
     ----------
     site, bay
-        The settings; whatever they give is taken, the rest is drawn.
+        The settings; parts that they give are used, the others are drawn.
     seed
-        Seed of the steps contour, portals and obstacles.
+        Seed of the random steps for contour, portals and obstacles.
     fittings
-        Whether there are ramps, and how long; left out, portals need no room outside.
+        Settings with the presence and length of ramps; if left out, portals need no space outside.
 
     Returns
     -------
     Structure
-        S with portals and obstacles, and with lanes only where the user gave a complete structure.
+        S with portals and obstacles; it has lanes only if the user gave a complete structure.
 
     Raises
     ------
     ConfigError
-        If something given does not fit the rest.
+        If given parts contradict each other.
     GenerationError
-        If a step found no valid result within its attempts.
+        If a step finds no valid result within its attempts.
     """
     for field, file in (
         ("site.structure_file", site.structure_file),
@@ -59,12 +59,12 @@ def make_site(site: SiteConfig, *, bay: BayConfig, seed: int, fittings: Fittings
 
 
 def with_sides(cells: CellArray, bay: BayConfig) -> Structure:
-    """A structure matrix with R and C as the settings give them, equal squares where they give none.
+    """Combine a structure matrix with R and C from the settings; equal squares if they give none.
 
     Raises
     ------
     ConfigError
-        If there are not as many as columns and rows.
+        If R or C does not have one value for each column or row.
     """
     widths, depths = (
         sides_mm(bay.square_side_m if sides_m is None else sides_m, field=field, shape=cells.shape, axis=axis)
@@ -77,9 +77,9 @@ def with_sides(cells: CellArray, bay: BayConfig) -> Structure:
 
 
 def _static_cells(site: SiteConfig, *, seed: int, ramps: int) -> CellArray:
-    """Draw what is not given, with `ramps` squares kept free before each door.
+    """Draw contour, portals and obstacles that are not given, with `ramps` squares kept free before each door.
 
-    A random contour on which portals or obstacles find no place is drawn again.
+    A random contour that leaves no place for portals or obstacles is drawn again.
     """
     random_contour = site.contour is None and site.rectangles > 0
     attempts = _CONTOUR_ATTEMPTS if random_contour else 1

@@ -15,7 +15,7 @@ _MIN_OVERLAP_CELLS = 2
 
 
 def draw_contour(site: SiteConfig, *, seed: int, attempt: int = 0) -> Mask:
-    """Draw which squares lie inside the garage.
+    """Draw a random contour: the squares inside the garage.
 
     Parameters
     ----------
@@ -36,11 +36,11 @@ def draw_contour(site: SiteConfig, *, seed: int, attempt: int = 0) -> Mask:
 
     Notes
     -----
-    Algorithm 1. Deviation: as printed it asks that the rectangles overlap without saying which; requiring all pairs
-    fails for almost every draw of many rectangles. A rectangle is accepted when it overlaps one accepted before it by
-    2 x 2 squares, so that the union is connected and nowhere narrower than two squares. Deviation: sides are at least
-    three squares, so that a portal has a lane and a stall behind it. Deviation: a union that covers less than
-    ``min_fill`` of the squares is drawn again, as small ones hold few stalls.
+    Algorithm 1. Deviation: the paper requires that rectangles overlap, without saying which; requiring all pairs fails
+    for almost every draw of many rectangles. A rectangle is accepted if it overlaps an accepted one by 2 x 2 squares,
+    so that the union is connected and at least two squares wide. Deviation: sides are at least three squares, so that a
+    portal has a lane and a stall behind it. Deviation: a union that covers less than ``min_fill`` of the squares is
+    drawn again, as small ones hold few stalls.
     """
     height, width = site.shape
     if site.rectangles == 0:
@@ -76,7 +76,7 @@ def _union(rng: np.random.Generator, *, height: int, width: int, count: int) -> 
 
 
 def _span(rng: np.random.Generator, side: int) -> tuple[int, int]:
-    """A random half-open range of squares between the two ends of a diagonal, at least three long."""
+    """Draw a half-open range of squares, at least three long, from 0 to `side`."""
     while True:
         first, last = sorted(rng.integers(0, side, size=2).tolist())
         if last + 1 - first >= _MIN_SIDE_CELLS:

@@ -1,4 +1,4 @@
-"""Static objects that the user gives instead of having them drawn."""
+"""Contour, portals and obstacles that the user gives, and their validation."""
 
 import numpy as np
 
@@ -20,12 +20,12 @@ __all__ = ["check_structure", "given_contour", "place_obstacles", "place_portals
 
 
 def given_contour(site: SiteConfig) -> Mask:
-    """The contour that was given as text; bool, shape (rows, cols).
+    """Read the given contour; bool, shape (rows, cols).
 
     Raises
     ------
     ConfigError
-        If it holds more than outside and inside, or its inside is not one piece.
+        If it has symbols other than those of outside and inside, or its inside is not one piece.
     """
     cells = cells_from_text(site.contour or "", field="site.contour")
     if not ((cells == Cell.OBSTACLE) | (cells == Cell.FREE)).all():
@@ -67,7 +67,7 @@ def place_obstacles(cells: CellArray, site: SiteConfig) -> CellArray:
     Raises
     ------
     ConfigError
-        If a square is off the matrix or taken, or the obstacles part the free squares.
+        If a square is off the matrix or taken, or the obstacles disconnect the free squares.
     """
     result = cells.copy()
     for square in site.obstacle_cells or ():
@@ -82,13 +82,13 @@ def place_obstacles(cells: CellArray, site: SiteConfig) -> CellArray:
 
 
 def check_structure(cells: CellArray) -> None:
-    """Refuse a given structure matrix that no garage can have.
+    """Validate a given structure matrix.
 
     Raises
     ------
     ConfigError
-        If it has no entrance, no exit, a portal that is not on the contour's edge or touches nothing, an entrance
-        from which no car gets to an exit, or an exit to which none gets from an entrance.
+        If it has no entrance or no exit, a portal that is not on the contour's edge or touches no free square, an
+        entrance without a path to an exit, or an exit without a path from an entrance.
     """
     drawing = cells_to_text(cells)
     for kind, name in ((Cell.ENTRANCE, "entrance 'E' (2)"), (Cell.EXIT, "exit 'X' (3)")):
@@ -110,7 +110,7 @@ def check_structure(cells: CellArray) -> None:
 
 
 def _check_ways(cells: CellArray) -> None:
-    """Refuse lanes on which a car that comes in cannot get out, or an exit that no car gets to."""
+    """Check on the lane squares that every entrance has a path to an exit, and every exit a path from an entrance."""
     pieces, _ = pieces_of(cells == Cell.LANE)
     around = np.pad(pieces, 1)
     touched = {

@@ -14,7 +14,7 @@ _RESTARTS = 50
 
 
 def inner_squares(inside: Mask) -> Mask:
-    """Squares whose eight neighbours rho all lie inside the contour: the paper's eta, sum(S(rho)) = 0."""
+    """Squares with all eight neighbours rho inside the contour: the paper's eta, sum(S(rho)) = 0."""
     padded = np.pad(inside, 1)
     rows, cols = inside.shape
     shifted = [padded[dr : dr + rows, dc : dc + cols] for dr in range(3) for dc in range(3)]
@@ -41,13 +41,13 @@ def draw_obstacles(cells: CellArray, site: SiteConfig, *, seed: int, attempt: in
     Raises
     ------
     GenerationError
-        If fewer than asked found a place; says how many squares were eligible and the best count.
+        If fewer obstacles than required can be placed; gives the number of eligible squares and the best count.
 
     Notes
     -----
-    ``o in eta`` and ``M(o_i, o_j) >= sigma_2``. Deviation: eta is taken before portals are written, and squares beside
-    a portal are left free, so that an obstacle never blocks a portal's mouth. Deviation: an obstacle that would cut the
-    free squares apart is not taken, as no lanes could join them.
+    ``o in eta`` and ``M(o_i, o_j) >= sigma_2``. Deviation: eta is computed before portals are written, and
+    squares beside a portal are left free, so that an obstacle never blocks a portal. Deviation: an obstacle that would
+    disconnect the free squares is rejected, as no lanes could join them.
     """
     if site.obstacles == 0:
         return cells

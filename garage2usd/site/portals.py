@@ -16,7 +16,7 @@ _RESTARTS = 400
 
 
 def straight_frontier(inside: Mask) -> Mask:
-    """Squares on a straight edge of the contour, the only ones that may hold a portal.
+    """Find the squares on a straight edge of the contour, which are the only ones that may hold a portal.
 
     Parameters
     ----------
@@ -30,9 +30,9 @@ def straight_frontier(inside: Mask) -> Mask:
 
     Notes
     -----
-    The paper asks that the eight squares rho sum to -3. Deviation: 52 of the 56 neighbourhoods with that sum are no
-    straight edge; the three squares of one side are tested themselves, and that the five others are inside. The
-    outside is padded with -1.
+    The paper requires that the eight squares rho sum to -3. Deviation: 52 of the 56 neighbourhoods with that sum
+    are not a straight edge; instead, the three squares of one side must be outside and the five others inside. The
+    border is padded with -1.
     """
     outside = np.pad(~inside, 1, constant_values=True)
     rows, cols = inside.shape
@@ -57,7 +57,7 @@ def straight_frontier(inside: Mask) -> Mask:
 
 
 def outer_squares(cells: CellArray) -> Mask:
-    """Squares inside the contour with a side on the outside, where a door can open; a court or a core has none."""
+    """Find the squares inside the contour with an edge to the outside, where a door can open; courts do not count."""
     outside = outside_squares(cells)
     beside = edge_neighbour_count(outside) > 0
     beside[[0, -1]] = beside[:, [0, -1]] = True
@@ -66,7 +66,7 @@ def outer_squares(cells: CellArray) -> Mask:
 
 
 def free_squares_connected(cells: CellArray) -> bool:
-    """Whether the free squares form one 4-connected piece and every portal touches it."""
+    """True if the free squares form one 4-connected piece and every portal touches it."""
     free = cells == Cell.FREE
     _, count = pieces_of(free)
     portal = (cells == Cell.ENTRANCE) | (cells == Cell.EXIT)
@@ -76,7 +76,7 @@ def free_squares_connected(cells: CellArray) -> bool:
 def draw_portals(
     cells: CellArray, site: SiteConfig, *, seed: int, attempt: int = 0, ramp_squares: int = 0
 ) -> CellArray:
-    """Draw the entrances and exits that are not on the matrix yet.
+    """Draw the entrances and exits that are not given.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def draw_portals(
     seed, attempt
         Seed and number of the restart.
     ramp_squares
-        How many squares before each door are kept free for its ramp.
+        Number of squares before each door that are kept free for its ramp.
 
     Returns
     -------
@@ -97,14 +97,14 @@ def draw_portals(
     Raises
     ------
     GenerationError
-        If no draw keeps the distance and leaves the free squares connected; says how many squares were eligible and
-        the best distance found.
+        If no draw keeps the distance and leaves the free squares connected; gives the number of eligible squares and
+        the best distance.
 
     Notes
     -----
-    ``M(e_i, e_j) >= sigma_1`` for all pairs of portals, drawn and given. Deviation: portals open onto the outside
-    and not onto a court, where a ramp finds room, and a draw after which the free squares are no longer one piece, or
-    ramps would cross, is drawn again.
+    ``M(e_i, e_j) >= sigma_1`` for all pairs of portals, drawn and given. Deviation: portals open to the outside
+    and not to a court, so that a ramp has space; a draw that disconnects the free squares or makes ramps cross is
+    repeated.
     """
     kinds: list[Cell] = []
     if site.entrance_cells is None:
@@ -120,7 +120,9 @@ def draw_portals(
     eligible = np.argwhere(frontier & (cells == Cell.FREE))
     best = 0
     for _ in range(_RESTARTS):
-        chosen = _spread(rng.permutation(eligible), given, count=len(kinds), distance=site.min_portal_distance_cells)
+        chosen = _take_spaced(
+            rng.permutation(eligible), given, count=len(kinds), distance=site.min_portal_distance_cells
+        )
         best = max(best, len(chosen))
         if len(chosen) == len(kinds):
             result = cells.copy()
@@ -130,15 +132,15 @@ def draw_portals(
                 return result
     reason = (
         f"{len(kinds)} portals at least {site.min_portal_distance_cells} squares apart found no place: "
-        f"{len(eligible)} eligible squares, {best} placed at best, {_widest(eligible)} squares between the farthest two"
+        f"{len(eligible)} eligible squares, {best} placed at best, {_span(eligible)} squares between the farthest two"
     )
     raise GenerationError("portals", reason, seed=seed, attempts=_RESTARTS)
 
 
-def _spread(
+def _take_spaced(
     candidates: NDArray[np.int64], given: NDArray[np.int64], *, count: int, distance: int
 ) -> list[tuple[int, int]]:
-    """Take candidates in order while they keep the Manhattan distance to all taken before."""
+    """Select candidates in order that keep the Manhattan distance from all given and selected squares."""
     taken: list[tuple[int, int]] = [(row, col) for row, col in given.tolist()]
     chosen: list[tuple[int, int]] = []
     for row, col in candidates.tolist():
@@ -150,7 +152,7 @@ def _spread(
     return chosen
 
 
-def _widest(squares: NDArray[np.int64]) -> int:
+def _span(squares: NDArray[np.int64]) -> int:
     """Largest Manhattan distance between two squares: the spread of row + col or of row - col."""
     if len(squares) == 0:
         return 0

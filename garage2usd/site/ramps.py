@@ -1,4 +1,4 @@
-"""Room outside the contour for the ramp behind each portal."""
+"""Space outside the contour for the ramp behind each portal."""
 
 import math
 from collections.abc import Iterator
@@ -16,7 +16,7 @@ Square = tuple[int, int]
 
 
 def ramp_squares(bay: BayConfig, fittings: FittingsConfig) -> int:
-    """Number of squares that a ramp covers beyond its portal, for the smallest side they may have; 0 without ramps."""
+    """Number of squares that a ramp covers beyond its portal, for the shortest possible side; 0 without ramps."""
     if not fittings.ramps:
         return 0
     given = [np.min(sides) for sides in (bay.column_widths_m, bay.row_depths_m) if sides is not None]
@@ -25,9 +25,9 @@ def ramp_squares(bay: BayConfig, fittings: FittingsConfig) -> int:
 
 
 def with_room_for_ramps(cells: CellArray, squares: int) -> Mask:
-    """Find the squares with `squares` outside squares before one of their edges, and beside these on both sides.
+    """Find the squares with room for a ramp: `squares` outside squares before an edge, and more on both sides of these.
 
-    Beyond the matrix everything is outside.
+    Squares beyond the matrix are outside.
     """
     rows, cols = cells.shape
     reach = max(squares, 1)
@@ -44,7 +44,7 @@ def with_room_for_ramps(cells: CellArray, squares: int) -> Mask:
 
 
 def are_apart(cells: CellArray, squares: int) -> bool:
-    """Whether the ramps behind all portals of a matrix lie on squares of their own."""
+    """True if no two ramps of a matrix share a square."""
     taken: set[Square] = set()
     for portal in door_edges(cells):
         ray = set(_ray(cells, portal, squares))
@@ -55,12 +55,12 @@ def are_apart(cells: CellArray, squares: int) -> bool:
 
 
 def check_ramps(cells: CellArray, site: SiteConfig, squares: int) -> None:
-    """Refuse given portals that leave no room for a ramp over `squares` squares.
+    """Reject given portals without space for a ramp over `squares` squares.
 
     Raises
     ------
     ConfigError
-        Names the portal.
+        If a portal has too little space; names the portal.
     """
     outside = outside_squares(cells)
     taken: set[Square] = set()
@@ -80,7 +80,7 @@ def check_ramps(cells: CellArray, site: SiteConfig, squares: int) -> None:
 
 
 def _ray(cells: CellArray, portal: Square, squares: int) -> Iterator[Square]:
-    """The squares before a portal's door, as far as a ramp reaches."""
+    """Yield the squares before a portal's door that its ramp covers."""
     dr, dc = NEIGHBOUR_STEPS[door_edges(cells)[portal]]
     return ((portal[0] + ahead * dr, portal[1] + ahead * dc) for ahead in range(1, squares + 1))
 

@@ -1,4 +1,4 @@
-"""Whether the squares of a site have room for a stall, before anything is planned on them."""
+"""Check of a site before planning: squares large enough for a stall."""
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import BayConfig
@@ -9,12 +9,12 @@ __all__ = ["check_room"]
 
 
 def check_room(site: Structure, bay: BayConfig) -> None:
-    """Refuse squares that are all too small for a stall, where their size is not chosen later.
+    """Check that some squares can hold a stall, unless their size is chosen later.
 
     Raises
     ------
     ConfigError
-        With the setting of the squares' size, and what a stall needs.
+        If none can; names the setting of the squares' size, and the size that a stall needs.
     """
     chosen_later = bay.dimensioned and (bay.column_widths_m is None or bay.row_depths_m is None)
     table = capacity_table(site, bay)

@@ -1,4 +1,4 @@
-"""The only authoring of USD: a layout becomes a stage with its assets and textures."""
+"""Authoring of USD: write a layout as a stage with its assets and textures."""
 
 import os
 import posixpath
@@ -43,7 +43,7 @@ __all__ = [
 
 
 class StageFormat(StrEnum):
-    """The file formats of a stage, by extension."""
+    """File formats of a stage, by extension."""
 
     USDA = ".usda"
     USDC = ".usdc"
@@ -51,24 +51,24 @@ class StageFormat(StrEnum):
 
 
 def asset_folder_name(stage_path: Path) -> str:
-    """Name of the folder beside a ``.usda`` or ``.usdc`` that holds its layers, and its assets if it shares none."""
+    """Name of the folder beside a ``.usda`` or ``.usdc`` for its layers, and for its assets if they are not shared."""
     return f"{stage_path.stem}_assets"
 
 
 def shared_folder(path: Path, config: StageConfig) -> Path | None:
-    """The folder of the assets that a stage at `path` shares with others; None where it has its own.
+    """Resolve the folder of shared assets for a stage at `path`; None if the stage has its own assets.
 
     Raises
     ------
     ConfigError
-        If the stage is a ``.usdz``, which holds its assets itself, or the folder is within the stage's own, which each
-        build replaces.
+        If the stage is a ``.usdz``, which embeds its assets, or the folder lies within the stage's own folder, which
+        each build replaces.
     """
     if config.assets is AssetPlace.OWN:
         return None
     if path.suffix.lower() == StageFormat.USDZ:
         raise ConfigError("stage.assets", str(config.assets), "'own' for a .usdz, which holds its assets itself")
-    # as USD joins paths, to which a link to a folder is no other folder
+    # joined as USD joins paths, without resolving symbolic links
     folder = Path(os.path.normpath(path.parent.absolute() / config.asset_folder))
     own = Path(os.path.normpath(path.parent.absolute() / asset_folder_name(path)))
     if folder == own or own in folder.parents:
@@ -84,7 +84,7 @@ class StageFiles(NamedTuple):
 
 
 def arrangement_of(layout: Layout, config: StageConfig) -> Arrangement:
-    """Assign each object of a layout to its prim in the USD stage, as the stage settings require."""
+    """Assign each object of a layout to its prim in the USD stage, according to the settings of the stage."""
     return arrange(layout, nested=config.is_nested(int((layout.structure.cells != Cell.OBSTACLE).sum())))
 
 
@@ -105,33 +105,33 @@ def write_stage(
     own: str | None = None,
     progress: Progress = silent,
 ) -> StageFiles:
-    """Write a stage into a folder of its own.
+    """Write a stage into an empty folder.
 
     Parameters
     ----------
     layout
-        What to write.
+        The layout to write.
     path
-        The stage's file in an existing, empty folder; its extension decides the format.
+        The stage's file in an existing, empty folder; its extension selects the format.
     arrangement
-        Which prim each object is, by `arrangement_of`.
+        Prim of each object, from `arrangement_of`.
     metadata
-        Written into the root's customData.
+        Entries of the root's customData.
     config
-        Texture quality and form.
+        Texture quality and form of the stage.
     shared
-        Folder of the assets that it shares with others, by `shared_folder` for the place where it is going to stand.
-        Those that are missing there are added, those that are damaged are written again.
+        Folder of the shared assets, from `shared_folder` for the final path of the stage. Missing assets are added,
+        damaged ones are written again.
     own
-        What the names of the layers that belong to this garage alone begin with, beside a stage that shares its assets;
-        left out, they stand in a folder, by `asset_folder_name`.
+        Prefix of the names of this garage's own layers, beside a stage with shared assets; if left out, the layers
+        stand in a folder named by `asset_folder_name`.
     progress
-        Called with each prototype that is written.
+        Called after each prototype.
 
     Returns
     -------
     StageFiles
-        What now stands in the folder.
+        The files in the folder.
 
     Raises
     ------
@@ -171,7 +171,7 @@ def write_stage(
                 posixpath.relpath(config.asset_folder, posixpath.dirname(own) or "."), TEXTURE_FOLDER
             ),
         )
-    # a browser reads a package only if its root layer is text
+    # viewers in a browser need a text root layer in a package
     layer_path = path.with_suffix(".usda") if packed else path
     progress("stage", 0, 1)
     write_garage_layer(
@@ -204,7 +204,7 @@ def write_stage(
 def _asset_files(
     shapes: Sequence[Spec], finishes: Mapping[str, Finish], config: StageConfig, progress: Progress
 ) -> dict[Spec, AssetFile]:
-    """The assets of some shapes."""
+    """Author the asset files of shapes."""
     files = {}
     for done, shape in enumerate(shapes):
         progress("assets", done, len(shapes))
@@ -226,7 +226,7 @@ def _textures(textures: Iterable[NamedFile]) -> dict[str, bytes]:
 
 
 def _remove_indents(layer_path: Path) -> None:
-    """Remove the blanks that begin the lines of a text layer; of its strings no line begins with one."""
+    """Remove the indentation of a text layer; no line of its strings begins with a blank."""
     text = layer_path.read_text(encoding="utf-8")
     layer_path.write_text(re.sub(r"^ +", "", text, flags=re.MULTILINE), encoding="utf-8", newline="\n")
 
@@ -239,7 +239,7 @@ def _write(contents: Mapping[str, bytes], folder: Path) -> None:
 
 
 def _make_flat(layer_path: Path, folder: Path) -> None:
-    """Put one flat layer in the place of an instanced one and its assets; the textures stay."""
+    """Replace an instanced layer and its assets by one flat layer; the textures stay."""
     flat = layer_path.with_stem(f"{layer_path.stem}_flat")
     flatten_stage(layer_path, flat)
     flat.replace(layer_path)

@@ -1,4 +1,4 @@
-"""Assignment of a layout's objects to prims of the stage: on a tile, in a building group or as an instancer's point."""
+"""Assignment of a layout's objects to prims of the stage: tiles, groups of the building, or point instancers."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -22,32 +22,33 @@ _FIRST_NAMES = {
     "hydrant_cabinet": "HydrantCabinet",
     "fire_extinguisher": "FireExtinguisher",
 }
-"""What belongs to the tile that it stands on where tiles share prototypes, although it is the building's, and the name
-of the first on a tile; a column, where four tiles meet, stands on the first of them."""
+"""Kinds of the building that belong to a tile if tiles share prototypes, and the name of the first object on a tile. A
+column, where four tiles meet, belongs to the first of them."""
 
 
 @dataclass(frozen=True, eq=False)
 class Arrangement:
-    """The prims of the objects, which are given by their rows in ``layout.placements``.
+    """Prims of the objects, which are identified by their rows in ``layout.placements``.
 
     Attributes
     ----------
     parts
-        Names of the parts of each tile that equal tiles share; empty where each tile has objects of its own.
+        Names of the parts of a tile that equal tiles share; empty if tiles share no prototypes.
     squares
         (row, col) of each tile, in reading order; shape (tiles, 2).
     origins_m
-        (x, z) of each tile's origin, the middle of its square; float64, shape (tiles, 2).
+        (x, z) of each tile's origin, the centre of its square; float64, shape (tiles, 2).
     order, borders
-        Rows of all objects by tile and part, and where in it each part of each tile begins and the last one ends.
+        Rows of all objects sorted by tile and part, and the start of each part in them, with the total length at the
+        end.
     groups
         Rows of the objects of each group of the building.
     scattered
         Rows of the objects of each point instancer, in the order of its points.
     names
-        The different names, as ASCII; shape (names,).
+        Distinct names, as ASCII; shape (names,).
     name
-        Number of each object's name in `names`; shape (n,).
+        Index of each object's name in `names`; shape (n,).
     """
 
     parts: tuple[str, ...]
@@ -66,7 +67,7 @@ class Arrangement:
         return bool(self.parts)
 
     def on_part(self, part: int) -> NDArray[np.int32]:
-        """Rows of the objects of a part, which are counted through from tile to tile."""
+        """Rows of the objects of a part; parts are numbered consecutively from tile to tile."""
         return self.order[self.borders[part] : self.borders[part + 1]]
 
     def on_all_tiles(self) -> NDArray[np.int32]:
@@ -74,7 +75,7 @@ class Arrangement:
         return self.order[self.borders[0] : self.borders[-1]]
 
     def paths(self) -> list[str]:
-        """Path of each object's prim; for a scattered one the instancer's, and the number of its point in brackets."""
+        """Prim path of each object; for a point of an instancer, its path and the point's index in brackets."""
         paths = [""] * len(self.name)
         for parent, rows in self._parents():
             for row, name in zip(rows.tolist(), self.name[rows].tolist(), strict=True):
@@ -101,8 +102,8 @@ def arrange(layout: Layout, *, nested: bool) -> Arrangement:
     layout
         The objects.
     nested
-        Whether equal tiles share a prototype, and different ones its parts. Columns and what hangs on them and on
-        walls then belong to tiles, and what makes all tiles different is scattered.
+        True if equal tiles share a prototype, and different tiles the prototypes of equal parts. Columns and their
+        fittings then belong to tiles, and objects that would make every tile unique go to point instancers.
     """
     objects, structure = layout.placements, layout.structure
     squares = np.argwhere(structure.cells != Cell.OBSTACLE)
@@ -131,7 +132,7 @@ def arrange(layout: Layout, *, nested: bool) -> Arrangement:
                 scattered[kind.scattered] = at
                 tile[at] = -2
                 name[at] = 0
-        # most names were those of what is scattered and of columns
+        # drops names that only points of instancers and columns had
         used = np.bincount(name, minlength=len(names)) > 0
         names, name = names[used], compact(np.cumsum(used) - 1)[name]
     width = max(len(parts), 1)
@@ -157,7 +158,7 @@ _BORDER_TOLERANCE_M = 1e-6
 
 
 def _squares_at(structure: Structure, position_m: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Rows and columns of the squares that hold places, the first one's where a place is on a border; shape (2, n)."""
+    """Rows and columns of the squares at positions, the first square for a position on a border; shape (2, n)."""
     x, _, z = position_m.T - _BORDER_TOLERANCE_M
     edges_m = (structure.row_edges_m, structure.column_edges_m)
     squares = [np.searchsorted(edges, at) - 1 for edges, at in zip(edges_m, (z, x), strict=True)]
@@ -165,7 +166,7 @@ def _squares_at(structure: Structure, position_m: NDArray[np.float64]) -> NDArra
 
 
 def _numbers_among_equals(values: NDArray[np.intp]) -> NDArray[np.intp]:
-    """How many equal values stand before each one."""
+    """Number of equal values before each value."""
     order = np.argsort(values, kind="stable")
     _, first, group = np.unique(values[order], return_index=True, return_inverse=True)
     numbers = np.empty_like(values)
@@ -184,7 +185,7 @@ def tile_name(row: int, col: int) -> str:
 
 
 def _grouped(layout: Layout, rows: NDArray[np.intp]) -> dict[str, NDArray[np.intp]]:
-    """Rows of what belongs to the building, by group, in the order of their first objects."""
+    """Rows of the building's objects by group, in the order of the first object of each group."""
     kinds = layout.placements.kind[rows]
     group_of_kind = np.array([kind.group for kind in KINDS])
     groups = group_of_kind[kinds]

@@ -1,4 +1,4 @@
-"""Assets as files whose names say what they hold: authored once a process, and the same for every garage."""
+"""Asset layers with content-based file names: authored once per process and equal in every garage."""
 
 import secrets
 import tempfile
@@ -24,9 +24,9 @@ class AssetFile(NamedTuple):
     Attributes
     ----------
     layer
-        Named by the kind of object and the beginning of the layer's SHA-256: ``Column_0f3a9c5e7b1d2846.usdc``.
+        File named by the kind of object and the beginning of its SHA-256: ``Column_0f3a9c5e7b1d2846.usdc``.
     textures
-        Its textures, which stand in the folder ``textures`` beside it.
+        Its textures, stored in the folder ``textures`` beside the layer.
     """
 
     layer: NamedFile
@@ -34,22 +34,22 @@ class AssetFile(NamedTuple):
 
 
 def asset_file(shape: Spec, quality: TextureQuality, finishes: Mapping[str, Finish]) -> AssetFile:
-    """The layer of a shape.
+    """Author the asset layer of a shape.
 
     Parameters
     ----------
     shape
         The shape.
     quality
-        Of its textures.
+        Quality of its textures.
     finishes
-        What the garage has in the place of materials, by their keys.
+        Finishes that replace materials, by the materials' keys.
 
     Notes
     -----
-    What is authored is kept for the next garage of the process: the 4096 assets that were used last. Twenty garages of
-    7 x 9 squares need 346, which take 2.6 MB; the largest is a car of at most 150 KB. The bytes depend on the shape,
-    the quality and the finishes that it has alone, so that a stage is the same whatever was built before it.
+    The 4096 most recently used assets are cached for the next garages of the process. Twenty garages of 7 x 9 squares
+    need 346 assets with 2.6 MB in all; the largest asset, a car, has at most 150 KB. The bytes depend only on the
+    shape, the quality and the shape's own finishes, so that a stage is independent of earlier builds.
     """
     own = asset_of(shape).materials & finishes.keys()
     return _asset_file(shape, quality, tuple((key, finishes[key]) for key in sorted(own)))
@@ -59,7 +59,7 @@ def asset_file(shape: Spec, quality: TextureQuality, finishes: Mapping[str, Fini
 def _asset_file(shape: Spec, quality: TextureQuality, own: tuple[tuple[str, Finish], ...]) -> AssetFile:
     asset = asset_of(shape)
     finishes = {**dict(own), **asset.finishes}
-    # of many small files a folder for each would take a third of the time
+    # one temporary folder for all: a folder for each of many small files would take a third of the time
     path = Path(tempfile.gettempdir()) / f"{HIDDEN_PREFIX}{secrets.token_hex(8)}.usdc"
     try:
         write_prototype(asset, path, kind=shape.kind, quality=quality, finishes=finishes, mass_kg=shape.mass_kg)

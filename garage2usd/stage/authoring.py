@@ -1,4 +1,4 @@
-"""Helpers that author prims, attributes and layers as Sdf specs, without an open USD stage."""
+"""Authoring helpers for prims, attributes and layers as Sdf specs, without an open USD stage."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -72,14 +72,14 @@ def define(
 
 
 def apply_schemas(prim: Sdf.PrimSpec, *schemas: str) -> None:
-    """Apply API schemas, by their names in the order in which they count."""
+    """Apply API schemas by their names, strongest first."""
     prim.SetInfo("apiSchemas", Sdf.TokenListOp.Create(prependedItems=schemas))
 
 
 def attribute(
     prim: Sdf.PrimSpec, name: str, type_name: Sdf.ValueTypeName, value: object = None, *, uniform: bool = False
 ) -> Sdf.AttributeSpec:
-    """An attribute with its default, if it has one; in the namespace ``garage`` a custom one."""
+    """Author an attribute with an optional default; an attribute in the namespace ``garage`` is custom."""
     variability = Sdf.VariabilityUniform if uniform else Sdf.VariabilityVarying
     spec = Sdf.AttributeSpec(prim, name, type_name, variability)
     if value is not None:
@@ -92,7 +92,7 @@ def attribute(
 def connect(
     prim: Sdf.PrimSpec, name: str, type_name: Sdf.ValueTypeName, source: Sdf.AttributeSpec
 ) -> Sdf.AttributeSpec:
-    """An attribute that takes the value of another one."""
+    """Author an attribute connected to another attribute."""
     spec = attribute(prim, name, type_name)
     spec.connectionPathList.explicitItems = [source.path]
     return spec
@@ -110,7 +110,7 @@ def words(prim: Sdf.PrimSpec, name: str, values: Iterable[str]) -> None:
 
 
 def numbers(prim: Sdf.PrimSpec, name: str, values: NDArray[Any]) -> None:
-    """An attribute that holds an array: of int where the values are whole by their type, else of float."""
+    """Author an array attribute: int for integer values, else float."""
     if values.dtype.kind in "iu":
         array, type_name = Vt.IntArray.FromNumpy(np.ascontiguousarray(values, np.int32)), Sdf.ValueTypeNames.IntArray
     else:
@@ -120,7 +120,7 @@ def numbers(prim: Sdf.PrimSpec, name: str, values: NDArray[Any]) -> None:
 
 
 def operation(prim: Sdf.PrimSpec, name: str, type_name: Sdf.ValueTypeName, value: object) -> Sdf.AttributeSpec:
-    """One transform operation; `order_operations` makes it count."""
+    """Author a transform operation; `order_operations` activates it."""
     return attribute(prim, f"xformOp:{name}", type_name, value)
 
 
@@ -131,7 +131,7 @@ def order_operations(prim: Sdf.PrimSpec, names: Iterable[str]) -> None:
 
 
 def save(layer: Sdf.Layer, path: Path) -> None:
-    """Write an anonymous layer to a new file; as `Sdf.Layer.Export`, but without a second copy of all it holds."""
+    """Write an anonymous layer to a new file, like `Sdf.Layer.Export` but without a second copy in memory."""
     file = _unwritten(path)
     file.TransferContent(layer)
     save_file(file, path)
@@ -143,7 +143,7 @@ def save_file(layer: Sdf.Layer, path: Path) -> None:
     Raises
     ------
     OutputError
-        If it cannot be written, as where the disk is full, which USD says as of any other trouble.
+        If the file cannot be written, for example to a full disk, which USD reports only as a general error.
     """
     try:
         layer.Save()
@@ -154,5 +154,5 @@ def save_file(layer: Sdf.Layer, path: Path) -> None:
 
 
 def _unwritten(path: Path) -> Sdf.Layer:
-    """A layer for a new file, which `Sdf.Layer.CreateNew` would write twice."""
+    """Create a layer for a new file without writing it, as `Sdf.Layer.CreateNew` would."""
     return Sdf.Layer.New(Sdf.FileFormat.FindByExtension(path.suffix), str(path))

@@ -1,4 +1,4 @@
-"""Meshes that are made ahead: those of the shapes that many garages have, in a file that the package ships."""
+"""Precomputed meshes of common shapes, in a file that the package ships."""
 
 import hashlib
 import json
@@ -30,14 +30,14 @@ _STEPS = {
     "st": 100_000,
     "st_indices": 1,
 }
-"""The arrays of a part, and the fractions of 1 of which `garage2usd.assets.make_part` makes their numbers."""
+"""Arrays of a part, with the rounding steps per unit that `garage2usd.assets.make_part` uses."""
 _WIDTHS = {"points": 3, "normals": 3, "st": 2}
-"""Numbers in a row of an array that has rows."""
+"""Numbers per row of two-dimensional arrays."""
 _OWN_GROUP_NUMBERS = 8192
-"""A shape of more numbers is read alone, others with all of their class."""
+"""A shape with more numbers is stored in its own group, all others with the shapes of their class."""
 _FLOAT = "<f4"
 _LEVEL = 9
-"""Of compression: files are written rarely and read often."""
+"""Compression level: files are written rarely and read often."""
 
 
 class _Entry(NamedTuple):
@@ -46,11 +46,11 @@ class _Entry(NamedTuple):
     Attributes
     ----------
     paints
-        As the asset has them.
+        Paints of the asset.
     parts
         Name, material, collider and piece of each part.
     first
-        Number of the first part among those of its group.
+        Index of the first part among those of its group.
     """
 
     paints: dict[str, str]
@@ -59,16 +59,16 @@ class _Entry(NamedTuple):
 
 
 class _Group(NamedTuple):
-    """Assets that are read at a time.
+    """A group of assets, which are read together.
 
     Attributes
     ----------
     entries
         The assets by the keys of their shapes.
     arrays
-        Each array of a part, of all parts one after the other.
+        Each array of a part, concatenated over all parts.
     borders
-        Where in `arrays` each part begins and the last one ends; int64, shape (parts + 1, arrays).
+        Start of each part in `arrays`, with the total lengths at the end; int64, shape (parts + 1, arrays).
     """
 
     entries: dict[str, _Entry]
@@ -77,12 +77,12 @@ class _Group(NamedTuple):
 
 
 def bake_meshes(shapes: Iterable[Spec], path: Path) -> None:
-    """Make the meshes of shapes that give no light and write them to a file, in NumPy's format ``.npz``.
+    """Compute the meshes of shapes without lights and write them to a NumPy ``.npz`` file.
 
     Notes
     -----
-    The file holds the names of the groups, where each of them ends, and the groups, each compressed by itself, so that
-    a garage decompresses those that it has.
+    The file holds the names of the groups, their end offsets, and the groups. Each group is compressed separately, so
+    that a build decompresses only the groups that it needs.
     """
     groups: dict[str, list[tuple[str, Asset]]] = {}
     for key, shape in sorted((_key(shape), shape) for shape in shapes):
@@ -99,10 +99,11 @@ def bake_meshes(shapes: Iterable[Spec], path: Path) -> None:
 
 
 def _packed(assets: Sequence[tuple[str, Asset]]) -> bytes:
-    """A group: a line of JSON with its assets and the types of its arrays, the lengths of arrays, and the arrays.
+    """Serialise a group: a line of JSON with assets and array types, the lengths of arrays, and the arrays.
 
-    Arrays are whole numbers of steps in as few bytes as hold them, or floats where they are none, as the points of
-    wheels that are turned; columns first, and sorted by the significance of their bytes, which compress better so.
+    Arrays are integer multiples of their step in the smallest integer type, or floats if they are not, such as the
+    points of turned wheels. They are stored column by column, and by the significance of bytes, which compresses
+    better.
     """
     entries: dict[str, _Entry] = {}
     parts: list[Part] = []
@@ -126,7 +127,7 @@ def _packed(assets: Sequence[tuple[str, Asset]]) -> bytes:
 
 
 def _unpacked(data: bytes) -> _Group:
-    """The inverse of `_packed`."""
+    """Deserialise a group, the inverse of `_packed`."""
     head, _, body = data.partition(b"\n")
     said = json.loads(head)
     entries = {key: _Entry(*entry) for key, entry in said["entries"].items()}
@@ -143,13 +144,13 @@ def _unpacked(data: bytes) -> _Group:
         end += stored.nbytes
         rows = steps.reshape(width, length).T if name in _WIDTHS else steps
         array = np.ascontiguousarray(rows) if kind == _FLOAT else _of_steps(name, rows)
-        array.flags.writeable = False  # all users of an asset share it
+        array.flags.writeable = False  # read-only, as all users of an asset share its arrays
         arrays.append(array)
     return _Group(entries, arrays, borders)
 
 
 def _of_steps(name: str, steps: NDArray[Any]) -> NDArray[Any]:
-    """The numbers of an array that are so many steps, as `make_part` rounds them."""
+    """Convert an array from integer steps to floats, rounded like `make_part` does."""
     if name not in _WIDTHS:
         return steps.astype(np.int32)
     if name == "normals":
@@ -158,7 +159,7 @@ def _of_steps(name: str, steps: NDArray[Any]) -> NDArray[Any]:
 
 
 def baked_asset(shape: Spec) -> Asset | None:
-    """The meshes of a shape as its method `asset` makes them; None where they are not made ahead."""
+    """Return the precomputed meshes of a shape, equal to its method `asset`; None if it has none."""
     key = _key(shape)
     group = type(shape).__name__
     baked = _group(_own_group(group, key)) or _group(group)
@@ -175,12 +176,12 @@ def baked_asset(shape: Spec) -> Asset | None:
 
 
 def baked_shapes() -> Iterator[Spec]:
-    """The shapes whose meshes are made ahead.
+    """Yield the shapes with precomputed meshes.
 
     Raises
     ------
     StageError
-        If a class of shapes was renamed or has other measures by now.
+        If a class of shapes was renamed or its fields have changed.
     """
     classes = {cls.__name__: cls for cls in _subclasses(Spec)}  # type: ignore[type-abstract]
     for key in chain.from_iterable(group.entries for group in map(_group, _packed_groups()) if group):
@@ -194,7 +195,7 @@ def baked_shapes() -> Iterator[Spec]:
 
 @lru_cache(maxsize=1)
 def _packed_groups() -> dict[str, bytes]:
-    """The groups by their names, as `_packed` makes them, compressed."""
+    """Compressed groups by name, in the format of `_packed`."""
     with np.load(MESH_FILE) as file:
         names, ends, groups = json.loads(file["names"].tobytes()), file["ends"].tolist(), file["groups"].tobytes()
     return {name: groups[start:end] for name, start, end in zip(names, [0, *ends[:-1]], ends, strict=True)}
@@ -202,18 +203,18 @@ def _packed_groups() -> dict[str, bytes]:
 
 @lru_cache(maxsize=1024)
 def _group(name: str) -> _Group | None:
-    """A group of assets; None where the file has none of that name."""
+    """Read a group of assets; None if the file has no such group."""
     packed = _packed_groups().get(name)
     return None if packed is None else _unpacked(zlib.decompress(packed))
 
 
 def _own_group(group: str, key: str) -> str:
-    """The group of a shape that is read alone."""
+    """Name of the group of a shape that is stored separately."""
     return f"{group}-{hashlib.blake2b(key.encode(), digest_size=8).hexdigest()}"
 
 
 def _key(shape: Spec) -> str:
-    """The class of a shape and its measures as JSON, which gives each number back as it was."""
+    """Key of a shape: its class and its fields as JSON, which restores every number exactly."""
     return json.dumps([type(shape).__name__, shape], default=_measures)
 
 

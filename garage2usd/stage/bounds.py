@@ -14,9 +14,9 @@ __all__ = ["points_of", "world_bounds_m"]
 
 @lru_cache(maxsize=4096)
 def points_of(spec: Spec, piece: str | None = None) -> NDArray[np.float64]:
-    """All points of an asset's meshes, and the corners of its light; float64, shape (n, 3).
+    """Collect all points of an asset's meshes and the corners of its light; float64, shape (n, 3), in metres.
 
-    Of one labelled `piece` alone, where its class is given.
+    If the class of a labelled `piece` is given, only the points of that piece.
     """
     asset = asset_of(spec)
     points = [part.points.astype(np.float64) for part in asset.parts if piece in {None, part.piece}]
@@ -31,7 +31,7 @@ def world_bounds_m(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Compute the world bounding boxes of objects: least and greatest (x, y, z); float64, shape (n, 3) each.
 
-    Of one labelled `piece` of each alone, where its class is given; they must have it.
+    If the class of a labelled `piece` is given, the boxes of that piece, which every object must have.
     """
     position_m, yaw_rad, spec = objects.position_m[rows], objects.yaw_rad[rows], objects.spec[rows]
     yaws, yaw = np.unique(yaw_rad, return_inverse=True)
@@ -50,6 +50,6 @@ def _turned_bounds_m(spec: Spec, piece: str | None, yaw_rad: float) -> tuple[NDA
     points = points_of(spec, piece)
     cos, sin = np.cos(yaw_rad), np.sin(yaw_rad)
     turned = points @ np.array([[cos, 0.0, -sin], [0.0, 1.0, 0.0], [sin, 0.0, cos]])
-    # coordinate by coordinate NumPy finds extremes five times faster
+    # NumPy finds the extremes of one coordinate at a time five times faster
     rows = np.ascontiguousarray(turned.T)
     return rows.min(axis=1), rows.max(axis=1)

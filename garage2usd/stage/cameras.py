@@ -32,14 +32,14 @@ EYE_M = 1.5
 """Height of a driver's eye above the floor."""
 FOCAL_MM = 20.0
 APERTURE_MM = (36.0, 20.25)
-"""Horizontal and vertical aperture of all cameras, which have that focal length."""
+"""Horizontal and vertical aperture of all cameras, for the focal length above."""
 _MARGIN = 1.05
 _SPEED_M_S = 2.7
 _CORNER_CUTS = 3
 _STEADY = 1e-9
-"""What rounding errors make of no change of speed, in metres or degrees a frame."""
+"""Rounding errors of a constant speed, in metres or degrees per frame."""
 _UNSEEN_DEG = 0.02
-"""Angle by which a camera may deviate from its path: half a pixel of a picture 2000 pixels wide."""
+"""Angle by which a camera may deviate from its path: half a pixel of an image 2000 pixels wide."""
 _FRAMES_APART = 1000.0
 _LOOK_AHEAD_M = 4.0
 _NEAR_M, _FAR_M = 0.1, 2000.0
@@ -47,17 +47,17 @@ _SHELL = ("wall", "portal", "ramp", "sky")
 """Kinds of objects that enclose every garage."""
 
 DRIVE_NAME = "Drive"
-"""Name of the camera that drives, and of its asset."""
+"""Name of the driving camera and of its asset."""
 
 
 def write_drive(path: Path, lanes: LaneGraph) -> int:
-    """Write the driving camera as a layer of its own, as text is slow with many samples; returns its last frame.
+    """Write the driving camera as a separate layer, as text is slow with many samples; return the last frame.
 
     Notes
     -----
-    It takes the shortest route from the first entrance that leads to an exit to the one nearest to it, at 2.7 m/s, with
-    rounded corners, looking 4 m ahead; its first frame is 0. Frames between which it moves steadily, or turns so
-    but for a fiftieth of a degree, have no samples, as USD interpolates linearly.
+    The camera takes the shortest route from the first entrance with a path to an exit to the nearest exit, at 2.7 m/s,
+    with rounded corners, looking 4 m ahead; its first frame is 0. Frames of steady motion, and of a steady turn up to
+    0.02 degrees, have no samples, as USD interpolates linearly.
     """
     with new_layer(path, default_prim=DRIVE_NAME) as layer:
         camera = _camera(layer, Sdf.Path.absoluteRootPath.AppendChild(DRIVE_NAME))

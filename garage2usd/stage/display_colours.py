@@ -1,4 +1,4 @@
-"""The colour of an asset for viewers that draw no materials."""
+"""Display colour of an asset, for viewers that do not draw materials."""
 
 from collections.abc import Mapping
 
@@ -11,7 +11,7 @@ __all__ = ["display_colour"]
 
 
 def display_colour(asset: Asset, finishes: Mapping[str, Finish]) -> Rgb:
-    """Linear colour of the material that most of an asset's surface has."""
+    """Linear colour of the material that covers most of an asset's surface."""
     areas_m2 = dict.fromkeys((part.material for part in asset.parts), 0.0)
     if len(areas_m2) > 1:
         for part in asset.parts:
@@ -21,7 +21,7 @@ def display_colour(asset: Asset, finishes: Mapping[str, Finish]) -> Rgb:
 
 
 def _area_m2(part: Part) -> float:
-    """Of all faces, each as a fan of triangles around its first corner."""
+    """Total area in square metres of a part's faces, each a fan of triangles around its first corner."""
     counts = part.face_counts
     corners = part.points[part.face_indices].astype(np.float64)
     starts = np.cumsum(counts) - counts

@@ -1,4 +1,4 @@
-"""A car that drives a trajectory in time, in a layer to put over a garage's stage."""
+"""A car that drives a trajectory over time, in a layer over a garage's stage."""
 
 import math
 from collections.abc import Iterator
@@ -32,16 +32,16 @@ CAR_NAME = "DrivingCar"
 """Name of the car below ``/Garage``."""
 _PAINT = "car_paint"
 _QUALITY = TextureQuality.HIGH
-"""Of textures that only models of one's own have, which are as they are in every quality."""
+"""Texture quality, which affects only the user's models; their textures are used unchanged."""
 _WHEEL_REACH_M, _WHEEL_MARGIN_M = 0.45, 0.01
-"""How far wheels reach inwards from a car's side, and beyond their radius where they are round by chords."""
+"""Inward extent of wheels from a car's side, and tolerance of their radius, as their outline is a polygon."""
 _TYPES = Sdf.ValueTypeNames
 
 
 def body_within(car: DesignCar) -> CarBody:
-    """The longest of the bodies that drive that lies within a car where both have their rear axles at one place.
+    """Select the longest driving body that lies within a car, with the rear axles at the same place.
 
-    The mirrors stand out of it, as they do of the design car. Where none fits, the shortest.
+    Mirrors may protrude, as those of the design car do. If no body fits, the shortest is selected.
     """
     fitting = [body for body in DRIVEN_BODIES if _lies_within(body, car)]
     return (
@@ -55,27 +55,26 @@ def _lies_within(body: CarBody, car: DesignCar) -> bool:
 
 
 def write_driving_car(path: Path, motion: Motion, car: CarBody | None = None) -> tuple[Path, ...]:
-    """Write the layer: ``over /Garage`` with the car at ``/Garage/DrivingCar``, its wheels below it.
+    """Write a layer ``over /Garage`` with the car at ``/Garage/DrivingCar`` and its wheels below it.
 
     Parameters
     ----------
     path
         The file.
     motion
-        What the design car drives.
+        Trajectory of the design car.
     car
-        What is seen of it, of the catalogue or a model of one's own; left out, what `body_within` finds.
+        Visible car, of the catalogue or a model of the user; if left out, the result of `body_within`.
 
     Returns
     -------
-    tuple
-        The textures beside the file that it refers to, as a model of one's own may.
+    tuple of Path
+        Textures beside the file that it refers to, which only a model of the user has.
 
     Notes
     -----
-    24 frames a second, as the stage has; the first is 0. The car's origin is the middle of its rear axle on the floor.
-    Its wheels roll, and the front ones steer. Samples are left out where a value changes steadily, as USD interpolates
-    linearly.
+    24 frames per second, as in the stage, from frame 0. The car's origin is the centre of its rear axle on the floor.
+    The wheels roll, and the front ones steer. Samples are left out where a value changes linearly, as USD interpolates.
     """
     last = math.ceil(motion.ends_s * FRAMES_PER_SECOND - 1e-6)
     frames = np.arange(last + 1)
@@ -107,26 +106,26 @@ def _author_drive(layer: Sdf.Layer, car: Sdf.PrimSpec, states: Trajectory) -> No
 
 @lru_cache(maxsize=32)
 def driven_asset(body: CarBody) -> Asset:
-    """A car that drives, with number plates of its own; its axes are those of a parked one.
+    """Return the asset of a driving car with its own number plates, in the axes of a parked car.
 
     Raises
     ------
     ConfigError
-        If the file of a model of one's own has changed since the settings were read.
+        If the file of a model of the user has changed since the settings were read.
     """
     asset = asset_of(car_spec(body, DRIVEN_PAINT))
     return replace(asset, parts=(*asset.parts, *painted_plates(body, DRIVEN_PLATE)))
 
 
 def define_car_looks(layer: Sdf.Layer, car: Sdf.Path, asset: Asset) -> Sdf.Path:
-    """Write the materials of a car that drives below it; returns the path of their scope.
+    """Define the materials of a driving car below it; return the path of their scope.
 
-    A layer names the textures of a model of one's own in the folder ``textures`` beside it, which
-    `write_car_textures` writes.
+    The layer refers to textures of a model of the user in the folder ``textures`` beside it, which `write_car_textures`
+    writes.
     """
     looks = define(layer, car.AppendChild("Looks"), "Scope").path
     for key in sorted(asset.materials):
-        # the paint is that of one variant; the catalogue's own material has none
+        # the paint of one variant; the material of the catalogue has no colour
         finish = finished(asset.paints[DRIVEN_PAINT] if key == _PAINT and asset.paints else key, asset.finishes)
         material = named_textures(finish.material, _QUALITY, folder=f"./{TEXTURE_FOLDER}")
         is_own = key in asset.finishes
@@ -141,7 +140,7 @@ def define_car_looks(layer: Sdf.Layer, car: Sdf.Path, asset: Asset) -> Sdf.Path:
 
 
 def write_car_textures(folder: Path, asset: Asset) -> tuple[Path, ...]:
-    """Write the textures of a car that drives into the folder ``textures`` of a folder; returns the files."""
+    """Write the textures of a driving car into the subfolder ``textures`` of a folder; return the files."""
     files = textures_of(asset.materials, asset.finishes, _QUALITY)
     if files:
         (folder / TEXTURE_FOLDER).mkdir(exist_ok=True)
@@ -181,7 +180,7 @@ def _author_body(layer: Sdf.Layer, car: Sdf.Path, body: CarBody, states: Traject
         _sampled(layer, wheel, "rotateX", rolled_deg[:, None])
         order_operations(wheel, [*order, "rotateX"])
         for part in parts:
-            # tyres and rims of the catalogue have the names of their materials here
+            # in the catalogue, tyres and rims are identified by their materials
             moved = replace(part, points=part.points - hub, collider=None)
             is_own = part.material in asset.finishes
             name = part.name if is_own else pascal_case(part.material)
@@ -206,7 +205,7 @@ def _turns(part: Part, body: CarBody) -> NDArray[np.bool_]:
 
 
 def _by_corner(part: Part, turns: NDArray[np.bool_], middle_z_m: float) -> Iterator[tuple[tuple[int, int], Part]]:
-    """The wheels of a part as one part a wheel, by the signs of its x and of its z from the middle of the axles."""
+    """Split the merged wheel mesh into one part per wheel, by the quadrant around the centre between the axles."""
     starts = np.cumsum(part.face_counts) - part.face_counts
     first = part.points[part.face_indices[starts]]
     corners = np.stack([np.sign(first[:, 0]), np.sign(first[:, 2] - middle_z_m)], axis=1).astype(int)
@@ -215,7 +214,7 @@ def _by_corner(part: Part, turns: NDArray[np.bool_], middle_z_m: float) -> Itera
 
 
 def _with_faces(part: Part, faces: NDArray[np.bool_]) -> Part:
-    """Some of a part's faces, with the points, normals and texture coordinates that they use."""
+    """Select faces of a part, with the points, normals and texture coordinates that they use."""
     corners = np.repeat(faces, part.face_counts)
     used, indices = np.unique(part.face_indices[corners], return_inverse=True)
     normals, normal_indices = np.unique(part.normal_indices[corners], return_inverse=True)
@@ -234,7 +233,7 @@ def _with_faces(part: Part, faces: NDArray[np.bool_]) -> Part:
 
 
 def _sampled(layer: Sdf.Layer, prim: Sdf.PrimSpec, name: str, values: NDArray[np.float64]) -> None:
-    """A transform operation with samples where its values, shape (frames, n), bend."""
+    """Author a transform operation with samples at the frames where its values, shape (frames, n), change slope."""
     is_vector = values.shape[1] > 1
 
     def value(frame: int) -> object:

@@ -1,4 +1,4 @@
-"""The ways into the stalls and out of them as guide curves, in a layer to put over a garage's stage."""
+"""Proven drives into and out of the stalls as guide curves, in a layer over a garage's stage."""
 
 import math
 from collections.abc import Sequence
@@ -19,13 +19,13 @@ _STEP_M = 0.25
 
 
 def write_driving_layer(path: Path, proofs: Sequence[StallProof]) -> None:
-    """Write the layer: ``over /Garage`` with the curves ``Ways/In`` and ``Ways/Out``.
+    """Write a layer ``over /Garage`` with the curves ``Ways/In`` and ``Ways/Out``.
 
     Notes
     -----
-    A curve is the way of the rear axle's middle for one stall that is proven, 0.06 m over the floor. With one value a
-    curve: ``garage:way:stall``, ``garage:way:nose`` (``in`` or ``out``), ``garage:way:clearance`` (metres). With one
-    value a point: ``garage:way:arc`` (metres driven), ``garage:way:yaw`` (radians, 0 looks to -Z),
+    A curve is the path of the rear axle's centre for one proven stall, 0.06 m above the floor. Attributes with one
+    value per curve: ``garage:way:stall``, ``garage:way:nose`` (``in`` or ``out``), ``garage:way:clearance`` (metres).
+    Attributes with one value per point: ``garage:way:arc`` (metres driven), ``garage:way:yaw`` (radians, 0 along -Z),
     ``garage:way:gear`` (1 or -1) and ``garage:way:curvature`` (1/m, positive to the driver's left).
     """
     with new_layer(path, default_prim="Garage") as layer:

@@ -1,4 +1,4 @@
-"""A stage with one more car, which stands in its origin until whoever draws it moves it."""
+"""A stage with an additional ego car at the origin, which the renderer moves."""
 
 from pathlib import Path
 
@@ -16,15 +16,15 @@ from garage2usd.stage.prototype_layer import define_mesh
 __all__ = ["EGO_PATH", "write_stage_with_car"]
 
 EGO_PATH = "/EgoCar"
-"""Of the car."""
+"""Path of the car's prim."""
 
 
 def write_stage_with_car(path: Path, stage: Usd.Stage, car: CarBody, *, is_lit: bool = False) -> None:
     """Write a layer over a stage that adds a car at `EGO_PATH`.
 
-    The middle of its rear axle on the ground is the origin, and it looks along what would be -Z were the stage's Y up.
-    A car that drives in the stage, as `garage2usd drive --animate` writes it, is left out: it is the same one.
-    Where it is lit, its head and tail lamps glow and light what is before and behind it.
+    The centre of the rear axle on the floor is the origin, and the car faces -Z in a Y-up frame. An animated car in the
+    stage, written by `garage2usd drive --animate`, is deactivated, as the ego car replaces it. If `is_lit`, the head
+    and tail lamps glow and illuminate their surroundings.
     """
     layer = Sdf.Layer.CreateNew(str(path))
     layer.subLayerPaths.append(str(Path(stage.GetRootLayer().realPath)))

@@ -8,18 +8,18 @@ __all__ = ["flatten_stage"]
 
 
 def flatten_stage(source: Path, target: Path) -> None:
-    """Write everything that a stage composes to as one layer beside it, with relative texture paths.
+    """Flatten a composed stage into one layer beside it, with relative texture paths.
 
     Parameters
     ----------
     source
         The instanced stage.
     target
-        The layer, in the same folder.
+        The layer to write, in the same folder.
     """
     stage = Usd.Stage.Open(str(source))
     stage.SetEditTarget(stage.GetSessionLayer())
-    # instances nest no deeper than one, so one pass finds all
+    # instances are not nested, so that one pass finds them all
     for prim in list(stage.Traverse()):
         if prim.IsInstance():
             prim.SetInstanceable(False)

@@ -1,7 +1,7 @@
-"""The garage's own layer: tiles, building, lane graph and cameras over instances of the prototypes.
+"""The garage's root layer: tiles, building, lane graph and cameras, with instances of the prototypes.
 
-The many instances are written as text, which USD parses faster than Python can author them; the frame around them as
-Sdf specs inside one change block. No stage is open, so that nothing is composed while writing.
+The many instances are written as text, which USD parses faster than Python can author them; the frame around them is
+authored as Sdf specs in one change block. No stage is open, so that nothing is composed while writing.
 """
 
 import posixpath
@@ -39,11 +39,11 @@ from garage2usd.stage.variants import OCCUPIED_STALL, SWITCHES, variant_texts
 __all__ = ["write_garage_layer"]
 
 _CLASSES = "Classes"
-"""Scope of the classes that all objects of a variant set inherit from."""
+"""Scope of the classes from which objects of a variant set inherit."""
 _TILE_CLASSES = "TilePrototypes"
-"""Scope of the classes that equal tiles, and equal parts of them, inherit from."""
+"""Scope of the classes from which equal tiles, and equal parts of tiles, inherit."""
 _PHYSICS = "PhysicsScene"
-"""Type and name of the prim that comes next after what stands in the garage."""
+"""Type and name of the prim that follows the garage's content."""
 
 
 @without_collector()
@@ -59,30 +59,30 @@ def write_garage_layer(
     path: Path,
     is_compact: bool = False,
 ) -> None:
-    """Author the layer that places every prototype, and beside the assets what belongs to this garage alone.
+    """Author the layer that places all prototypes, and beside the assets the layers of this garage alone.
 
     Parameters
     ----------
     layout
-        What to place.
+        The layout to write.
     arrangement
-        Which prim each object is.
+        Prim of each object.
     prototypes
-        Asset and look of every spec in the layout.
+        Asset and variant choices of every spec in the layout.
     own
-        What the paths of the layers that belong to this garage alone begin with, relative to the folder of `path`: the
-        lane graph, the assets that it shares with no other, and the scattered objects where tiles share prototypes.
+        Path prefix of the layers of this garage alone, relative to the folder of `path`: the lane graph, assets that
+        are not shared, and the point instancers if tiles share prototypes.
     asset_folder
-        Folder of the assets, relative to that of `path`, with slashes.
+        Folder of the assets, relative to that of `path`, with forward slashes.
     metadata
-        Written into the root's customData beside S, R and C.
+        Entries of the root's customData, in addition to S, R and C.
     last_frame
         Last frame of the driving camera, whose layer stands beside the lane graph.
     path
         The file; ``.usda`` or ``.usdc``.
     is_compact
-        Whether to write a ``.usda`` as it is put together, for programs rather than for people: without indents it
-        takes two thirds of the bytes, and half of the time, as USD does not read it to write it again.
+        True to write a ``.usda`` without indentation, for programs: two thirds of the bytes and half of the time, as
+        USD does not parse and rewrite it.
     """
     writer = InstanceWriter(
         layout,
@@ -101,7 +101,7 @@ def write_garage_layer(
         layer = Sdf.Layer.CreateAnonymous(path.suffix)
         layer.ImportFromString("".join(_pieces(frame, layout, arrangement, writer, own)))
         save(layer, path)
-        # of a large garage each layer is a hundred megabytes while it is written
+        # one layer at a time: in a large garage each takes 100 MB of memory
         del layer
     write_lane_graph(path.parent / f"{own}{LANE_GRAPH_FILE}", layout)
     beside = anchored(posixpath.relpath(asset_folder, posixpath.dirname(own) or "."))
@@ -125,7 +125,7 @@ def _frame(
     metadata: Mapping[str, str | int],
     last_frame: int,
 ) -> str:
-    """The layer but for what stands in the garage, as USD writes it."""
+    """The layer without the garage's content, as USD writes it."""
     variants = variant_texts(
         _CLASSES,
         outlines=STALL_OUTLINES,
@@ -159,7 +159,7 @@ def _pieces(
     writer: InstanceWriter,
     own: str,
 ) -> Iterator[str]:
-    """The text of the layer: what stands in the garage within its frame, and the prototypes of tiles."""
+    """Yield the text of the layer: the content of the garage within its frame, then the prototypes of tiles."""
     before, physics, after = frame.partition(f'    def {_PHYSICS} "{_PHYSICS}"')
     yield before
     labels = [layout.label_of_square(row, col) for row, col in arrangement.squares.tolist()]
@@ -179,7 +179,7 @@ def _pieces(
 
 
 def _tiles(arrangement: Arrangement, labels: Iterable[str], writer: InstanceWriter) -> Iterator[str]:
-    """Row and tile groups."""
+    """Yield the groups of rows and tiles."""
     counts = np.diff(arrangement.borders)
     objects = writer.texts(arrangement.on_all_tiles(), np.repeat(arrangement.origins_m, counts, axis=0))
     texts = (
@@ -192,9 +192,9 @@ def _tiles(arrangement: Arrangement, labels: Iterable[str], writer: InstanceWrit
 
 
 def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes) -> Iterator[str]:
-    """Row groups, and an instance of its prototype for each tile.
+    """Yield the groups of rows, with an instance of a prototype for each tile.
 
-    A tile inherits its prototype, which is faster to open than a reference to another layer.
+    A tile inherits from its prototype, which opens faster than a reference to another layer.
     """
     headers = {name: inherits_text(f"/{_TILE_CLASSES}/{name}") for name in shared.texts}
     texts = (
@@ -207,9 +207,9 @@ def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes) -> Iterator[
 
 
 def _tile_classes(shared: TilePrototypes) -> Iterator[str]:
-    """The prototypes of tiles, beside the garage, whose variant sets would be looked up for each tile below it.
+    """Yield the prototypes of tiles, outside the garage, whose variant sets USD would evaluate for each tile below it.
 
-    They are composed with the tiles alone: where they stand, they are inactive.
+    They are composed only through the tiles: the classes themselves are inactive.
     """
     yield f'class "{_TILE_CLASSES}" (\nactive = false\n)\n{{\n'
     yield from shared.texts.values()
@@ -217,9 +217,9 @@ def _tile_classes(shared: TilePrototypes) -> Iterator[str]:
 
 
 def _rows(arrangement: Arrangement, tiles: Iterator[str]) -> Iterator[str]:
-    """Row groups with their tiles; the origin of a tile is the middle of its square, where its floor lies.
+    """Yield the groups of rows with their tiles; the origin of a tile is the centre of its square on the floor.
 
-    A row is at its place across Z and a tile at its place along X, so that few values say where the many tiles are.
+    A row has the translation along Z and a tile the one along X, so that equal translations share one value.
     """
     first, counts = np.unique(arrangement.squares[:, 0], return_index=True, return_counts=True)[1:]
     rows, places = arrangement.squares[first, 0].tolist(), rounded_m(arrangement.origins_m[first, 1])
@@ -228,12 +228,12 @@ def _rows(arrangement: Arrangement, tiles: Iterator[str]) -> Iterator[str]:
 
 
 def _part_text(own: str, file: str) -> str:
-    """A prim that stands in a layer of its own."""
+    """Text of a prim whose content is in a separate layer."""
     return f'def "{Path(file).stem}" (\n{reference_text(f"./{own}{file}")})\n{{\n}}\n'
 
 
 def _matrices(layout: Layout) -> dict[str, object]:
-    """S as rows of symbols, R and C in metres, and the fire compartment of each square; empty without a grid."""
+    """Return S as rows of symbols, R and C in metres by column and row, and the fire compartment of each square."""
     structure = layout.matrices
     if structure is None:
         return {}

@@ -1,4 +1,4 @@
-"""The instances of a layout as USDA text, each under its tile or its group."""
+"""Instances of a layout's objects as USDA text, below their tile or group."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -28,24 +28,24 @@ from garage2usd.stage.variants import OCCUPIED_STALL, SWITCHES, occupied_text
 __all__ = ["CAR_OF_STALL", "InstanceWriter"]
 
 CAR_OF_STALL = "garage:stall:car"
-"""Relationship of a stall to the car that stands in it."""
+"""Relationship of a stall to the car parked in it."""
 
 
 class InstanceWriter:
-    """Writes the instances of one layout.
+    """Writer of the instances of one layout.
 
     Parameters
     ----------
     layout, arrangement
-        The objects, and which prim each one is.
+        The objects, and the prim of each.
     prototypes
-        Asset and look of every spec in the layout.
+        Asset and variant choices of every spec in the layout.
     asset_folder, own_assets
-        Folder of the assets and the garage's own layer of them, as the layer that the text goes to refers to them.
+        Folder of the assets and the garage's own layer of assets, as referred to by the target layer.
     classes
-        Path of the classes that objects which follow a switch, and stalls with a car, inherit from.
+        Path of the classes from which objects with a switch, and stalls with a car, inherit.
     describe_stalls
-        Whether stalls carry what they are as attributes. All have a relationship to their car.
+        True to write the facts on stalls as attributes. Every stall has a relationship to its car.
     """
 
     def __init__(
@@ -74,7 +74,7 @@ class InstanceWriter:
         self._headers: dict[tuple[int, int, bool], str] = {}
 
     def texts(self, rows: NDArray[np.intp], origins_m: NDArray[np.float64] | float = 0.0) -> Iterator[str]:
-        """The instances in some rows of the layout's objects, in turn, each around an origin (x, z), shape (n, 2)."""
+        """Yield the instances of objects by row, each relative to an origin (x, z); origins have shape (n, 2)."""
         objects, names = self._objects, self._arrangement.names
         columns = (
             self._arrangement.name[rows],
@@ -112,7 +112,7 @@ class InstanceWriter:
         base = f"{self._classes}/{name}" if name else None
         layer, root = prototype.place(*self._assets)
         if KINDS[kind] is NUMBER_PLATE:
-            # what differs below it keeps it from being an instance; one header does for all with the same asset
+            # attributes below a prim prevent instancing; objects of the same asset share one header
             header = reference_text(layer, root, base=base)
         else:
             header = header_text(layer, root, look=prototype.look, base=base)
@@ -122,12 +122,12 @@ class InstanceWriter:
 
 @lru_cache(maxsize=1 << 14)
 def _placed_text(name: str, header: str, x: float, y: float, z: float, yaw_deg: float) -> str:
-    """An instance without attributes, kept because most tiles of a large garage hold the same at the same places."""
+    """Text of an instance without attributes, cached because most tiles of a large garage have equal objects."""
     return instance_text(name, header, place_text(x, y, z, yaw_deg))
 
 
 def _shape_text(stall: Stall) -> str:
-    """The kind, angle and size class of a stall, unless it is perpendicular and of the standard size."""
+    """Text with kind, angle and size class of a stall, unless it is perpendicular and of the standard size."""
     if stall.is_usual:
         return ""
     return (
@@ -138,9 +138,9 @@ def _shape_text(stall: Stall) -> str:
 
 
 def _stall_text(stall: Stall, access_square: tuple[int, int], *, is_taken: bool) -> str:
-    """What a stall is as attributes of its prim; corners are (x, z) in the world.
+    """Text with the facts on a stall as attributes of its prim; corners are (x, z) in world coordinates.
 
-    That a car stands in it says the class that it inherits from, as variants of the garage take the cars away.
+    Occupancy comes from the inherited class, as variants of the garage remove the cars.
     """
     corners = ", ".join(f"({x}, {z})" for x, z in stall.corners)
     facts, (access_row, access_column) = dict(stall.facts), access_square

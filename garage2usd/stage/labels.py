@@ -1,4 +1,4 @@
-"""Semantic classes, and the table of every labelled object: prim path, instance id, class, world bounds."""
+"""The label table: prim path, instance id, semantic class and world bounds of every labelled object."""
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
@@ -18,12 +18,12 @@ __all__ = ["OBJECT_LABELS", "label_table"]
 OBJECT_LABELS: dict[str, str] = {kind.name: kind.label for kind in KINDS}
 """Semantic class of each kind of object, authored on every instance root."""
 _DECIMALS = 3
-"""Of bounds in metres."""
+"""Decimals of bounds in metres."""
 _Bounds = tuple[tuple[float, float, float], tuple[float, float, float]]
 
 
 def label_table(layout: Layout, paths: Sequence[str]) -> LabelTable:
-    """Classes and objects of a layout.
+    """Make the label table of a layout: classes and objects.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def label_table(layout: Layout, paths: Sequence[str]) -> LabelTable:
     Returns
     -------
     LabelTable
-        The placements have ids from 1 in their order, and after them their pieces that have classes of their own.
+        The placements with ids from 1 in their order, then their pieces with separate classes.
     """
     placements = layout.placements
     objects: dict[str, list[LabelledObject]] = defaultdict(list)
@@ -62,7 +62,7 @@ def label_table(layout: Layout, paths: Sequence[str]) -> LabelTable:
 
 
 def _pieces(objects: ObjectTable) -> list[tuple[int, PieceClass, _Bounds]]:
-    """Row, class and bounds of each labelled piece of objects, by its row and then its class."""
+    """Row, class and bounds of each labelled piece of the objects, sorted by row and class."""
     classes_of = [pieces_of(asset_of(spec)) for spec in objects.specs]
     found: list[tuple[int, PieceClass, _Bounds]] = []
     for piece in PIECES:

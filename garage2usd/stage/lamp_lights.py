@@ -1,4 +1,4 @@
-"""The light that the head and tail lamps of a car throw, as lights of UsdLux."""
+"""Lights of UsdLux for the head and tail lamps of a car."""
 
 import math
 from typing import NamedTuple
@@ -19,19 +19,19 @@ __all__ = ["define_lamp_lights", "lamp_places"]
 
 _TYPES = Sdf.ValueTypeNames
 _AHEAD_M = 0.03
-"""Of a light before its lens."""
+"""Distance of a light in front of its lens."""
 _HEAD_LM = 700.0
-"""Of one head lamp's low beam."""
+"""Luminous flux of one head lamp's low beam."""
 _CONE_DEG, _CUT_OFF_DEG, _SOFTNESS = 35.0, 0.6, 0.15
-"""Half of the beam's angle, how far its upper edge dips (1 %, ECE R48), and what share of it fades. Assumption but for
-the dip: a true beam is flatter and wider."""
+"""Half of the beam's angle, dip of its upper edge (1 %, ECE R48), and the share of the beam that fades. Assumptions
+except for the dip: a real beam is flatter and wider."""
 _TAIL_RGB: Rgb = (1.0, 0.02, 0.01)
 _TAIL_CD, _TAIL_DOWN_DEG = 12.0, 20.0
-"""ECE R7 allows 4 to 17 candela to a tail lamp."""
+"""Luminous intensity of a tail lamp, for which ECE R7 allows 4 to 17 candela, and its downward angle."""
 
 
 class _Lamp(NamedTuple):
-    """How a lamp shines: which part it is, in words too, its light, radius, strength along its axis, colour and dip."""
+    """Light of a lamp: its part, the part in words, light type, radius, intensity on its axis, colour and dip."""
 
     part: str
     words: str
@@ -57,17 +57,18 @@ _LAMPS = {
 
 
 def lamp_places(asset: Asset) -> dict[str, NDArray[np.float64]]:
-    """Return the light positions of a car's lamps, in front of the middle of the lenses on each side.
+    """Return the light positions of a car's lamps, in front of the centre of the lenses on each side.
 
     Returns
     -------
     dict
-        By ``HeadLeft``, ``HeadRight``, ``TailLeft`` and ``TailRight``, metres in the axes of the asset; shape (3,).
+        Positions in metres in the axes of the asset, shape (3,), by ``HeadLeft``, ``HeadRight``, ``TailLeft`` and
+        ``TailRight``.
 
     Raises
     ------
     ConfigError
-        If the car has no head lamps or no tail lamps, as a model of one's own may.
+        If the car has no head lamps or no tail lamps, which can occur with a model of the user.
     """
     places = {}
     for end, lamp in _LAMPS.items():
@@ -84,7 +85,7 @@ def lamp_places(asset: Asset) -> dict[str, NDArray[np.float64]]:
 
 
 def define_lamp_lights(layer: Sdf.Layer, car: Sdf.Path, asset: Asset) -> None:
-    """Define a spot for each head lamp and a red disc for each pair of tail lenses, below the body of a car."""
+    """Define a spot light for each head lamp and a red disc light for each pair of tail lenses, below a car's body."""
     for name, place in lamp_places(asset).items():
         lamp = _LAMPS[name[:4]]
         light = define(layer, car.AppendChild(f"{name}Light"), lamp.type_name)
@@ -98,7 +99,7 @@ def define_lamp_lights(layer: Sdf.Layer, car: Sdf.Path, asset: Asset) -> None:
             apply_schemas(light, "ShapingAPI")
             attribute(light, UsdLux.Tokens.inputsShapingConeAngle, _TYPES.Float, _CONE_DEG)
             attribute(light, UsdLux.Tokens.inputsShapingConeSoftness, _TYPES.Float, _SOFTNESS)
-        # lights shine along their -Z, which is where cars look to
+        # lights shine along -Z, the forward axis of cars
         operation(light, "translate", _TYPES.Float3, Gf.Vec3f(*place.tolist()))
         operation(light, "rotateY", _TYPES.Float, 180.0 if lamp.part == "lamp_rear" else 0.0)
         operation(light, "rotateX", _TYPES.Float, -lamp.down_deg)

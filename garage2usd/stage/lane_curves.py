@@ -1,4 +1,4 @@
-"""The lane graph and the stalls as guide curves, so that a program can drive on the stage alone."""
+"""Lane graph and stalls of the stage as guide curves, from which a program can drive without other files."""
 
 import math
 from pathlib import Path
@@ -20,7 +20,7 @@ LANE_GRAPH_FILE = "LaneGraph.usdc"
 """Layer of the lane graph, beside the assets."""
 _ROOT = Path(LANE_GRAPH_FILE).stem
 STALL_OUTLINES = (_ROOT, "Stalls")
-"""Names of the prims that lead to the outlines of all stalls."""
+"""Names of the prims on the path to the outlines of all stalls."""
 
 _NODE_RADIUS_M = 0.4
 _NODE_CORNERS = 8
@@ -29,22 +29,22 @@ _TYPES = Sdf.ValueTypeNames
 
 
 def write_lane_graph(path: Path, layout: Layout) -> None:
-    """Write a layer of its own, as text is slow with long arrays, with the curves ``Nodes``, ``Edges`` and ``Stalls``.
+    """Write a layer with the lane graph and stalls as the curves ``Nodes``, ``Edges`` and ``Stalls``.
 
     Notes
     -----
-    All are of the purpose guide, and each attribute holds one value a curve. ``Nodes`` has a ring for each lane square
-    and portal, with ``garage:lane:kind``, ``:row``, ``:column`` and the metres between the columns across X and Z in
-    ``:widths``. ``Edges`` has a line from middle to middle for each pair that joins, with ``garage:lane:from`` and
-    ``:to`` (numbers of nodes), ``:length``, ``:width`` (metres) and ``:direction`` (``both``, or ``forward`` from an
-    entrance and into an exit). ``Stalls`` has the outline of each stall, mouth left, mouth right, rear right, rear
-    left, with ``garage:stall:id``, ``:number``, ``:type``, ``:use``, ``:row``, ``:column``, ``:accessNode`` (number of
-    a node), ``:entryEdge`` and ``:occupied`` (1 where a car stands, else 0); where misparked cars block stalls,
-    ``:blockedBy`` is the id of the stall of the car, or empty. If not all are perpendicular and of the standard size,
-    ``:kind``, ``:angleRad`` (of the long sides to the lane) and ``:size`` (class) tell so. Nodes and stalls of a garage
-    with several levels have ``:level``, from 0; all curves lie above the floor there. No attribute is ``bool[]``,
-    ``int2[]`` or ``string[]``,
-    which three.js cannot read from a crate.
+    It is a separate layer, as text is slow with long arrays. All curves have the purpose guide, and each attribute
+    holds one value per curve. ``Nodes`` has a ring for each lane square and portal, with ``garage:lane:kind``,
+    ``:row``, ``:column`` and, in ``:widths``, the metres between the columns across X and Z. ``Edges`` has a line
+    between the centres of each connected pair, with ``garage:lane:from`` and ``:to`` (indices of nodes), ``:length``,
+    ``:width`` (metres) and ``:direction`` (``both``, or ``forward`` from an entrance, into an exit and on a one-way
+    aisle). ``Stalls`` has the outline of each stall, entry left, entry right, rear right, rear left, with
+    ``garage:stall:id``, ``:number``, ``:type``, ``:use``, ``:row``, ``:column``, ``:accessNode`` (index of a node),
+    ``:entryEdge`` and ``:occupied`` (1 if a car is parked in it, else 0). If misparked cars block stalls,
+    ``:blockedBy`` is the id of the stall of the car, or empty. If not all stalls are perpendicular and of the standard
+    size, ``:kind``, ``:angleRad`` (of the long sides to the lane) and ``:size`` (class) are added. In a garage with
+    several levels, nodes and stalls have ``:level``, from 0; all curves lie above the floor of their level. No
+    attribute is ``bool[]``, ``int2[]`` or ``string[]``, which three.js cannot read from a crate file.
     """
     root = Sdf.Path.absoluteRootPath.AppendChild(_ROOT)
     with new_layer(path, default_prim=_ROOT) as layer:
@@ -118,7 +118,7 @@ def _author_levels(prim: Sdf.PrimSpec, name: str, levels: list[int]) -> None:
 def _author_curves(
     layer: Sdf.Layer, path: Sdf.Path, lines: NDArray[np.float64], floor_m: NDArray[np.float64], *, closed: bool
 ) -> Sdf.PrimSpec:
-    """Curves through (x, z) points, shape (curves, points, 2), over floors of a height for each curve or point."""
+    """Author curves through (x, z) points, shape (curves, points, 2), at the height of the floor below them."""
     count, corners, _ = lines.shape
     counts = np.full(count, corners, dtype=np.int32)
     lift_m = np.broadcast_to(floor_m + GUIDE_LIFT_M, (count, corners)).ravel()

@@ -13,9 +13,9 @@ TEXTURE_FOLDER = "textures"
 PACKED_CHANNELS = {"r": "occlusion", "g": "roughness", "b": "metallic"}
 """Surface property in each channel of a packed texture."""
 _MATERIAL_TAXONOMY = "material"
-"""Taxonomy of what materials are made of, beside the classes of objects."""
+"""Taxonomy of the substances of materials, in addition to the classes of objects."""
 _NON_VISUAL = "omni:simready:nonvisual"
-"""Namespace of SimReady's attributes for LiDAR, radar and ultrasound."""
+"""Namespace of SimReady's attributes for LiDAR, radar and ultrasonic sensors."""
 _UNTINTED = (1.0, 1.0, 1.0)
 _TYPES = Sdf.ValueTypeNames
 
@@ -30,22 +30,22 @@ def define_material(
     varies: bool = False,
     is_switched: bool = False,
 ) -> None:
-    """Author one material at `path` with its surface, its texture readers and their shared coordinate reader.
+    """Author a material at `path` with its surface, its texture readers and their shared coordinate reader.
 
     Parameters
     ----------
     layer, path
-        Where.
+        Layer and path of the material.
     material
-        Its textures are paths, as the layer refers to them.
+        The material; its textures are paths relative to the layer.
     non_visual
-        What it is to sensors that do not see colours.
+        Its properties for LiDAR, radar and ultrasonic sensors.
     finish
-        Key of the material that it is made of, where its own name says another one.
+        Key of the material that defines its substance, if this differs from its name.
     varies
-        Whether variants decide its colour and finish, by `set_varying`.
+        True if variants set its colour and finish, by `set_varying`.
     is_switched
-        Whether variants decide what it radiates, by `set_glow`.
+        True if variants set its emission, by `set_glow`.
     """
     look = define(layer, path, "Material")
     label_material(look, non_visual.base)
@@ -61,7 +61,7 @@ def define_material(
         _author_finish(surface, path, material)
     if material.normal_texture is not None:
         reader = _reader(layer, path, "NormalTexture", material.normal_texture, "raw")
-        # an 8-bit normal map holds (n + 1) / 2
+        # an 8-bit normal map stores (n + 1) / 2
         attribute(reader, "inputs:scale", _TYPES.Float4, Gf.Vec4f(2, 2, 2, 1))
         attribute(reader, "inputs:bias", _TYPES.Float4, Gf.Vec4f(-1, -1, -1, 0))
         connect(surface, "inputs:normal", _TYPES.Normal3f, attribute(reader, "outputs:rgb", _TYPES.Float3))
@@ -71,24 +71,24 @@ def define_material(
     if material.ior is not None:
         attribute(surface, "inputs:ior", _TYPES.Float, material.ior)
     if any(material.emissive_rgb):
-        # what is authored beside variants is stronger than what they say
+        # local opinions are stronger than variants
         set_glow(surface, None if is_switched else material.emissive_rgb)
 
 
 def label_material(material: Sdf.PrimSpec, base: str, *schemas: str) -> None:
-    """Label a material with what it is made of, beside other schemas that it has."""
+    """Label a material with its substance, in addition to its other schemas."""
     apply_schemas(material, *schemas, f"{LABELS_SCHEMA}:{_MATERIAL_TAXONOMY}")
     words(material, labels_name(_MATERIAL_TAXONOMY), [base])
 
 
 def set_varying(surface: Sdf.PrimSpec, material: Material) -> None:
-    """Author what a variant decides of a surface."""
+    """Author the inputs of a surface that depend on a variant."""
     attribute(surface, "inputs:diffuseColor", _TYPES.Color3f, Gf.Vec3f(*material.colour_rgb))
     _author_plain_finish(surface, material)
 
 
 def set_glow(surface: Sdf.PrimSpec, radiance_rgb: tuple[float, float, float] | None) -> None:
-    """Author what a surface radiates; None leaves it to variants."""
+    """Author the emission of a surface; None leaves it to variants."""
     value = None if radiance_rgb is None else Gf.Vec3f(*radiance_rgb)
     attribute(surface, "inputs:emissiveColor", _TYPES.Color3f, value)
 
@@ -104,7 +104,7 @@ def _author_colour(surface: Sdf.PrimSpec, path: Sdf.Path, material: Material) ->
     colour.connectionPathList.explicitItems = [attribute(reader, "outputs:rgb", _TYPES.Float3).path]
     if material.has_alpha:
         connect(surface, "inputs:opacity", _TYPES.Float, attribute(reader, "outputs:a", _TYPES.Float))
-        # where there is nothing, nothing shines either
+        # no specular reflection where the surface is cut out
         attribute(surface, "inputs:opacityMode", _TYPES.Token, "presence")
 
 
@@ -124,7 +124,7 @@ def _author_plain_finish(surface: Sdf.PrimSpec, material: Material) -> None:
 
 
 def _reader(layer: Sdf.Layer, path: Sdf.Path, name: str, file: Texture, colour_space: str) -> Sdf.PrimSpec:
-    """A reader of a texture, which is the path of its file."""
+    """Author a reader of a texture file."""
     reader = _shader(layer, path.AppendChild(name), "UsdUVTexture")
     attribute(reader, "inputs:file", _TYPES.Asset, Sdf.AssetPath(str(file)))
     attribute(reader, "inputs:sourceColorSpace", _TYPES.Token, colour_space)
@@ -135,7 +135,7 @@ def _reader(layer: Sdf.Layer, path: Sdf.Path, name: str, file: Texture, colour_s
 
 
 def _coordinates(layer: Sdf.Layer, path: Sdf.Path) -> Sdf.AttributeSpec:
-    """What the reader of a material's coordinates gives; all readers of textures share it."""
+    """Output of the material's coordinate reader, which all texture readers share."""
     result = layer.GetAttributeAtPath(path.AppendProperty("outputs:result"))
     if result:
         return result

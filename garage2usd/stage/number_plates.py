@@ -1,4 +1,4 @@
-"""Number plates as USDA text: one asset for all cars of a body, of which each car chooses its texture coordinates."""
+"""Number plates as USDA text: one asset for each body, with texture coordinates for each car."""
 
 from functools import lru_cache
 
@@ -10,16 +10,16 @@ __all__ = ["plate_text"]
 
 
 def plate_text(text: str, car: str, country: Country = Country.NONE) -> str:
-    """What the prim of a car's plates says beside its place.
+    """Text of the prim of a car's plates, without its place.
 
     Parameters
     ----------
     text
-        To be read on them.
+        Text on the plates.
     car
-        Name of the car's prim, which stands beside it.
+        Name of the car's prim, a sibling.
     country
-        Whose plates they are.
+        Country whose plate format is used.
     """
     return f'custom string {PLATE_TEXT} = "{text}"\ncustom rel {CAR_OF_PLATE} = <../{car}>\n{_letters(text, country)}'
 

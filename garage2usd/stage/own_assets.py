@@ -1,6 +1,6 @@
-"""The assets that a garage with a look of its own seldom shares with another: floors, columns, walls and lamps.
+"""Assets that a garage with its own look rarely shares with another: floors, columns, walls and lamps.
 
-In one layer each asset takes a third of the bytes that a file of its own would, as all refer to the same materials.
+In one layer each asset takes a third of the bytes of a separate file, as all refer to the same materials.
 """
 
 from collections.abc import Collection, Mapping
@@ -18,17 +18,17 @@ from garage2usd.stage.prototypes import asset_of
 __all__ = ["OWN_ASSETS", "own_shapes", "write_own_assets"]
 
 OWN_ASSETS = "Grounds.usdc"
-"""Name of the layer, after what the names of all layers of a garage begin with."""
+"""Suffix of the layer's name, after the common prefix of a garage's layers."""
 _OWN_MATERIALS = ("floor_", "stall_", "paint_", "column_", "wall_")
-"""What the keys of materials begin with whose finishes seldom are those of another garage, on shapes like these."""
+"""Key prefixes of materials whose finishes are rarely equal in two garages."""
 _OWN_KINDS = ("light",)
-"""Kinds whose shapes seldom are those of another garage where looks are drawn, though their materials are as usual."""
+"""Kinds whose shapes are rarely equal in two garages with drawn looks, although their materials are standard."""
 _LOOKS = Sdf.Path("/Looks")
-"""The class that holds the materials of all assets of the layer."""
+"""Class of the materials of all assets of the layer."""
 
 
 def own_shapes(shapes: Collection[Spec], finishes: Mapping[str, Finish]) -> list[Spec]:
-    """The shapes with a finish that belongs to this garage; where there are such, those of some kinds too."""
+    """Select the shapes with finishes of this garage; if there are any, also those of `_OWN_KINDS`."""
     keys = {key for key in finishes if key.startswith(_OWN_MATERIALS)}
     own = {shape for shape in shapes if keys & asset_of(shape).materials} if keys else set()
     return [shape for shape in shapes if shape in own or (own and shape.kind.name in _OWN_KINDS)]
@@ -42,18 +42,18 @@ def write_own_assets(
     quality: TextureQuality,
     textures: str,
 ) -> None:
-    """Write the layer: a root prim for each shape, by its name.
+    """Write the layer, with a root prim for each shape under its name.
 
     Parameters
     ----------
     path
         The file.
     shapes
-        By the names of their prims.
+        Shapes by the names of their prims.
     finishes
-        What the garage has in the place of materials, by their keys.
+        Finishes that replace materials, by the materials' keys.
     quality, textures
-        Of the textures, and their folder as the layer refers to it.
+        Quality of the textures, and their folder relative to the layer.
     """
     with new_layer(path, default_prim=next(iter(shapes))) as layer:
         define(layer, _LOOKS, "Scope").specifier = Sdf.SpecifierClass

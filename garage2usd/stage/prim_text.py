@@ -1,4 +1,4 @@
-"""Prims as USDA text, which for the many prims of a garage takes a third of the time of authoring them in Python."""
+"""Prims as USDA text, which takes a third of the time of authoring the many prims of a garage in Python."""
 
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
@@ -30,33 +30,33 @@ _ORDERS = {
 
 
 def anchored(path: str) -> str:
-    """A relative path that USD takes from the folder of the layer alone, never from a search path."""
+    """Anchor a relative path to the layer's folder, so that USD never resolves it on a search path."""
     return path if path.partition("/")[0] in {".", ".."} else f"./{path}"
 
 
 def inherits_text(base: str) -> str:
-    """The metadata of a prim that inherits from a class."""
+    """Metadata of a prim that inherits from a class."""
     return f"prepend inherits = <{base}>\n"
 
 
 def reference_text(asset: str, prim: str = "", *, base: str | None = None) -> str:
-    """The metadata of a prim that refers to a root prim of a layer, the default one if left out.
+    """Metadata of a prim that refers to a root prim of a layer, by default the layer's default prim.
 
-    It may inherit from a class.
+    The prim may also inherit from a class.
     """
     target = f"</{prim}>" if prim else ""
     return f"{inherits_text(base) if base else ''}prepend references = @{asset}@{target}\n"
 
 
 def header_text(asset: str, prim: str = "", *, look: Iterable[tuple[str, str]] = (), base: str | None = None) -> str:
-    """The metadata of an instance of a root prim of a layer, which selects variants by (set, variant) pairs."""
+    """Metadata of an instance of a layer's root prim, with its variant selections as (set, variant) pairs."""
     choices = "".join(f'string {name} = "{choice}"\n' for name, choice in look)
     variants = f"variants = {{\n{choices}}}\n" if choices else ""
     return f"instanceable = true\n{reference_text(asset, prim, base=base)}{variants}"
 
 
 def instance_text(name: str, header: str, place: str, attributes: str = "") -> str:
-    """An instance at its place, with attributes of its own."""
+    """Text of an instance with its transform and attributes."""
     return f'def Xform "{name}" (\n{header})\n{{\n{place}{attributes}}}\n'
 
 
@@ -69,7 +69,7 @@ def group_text(
     metadata: str = "",
     place: str = "",
 ) -> str:
-    """A group with its children, and its label in the taxonomy of squares."""
+    """Text of a group with its children, and its label in the taxonomy of squares."""
     pieces = group_pieces(name, children, specifier=specifier, label=label, metadata=metadata, place=place)
     return "".join(pieces)
 
@@ -83,7 +83,7 @@ def group_pieces(
     metadata: str = "",
     place: str = "",
 ) -> Iterator[str]:
-    """The text of a group piece by piece, so that a large one is put together once."""
+    """Yield the text of a group in pieces, so that a large one is concatenated only once."""
     schemas, labels = "", ""
     if label is not None:
         schemas = f'prepend apiSchemas = ["{LABELS_SCHEMA}:{SQUARE_TAXONOMY}"]\n'
@@ -94,7 +94,7 @@ def group_pieces(
 
 
 def place_text(x: float, y: float, z: float, yaw_deg: float = 0.0) -> str:
-    """Translation in metres and a turn about +Y, as `rounded_m` and `rounded_deg` give them."""
+    """Text of a translation in metres and a rotation about +Y, from `rounded_m` and `rounded_deg`."""
     # float3, not double3: three.js cannot read a double3 from a crate file
     move = f"float3 xformOp:translate = ({x}, {y}, {z})\n"
     if not yaw_deg:
@@ -104,17 +104,17 @@ def place_text(x: float, y: float, z: float, yaw_deg: float = 0.0) -> str:
 
 @lru_cache(maxsize=4096)
 def moved_text(x: float) -> str:
-    """The translation along X of a prim whose prototype has a place of its own; tiles of a column have the same."""
+    """Text of the translation along X of a prim whose prototype has a transform; equal for the tiles of a column."""
     return f"float3 xformOp:translate = ({x}, 0, 0)\n"
 
 
 def rounded_m(position_m: NDArray[np.float64]) -> list[Any]:
-    """Coordinates to the micrometre, as lists."""
-    places: list[Any] = (np.round(position_m, 6) + 0.0).tolist()  # no minus before a zero
+    """Round coordinates to the micrometre, as lists."""
+    places: list[Any] = (np.round(position_m, 6) + 0.0).tolist()  # avoids -0
     return places
 
 
 def rounded_deg(yaw_rad: NDArray[np.float64]) -> list[float]:
-    """Angles in degrees to 1e-4."""
+    """Convert radians to degrees rounded to 1e-4."""
     angles: list[float] = (np.round(np.degrees(yaw_rad), 4) + 0.0).tolist()
     return angles

@@ -1,4 +1,4 @@
-"""One asset as a layer of its own: ``/Asset`` with its meshes, materials and light."""
+"""An asset as a separate layer: ``/Asset`` with its meshes, materials, colliders and light."""
 # Over 300 lines: an asset, its meshes, materials and variants are authored together.
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -49,17 +49,17 @@ from garage2usd.stage.variants import POWER_SET
 __all__ = ["NITS_PER_INTENSITY", "define_mesh", "define_prototype", "write_prototype"]
 
 NITS_PER_INTENSITY = 27.0
-"""What a UsdLux intensity of 1 stands for, cd/m2: with it a garage lit to 50 lx shows well at an exposure of 0."""
+"""Luminance in cd/m2 of a UsdLux intensity of 1, so that a garage lit to 50 lx renders well at an exposure of 0."""
 USUAL: Mapping[str, Finish] = {}
-"""The finishes of a garage whose materials are all as usual."""
+"""Finishes of a garage with standard materials."""
 
 _ROOT = "Asset"
-"""Name of the root prim of every asset, so that equal assets have equal bytes whatever their files are called."""
+"""Name of the root prim of every asset, so that equal assets have equal bytes under any file name."""
 _TYPES = Sdf.ValueTypeNames
 
 
 class _Friction(NamedTuple):
-    """Coefficients of a dry surface against a tyre."""
+    """Friction coefficients of a dry surface against a tyre."""
 
     static: float
     dynamic: float
@@ -84,7 +84,7 @@ def write_prototype(
     finishes: Mapping[str, Finish] = USUAL,
     mass_kg: float | None = None,
 ) -> None:
-    """Author `asset` as a ``.usdc``; its bytes do not depend on the name of the file.
+    """Author an asset as a ``.usdc`` whose bytes do not depend on the file's name.
 
     Parameters
     ----------
@@ -93,13 +93,13 @@ def write_prototype(
     path
         The file.
     kind
-        What it is: its semantic class, and its name in the model's assetInfo.
+        Kind of object: its semantic class, and its name in the model's assetInfo.
     quality
-        Of the textures that it refers to, in the folder ``textures`` beside the file.
+        Quality of its textures, which are in the folder ``textures`` beside the file.
     finishes
-        What takes the place of materials, by their keys.
+        Finishes that replace materials, by the materials' keys.
     mass_kg
-        Mass of all its colliders together; None for what cannot be moved.
+        Total mass of the colliders; None for a static object.
     """
     with new_layer(path, default_prim=_ROOT) as layer:
         define_prototype(layer, _ROOT, asset, kind=kind, quality=quality, finishes=finishes, mass_kg=mass_kg)
@@ -117,10 +117,11 @@ def define_prototype(
     shared: Sdf.Path | None = None,
     mass_kg: float | None = None,
 ) -> None:
-    """Define an asset as a root prim of a layer that finds its textures in a folder; else as `write_prototype`.
+    """Define an asset as a root prim of a layer; parameters as for `write_prototype`.
 
-    Its materials refer to those below the prim `shared`, where they are defined once for all assets of the layer,
-    but for those that its variants alter. Left out, it has all of its own.
+    `textures` is the folder of the textures. Materials refer to those below the prim `shared`, which are defined once
+    for all assets of the layer, except for materials that variants change. Without `shared`, the asset has all of its
+    own.
     """
     of = {key: finished(key, finishes) for key in sorted(asset.materials)}
     path = Sdf.Path.absoluteRootPath.AppendChild(name)
@@ -171,7 +172,7 @@ def define_prototype(
 
 
 def _masses_kg(asset: Asset, mass_kg: float) -> dict[str, float]:
-    """Share a mass among colliders by the volumes of the boxes around them, by the names of their parts."""
+    """Distribute a mass over colliders by the volumes of their bounding boxes; by the names of their parts."""
     volumes = {
         part.name: float(np.ptp(part.points.astype(float), axis=0).prod())
         for part in asset.parts
@@ -181,7 +182,7 @@ def _masses_kg(asset: Asset, mass_kg: float) -> dict[str, float]:
 
 
 def _place(root: Sdf.Path, part: Part) -> Sdf.Path:
-    """Path of a part's mesh: below its piece, which has a label, else where all is that has the asset's."""
+    """Path of a part's mesh: below its labelled piece, else below the prim with the asset's label."""
     return root.AppendChild(piece_name(part.piece) if part.piece else "Geom").AppendChild(part.name)
 
 
@@ -194,7 +195,7 @@ def _friction(looks: Sdf.Path, touch: Touch) -> Sdf.Path:
 
 
 def _place_of_look(layer: Sdf.Layer, path: Sdf.Path, shared: Sdf.Path | None) -> Sdf.Path | None:
-    """Where a material is to be defined; None where it is already, and `path` only refers to it."""
+    """Path at which a material is to be defined; None if it is defined already and `path` only refers to it."""
     if shared is None:
         return path
     place = shared.AppendChild(path.name)
@@ -204,7 +205,7 @@ def _place_of_look(layer: Sdf.Layer, path: Sdf.Path, shared: Sdf.Path | None) ->
 
 
 def _define_friction(layer: Sdf.Layer, path: Sdf.Path, touch: Touch) -> None:
-    """A physics material with the friction of dry surfaces."""
+    """Define a physics material with the friction of a dry surface."""
     friction = _FRICTION[touch]
     material = define(layer, path, "Material")
     label_material(material, BASE_OF_TOUCH[touch], "PhysicsMaterialAPI")
@@ -214,7 +215,7 @@ def _define_friction(layer: Sdf.Layer, path: Sdf.Path, touch: Touch) -> None:
 
 
 def _define_paints(root: Sdf.PrimSpec, paints: Mapping[str, str]) -> None:
-    """A variant for each paint; the first is selected where an instance selects none."""
+    """Define a variant for each paint; the first is the default."""
     for name, variant in _define_variants(root, PAINT_SET, paints):
         _display(variant, material_colour(MATERIALS[paints[name]]))
         surface = _over(variant, "Looks", pascal_case("car_paint"), "Surface")
@@ -222,14 +223,14 @@ def _define_paints(root: Sdf.PrimSpec, paints: Mapping[str, str]) -> None:
 
 
 def _display(prim: Sdf.PrimSpec, colour_rgb: tuple[float, float, float]) -> None:
-    """A colour for viewers that draw no materials, which all meshes below inherit."""
+    """Author a display colour, which all meshes below inherit, for viewers that do not draw materials."""
     attribute(prim, "primvars:displayColor", _TYPES.Color3fArray, Vt.Vec3fArray([Gf.Vec3f(*colour_rgb)]))
 
 
 def _define_power(root: Sdf.PrimSpec, light: AreaLight, glowing: Mapping[str, Material]) -> None:
-    """Light and glow as the variants on and off, on being selected.
+    """Define light and glow of an asset by the variants on and off.
 
-    Lights of all colours are equally bright to the eye for the same luminance.
+    Lights of any colour with equal luminance appear equally bright.
     """
     shares = {"on": 1.0, "off": 0.0}
     brighter = luminance_of(USUAL_LAMP_RGB) / luminance_of(light.colour_rgb)
@@ -245,7 +246,7 @@ def _define_power(root: Sdf.PrimSpec, light: AreaLight, glowing: Mapping[str, Ma
 
 
 def _define_variants(root: Sdf.PrimSpec, name: str, variants: Iterable[str]) -> Iterator[tuple[str, Sdf.PrimSpec]]:
-    """A variant set with some variants, the first of them selected; gives the name and the prim of each."""
+    """Define a variant set with the first variant selected; yield the name and the prim of each variant."""
     root.SetInfo("variantSetNames", Sdf.StringListOp.Create(prependedItems=[name]))
     root.SetInfo("variantSelection", {name: next(iter(variants))})
     choices = Sdf.VariantSetSpec(root, name)
@@ -254,7 +255,7 @@ def _define_variants(root: Sdf.PrimSpec, name: str, variants: Iterable[str]) -> 
 
 
 def _over(variant: Sdf.PrimSpec, *names: str) -> Sdf.PrimSpec:
-    """What a variant says of a prim, by the names of its ancestors and its own."""
+    """Over spec in a variant for a prim, by the names of its ancestors and its own."""
     path = variant.path
     for name in names:
         path = path.AppendChild(name)
@@ -271,10 +272,10 @@ def define_mesh(
     is_compact: bool = False,
     mass_kg: float | None = None,
 ) -> None:
-    """Define one mesh with the material of its key, or what takes its place, and its collider if it has one.
+    """Define a mesh with the material of its key, or the finish that replaces it, and its collider if it has one.
 
-    A compact one has texture coordinates in the order of its points where each point has one, so that a layer holds
-    the indices of both once.
+    A compact mesh has texture coordinates in the order of its points, if each point has only one, so that the layer
+    stores the indices of both once.
     """
     finish = finish or MATERIALS[part.material]
     usual = MATERIALS.get(part.material, finish)
@@ -285,7 +286,7 @@ def define_mesh(
     numbers(mesh, "faceVertexIndices", part.face_indices)
     attribute(mesh, "subdivisionScheme", _TYPES.Token, UsdGeom.Tokens.none, uniform=True)
     attribute(mesh, "extent", _TYPES.Float3Array, UsdGeom.PointBased.ComputeExtent(points))
-    # the attribute of the schema takes no indices, with which a car is half as large
+    # as a primvar, since the schema's attribute takes no indices, which halve the size of a car
     _define_primvar(mesh, "normals", _TYPES.Normal3fArray, Vt.Vec3fArray.FromNumpy(part.normals), part.normal_indices)
     if len(part.st):
         st, st_indices = _as_points(part) if is_compact else (part.st, part.st_indices)
@@ -312,7 +313,7 @@ def _as_points(part: Part) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
 
 
 def _repeats(usual: Material, finish: Material) -> NDArray[np.float32]:
-    """How often the textures of a finish repeat where those of the usual material do once, along U and V."""
+    """Ratio of a finish's texture repeats to those of the standard material, along U and V."""
     return np.array(
         [
             usual.repeat_m / finish.repeat_m,
@@ -325,7 +326,7 @@ def _repeats(usual: Material, finish: Material) -> NDArray[np.float32]:
 def _define_primvar(
     mesh: Sdf.PrimSpec, name: str, type_name: Sdf.ValueTypeName, values: object, indices: NDArray[np.int32]
 ) -> None:
-    """Values for the corners of the faces."""
+    """Define a face-varying primvar, with indices if given."""
     primvar = attribute(mesh, f"primvars:{name}", type_name, values)
     primvar.SetInfo("interpolation", UsdGeom.Tokens.faceVarying)
     numbers(mesh, f"primvars:{name}:indices", indices)
@@ -344,7 +345,7 @@ def _define_light(layer: Sdf.Layer, path: Sdf.Path, light: AreaLight) -> None:
     corner_m = np.array([light.width_m, light.depth_m]) / 2
     extent = np.array([[*-corner_m, 0.0], [*corner_m, 0.0]], dtype=np.float32)
     attribute(area, "extent", _TYPES.Float3Array, Vt.Vec3fArray.FromNumpy(extent))
-    # it shines along its -Z; turned by -90 degrees about X it shines down
+    # the light shines along -Z; a rotation by -90 degrees about X turns it down
     operation(area, "translate", _TYPES.Float3, Gf.Vec3f(0, light.height_m, 0))
     operation(area, "rotateX", _TYPES.Float, -90.0)
     order_operations(area, ["translate", "rotateX"])

@@ -1,4 +1,4 @@
-"""Which asset stands for which spec: one prototype for each distinct shape of a layout."""
+"""Prototypes of a layout: one asset for each distinct shape."""
 
 from collections import Counter
 from collections.abc import Mapping
@@ -15,14 +15,14 @@ __all__ = ["Prototype", "asset_of", "name_prototypes"]
 
 
 class Prototype(NamedTuple):
-    """The asset that stands for a spec, and how it looks there.
+    """The asset of a spec, and its variant choices.
 
     Attributes
     ----------
     name
         Name of the asset in this garage.
     file
-        Name of its file, the same in every garage; empty where it stands in the garage's own layer of assets.
+        Name of its file, the same in every garage; empty for an asset in the garage's own layer.
     look
         (variant set, variant) pairs that an instance selects.
     """
@@ -32,27 +32,27 @@ class Prototype(NamedTuple):
     look: Look = ()
 
     def place(self, asset_folder: str, own_assets: str) -> tuple[str, str]:
-        """The layer that it stands in and the name of its prim there, empty for the default one.
+        """Layer of the prototype and the name of its prim there, empty for the layer's default prim.
 
-        The folder of assets and the garage's own layer are given as whoever refers to them does.
+        Both arguments are paths as used by the referring layer.
         """
         return (f"{asset_folder}/{self.file}", "") if self.file else (own_assets, self.name)
 
 
 def name_prototypes(layout: Layout, files: Mapping[Spec, str]) -> dict[Spec, Prototype]:
-    """Name the distinct shapes of a layout, numbered by kind in the order of their first place.
+    """Name the distinct shapes of a layout, numbered by kind in the order of their first placement.
 
     Parameters
     ----------
     layout
         The objects.
     files
-        Name of the file of each shape; those of other shapes stand in the garage's own layer of assets.
+        Name of the file of each shape; all other shapes are in the garage's own layer of assets.
 
     Returns
     -------
     dict
-        Spec to prototype, whose asset's name is PascalCase: ``Floor_03``, ``Column_01``, ``Car_02``.
+        Prototype by spec; asset names are PascalCase: ``Floor_03``, ``Column_01``, ``Car_02``.
     """
     names: dict[Spec, str] = {}
     prototypes: dict[Spec, Prototype] = {}
@@ -68,7 +68,7 @@ def name_prototypes(layout: Layout, files: Mapping[Spec, str]) -> dict[Spec, Pro
 
 
 def asset_of(spec: Spec) -> Asset:
-    """The meshes of one spec's shape; made once a process, or ahead."""
+    """Return the meshes of a spec's shape, precomputed or cached."""
     return _asset_of_shape(spec.shape)
 
 
@@ -76,5 +76,5 @@ def asset_of(spec: Spec) -> Asset:
 def _asset_of_shape(shape: Spec) -> Asset:
     asset = baked_asset(shape)
     if asset is None and isinstance(shape, CarSpec) and (plain := baked_asset(shape.plain)) is not None:
-        asset = shape.asset_from(plain)  # to make the body takes ten times as long
+        asset = shape.asset_from(plain)  # making the body takes ten times as long
     return asset or shape.asset()

@@ -1,4 +1,4 @@
-"""Objects as the points of an instancer: many of them, of few shapes, that nothing can touch."""
+"""Point instancers for many objects of few shapes without colliders."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -29,13 +29,14 @@ def write_instancer(
     asset_folder: str,
     own_assets: str,
 ) -> None:
-    """Write a layer with an instancer `name` that has a point for each object in some rows, all of one kind.
+    """Write a layer with a point instancer `name`, with a point for each object in `rows`, all of one kind.
 
-    Its assets are in `asset_folder` and in the layer `own_assets`, as it refers to them.
+    The paths `asset_folder` and `own_assets` of its assets are relative to the layer.
 
     Notes
     -----
-    Point instancers lose colliders in physics engines, and browsers draw one copy only.
+    Objects with colliders are excluded, since physics engines ignore colliders of point instancers. Some browser
+    viewers draw only one copy.
     """
     shapes, indices = np.unique(objects.spec[rows], return_inverse=True)
     specs = [objects.specs[shape] for shape in shapes]

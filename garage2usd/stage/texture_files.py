@@ -1,4 +1,4 @@
-"""Textures as files whose names say what they hold, so that equal ones of all stages have one name."""
+"""Textures with content-based file names, so that equal textures of all stages have one name."""
 
 import hashlib
 import posixpath
@@ -16,29 +16,29 @@ from garage2usd.config.stage import TextureQuality
 __all__ = ["NamedFile", "content_name", "named_textures", "texture_file", "textures_of"]
 
 _DIGITS = 16
-"""Hexadecimal digits of SHA-256 in a name: among a million files two share a name with a chance of 3e-8."""
+"""Hexadecimal digits of SHA-256 in a name; the chance of a collision among a million files is 3e-8."""
 
 
 class NamedFile(NamedTuple):
-    """A file that is named by what it holds."""
+    """A file named by its content."""
 
     name: str
     data: bytes
 
 
 def content_name(stem: str, data: bytes, suffix: str) -> str:
-    """The name of a file by what it holds: `stem`, the beginning of its SHA-256, and `suffix`."""
+    """Name a file by its content: `stem`, the beginning of its SHA-256, and `suffix`."""
     return f"{stem}_{hashlib.sha256(data).hexdigest()[:_DIGITS]}{suffix}"
 
 
 @lru_cache(maxsize=256)
 def texture_file(texture: Texture, quality: TextureQuality) -> NamedFile:
-    """A texture of the shipped set or the user's own in a quality, or what is made from one; read once a process.
+    """Load a texture of the package or of the user in a quality, or derive it from one; cached per process.
 
     Raises
     ------
     ConfigError
-        If one of the user's own cannot be used.
+        If a texture of the user is invalid.
     """
     if isinstance(texture, OwnTexture):
         data, suffix = own_file(texture, quality)
@@ -55,13 +55,13 @@ def texture_file(texture: Texture, quality: TextureQuality) -> NamedFile:
 def textures_of(
     materials: Iterable[str], finishes: Mapping[str, Finish], quality: TextureQuality
 ) -> tuple[NamedFile, ...]:
-    """The textures of some materials, by their keys, of a garage with some finishes; each once, by name."""
+    """List the textures of materials, by the materials' keys, with the given finishes; each once, sorted by name."""
     used = {texture for key in materials for texture in finished(key, finishes).material.textures()}
     return tuple(sorted({texture_file(texture, quality) for texture in used}))
 
 
 def named_textures(material: Material, quality: TextureQuality, *, folder: str = "") -> Material:
-    """A material whose textures have the names that `texture_file` gives them, as paths where a folder is given."""
+    """Replace the textures of a material by their names from `texture_file`, or by paths if a folder is given."""
 
     def name(texture: Texture | None) -> str | None:
         return None if texture is None else posixpath.join(folder, texture_file(texture, quality).name)

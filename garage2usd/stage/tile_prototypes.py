@@ -1,4 +1,4 @@
-"""Prototypes of tiles and of their parts: in a large garage equal ones share one, a class that they inherit."""
+"""Prototypes of equal tiles, and of equal parts of tiles, in a large garage, from which the tiles inherit."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -16,20 +16,20 @@ __all__ = ["TilePrototypes", "share_tiles"]
 _SAME_PLACE_M = 1e-5
 _SAME_YAW_RAD = 1e-6
 _TILES_AT_ONCE = 4096
-"""Whose objects are compared in one go, so that those of a large garage are not all there twice."""
+"""Number of tiles whose objects are compared at once, which limits memory."""
 _SHARED = "instanceable = true\n"
 
 
 @dataclass(frozen=True)
 class TilePrototypes:
-    """Which prototype each tile shares.
+    """Assignment of tiles to prototypes.
 
     Attributes
     ----------
     name_of
         Name of the prototype of each tile, in the arrangement's order.
     texts
-        USDA text of each prototype, a class, by its name: those of parts, then those of tiles.
+        USDA text of each prototype, a class, by its name: parts first, then tiles.
     """
 
     name_of: list[str]
@@ -39,18 +39,18 @@ class TilePrototypes:
 def share_tiles(
     layout: Layout, arrangement: Arrangement, labels: Sequence[str], writer: InstanceWriter, folder: str
 ) -> TilePrototypes:
-    """Find the parts of tiles that hold the same objects at the same places, and the tiles of same label and parts.
+    """Group equal parts of tiles (equal objects at equal places), and tiles with equal labels and parts.
 
     Parameters
     ----------
     layout, arrangement
-        The objects, and which prim each object is.
+        The objects, and the prim of each.
     labels
-        What a label says of each tile.
+        Label of each tile.
     writer
-        Of instances.
+        Writer of the instances.
     folder
-        Path of the prim below which the prototypes are to stand.
+        Path of the parent prim of the prototypes.
     """
     names: dict[tuple[str, tuple[bytes, ...]], str] = {}
     name_of: list[str] = []
@@ -85,7 +85,7 @@ def share_tiles(
 
 
 def _contents(layout: Layout, arrangement: Arrangement) -> Iterator[tuple[bytes, ...]]:
-    """What each part of each tile holds, in names, kinds, shapes and places from the tile's origin, as bytes."""
+    """Yield the content of each part of each tile as bytes: names, kinds, shapes and places relative to the origin."""
     objects, count = layout.placements, len(arrangement.parts)
     for begin in range(0, len(arrangement.squares), _TILES_AT_ONCE):
         origins_m = arrangement.origins_m[begin : begin + _TILES_AT_ONCE]

@@ -1,4 +1,4 @@
-"""The USDZ package: a zip of stored files, each starting at a multiple of 64 bytes."""
+"""USDZ packages: ZIP archives of stored files, aligned to 64 bytes."""
 
 import zipfile
 from collections.abc import Iterable
@@ -21,13 +21,12 @@ def write_usdz(path: Path, files: Iterable[tuple[str, bytes]]) -> None:
     path
         The package.
     files
-        (name in the package, what it holds) pairs in order.
+        (name in the package, contents) pairs in order.
 
     Notes
     -----
-    Not by ``Sdf.ZipFileWriter``, which stamps the local time of each file into the package, so that the same
-    stage gives other bytes in another second or time zone. ``zipfile`` lets the stamp be fixed; the padding that
-    the format asks for goes into the extra field, as there.
+    ``Sdf.ZipFileWriter`` is not used, because it stores the local time of each file, which makes packages
+    irreproducible. ``zipfile`` allows a fixed time; the required padding goes into the extra field, as there.
     """
     with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as package:
         for name, data in files:

@@ -1,4 +1,4 @@
-"""Variant sets of a garage: parked cars, lights, and what hangs overhead."""
+"""Variant sets of a garage: parked cars, lights, and the ceiling with its services."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -21,26 +21,26 @@ __all__ = [
 POWER_SET = "power"
 """Variant set of every light's asset: ``on`` or ``off``."""
 OCCUPIED = "garage:stall:occupied"
-"""Attribute of a stall: whether a car stands in it."""
+"""Attribute of a stall: whether a car is parked in it."""
 BLOCKED_BY = "garage:stall:blockedBy"
-"""Attribute of a stall: id of the stall of the misparked car that blocks it."""
+"""Attribute of a stall: id of the stall whose misparked car blocks this one."""
 OCCUPIED_STALL = "OccupiedStall"
-"""Name of the class of all stalls that a car stands in as long as cars are shown."""
+"""Name of the class of all stalls with a car, while cars are shown."""
 
 
 class Switch(NamedTuple):
-    """What a variant set of the garage does to objects.
+    """Effect of a variant set of the garage on objects.
 
     Attributes
     ----------
     variant_set
-        Its name.
+        Name of the variant set.
     usual, other
-        Its choices; the first is how a garage is without a choice.
+        Its variants; the first is the default.
     metadata, attribute
-        What the second choice says of each object, as USDA text.
+        Opinions of the second variant on each object, as USDA text.
     class_name
-        Name of the class of all objects that follow it.
+        Name of the class from which the affected objects inherit.
     """
 
     variant_set: str
@@ -59,11 +59,11 @@ _SWITCHES = {
 SWITCHES: Mapping[str, Switch] = {
     kind.name: switch for variant_set, switch in _SWITCHES.items() for kind in KINDS if kind.follows is variant_set
 }
-"""Which variant set each kind of object follows; the others follow none."""
+"""Variant set of each kind of object; all other kinds have none."""
 
 
 class VariantTexts(NamedTuple):
-    """USDA text of the variant sets of one prim: what stands in its metadata and in its body."""
+    """USDA text of the variant sets of a prim: a part for its metadata and a part for its body."""
 
     metadata: str
     body: str
@@ -72,19 +72,22 @@ class VariantTexts(NamedTuple):
 def variant_texts(
     classes: str, *, outlines: tuple[str, ...], stalls: int, are_blocked: bool, selected: bool
 ) -> VariantTexts:
-    """The variant sets ``occupancy`` (parked, empty), ``lights`` (on, off) and ``ceiling`` (shown, hidden).
+    """Make the variant sets ``occupancy`` (parked, empty), ``lights`` (on, off) and ``ceiling`` (shown, hidden).
 
     Parameters
     ----------
     classes
-        Name of the child that holds the class of each.
+        Name of the child prim with the class of each switch.
     outlines
-        Names of the prims from the child on that lead to the outlines of all stalls, and how many these are.
+        Names of the prims on the path from the child to the outlines of all stalls.
+    stalls
+        Number of stalls.
     are_blocked
-        Whether some stalls are blocked, which they are not without cars.
+        Whether misparked cars block stalls; without cars, none is blocked.
     selected
-        Whether the first choice of each is selected. It says nothing of the objects, so that none is the same; but
-        each prim below takes longer to compose, which of tens of thousands is a fifth of the time to open them.
+        True to select the first variant of each. The first variants have no opinions, so that leaving the selection out
+        gives the same objects; each selection slows the composition of every prim below, a fifth of the opening time of
+        tens of thousands of prims.
     """
     switches = _SWITCHES.values()
     bodies = []
@@ -108,7 +111,7 @@ def variant_texts(
 
 
 def occupied_text(*, is_occupied: bool) -> str:
-    """Whether a car stands in a stall, as an attribute of its prim."""
+    """Text of a stall's attribute for its occupancy."""
     return f"custom bool {OCCUPIED} = {str(is_occupied).lower()}\n"
 
 

@@ -1,1 +1,1 @@
-"""Pictures of what was made."""
+"""Drawings of plans and learning curves, and the viewer of stages."""

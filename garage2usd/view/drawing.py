@@ -1,4 +1,4 @@
-"""A drawing in metres: what is drawn, said once for pictures of pixels and of vectors."""
+"""A vector drawing in metres, independent of the output format (SVG or raster)."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
@@ -17,7 +17,7 @@ _MEASURED_PX = 100
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """A filled polygon; `kind` and `name` say what it is, where a format has a place for that."""
+    """A filled polygon; `kind` and `name` classify it, in formats that store that."""
 
     points: Sequence[Point]
     fill: Colour
@@ -27,7 +27,7 @@ class Region:
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A line through points."""
+    """A polyline."""
 
     points: Sequence[Point]
     colour: Colour
@@ -49,20 +49,20 @@ class Disc:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """A line of text around the middle of its height.
+    """A line of text, centred vertically on its position.
 
     Attributes
     ----------
     at
-        Its middle, or the middle of its left end.
+        Position of the text's centre, or of the centre of its left edge.
     text, height_m, colour
-        What it says; size of the letters from line to line.
+        The text; its line height; its colour.
     is_left
-        Whether it starts at `at`.
+        Whether the text starts at `at`.
     is_turned
-        Whether it runs upwards.
+        Whether the text runs upwards.
     kind
-        What it is.
+        Class of the text.
     """
 
     at: Point
@@ -76,20 +76,20 @@ class Text:
 
 @dataclass(frozen=True)
 class Drawing:
-    """Everything that is drawn, from back to front.
+    """A drawing: elements from back to front.
 
     Attributes
     ----------
     low, high
         (x, z) of the upper left and the lower right corner, metres.
     px_per_m
-        How large a picture of pixels is.
+        Pixels per metre of a raster image.
     paper
-        Colour of what nothing covers.
+        Background colour.
     title
-        What it shows.
+        Title of the drawing.
     elements
-        Drawn one after the other.
+        Elements in drawing order.
     """
 
     low: Point
@@ -101,7 +101,7 @@ class Drawing:
 
 
 def text_width(text: str, height: float) -> float:
-    """How wide a text of a height runs, in the height's unit."""
+    """Width of a text of a given height, in the height's unit."""
     return _measured(text) / _MEASURED_PX * height
 
 

@@ -1,4 +1,4 @@
-"""What the planner learnt, as PNGs: the return of each episode, and the best plans side by side."""
+"""Pictures of the planner's learning as PNG: the return by episode, and the best plans side by side."""
 
 from collections.abc import Sequence
 
@@ -66,12 +66,12 @@ def draw_learning_curve(learning_curve: NDArray[np.float64]) -> Image.Image:
 
 
 def draw_structures(plans: Sequence[tuple[Structure, str]]) -> Image.Image:
-    """Draw structures side by side in rows of four, each with its rank and what is said of it.
+    """Draw structures side by side in rows of four, each with its rank and a caption.
 
     Parameters
     ----------
     plans
-        At least one (structure, words), best first; all of one shape.
+        At least one (structure, caption), best first; all of one shape.
     """
     rows, cols = plans[0][0].shape
     width, height = cols * _CELL_PX, rows * _CELL_PX + _TITLE_PX

@@ -1,4 +1,4 @@
-"""What leads out of a garage on its plan: vehicle doors, and the ramps behind them as far as the sheet has room."""
+"""Portals on a plan: vehicle doors, and the ramps behind them as far as the sheet has space."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -21,7 +21,7 @@ _BREAK_M = 0.35
 
 
 def ramps(layout: Layout, sheet: Sheet) -> Iterator[Region | Line]:
-    """Each ramp from its door to a broken edge, where the sheet cuts it off, or to its end."""
+    """Draw each ramp from its door to its end, or to a break line where the sheet cuts it off."""
     for place, spec in of_spec(layout.of_kind("ramp"), RampSpec):
         half, near = spec.width_m / 2, spec.profile[0][0]
         far = min(spec.profile[-1][0], sheet.ramp_m)
@@ -39,7 +39,7 @@ def ramps(layout: Layout, sheet: Sheet) -> Iterator[Region | Line]:
 
 
 def portals(layout: Layout, sheet: Sheet) -> Iterator[Region | Line | Text]:
-    """The wall beside a door, and outside of it an arrow with a word."""
+    """Draw the jambs of each door, and outside of it an arrow with a word."""
     for place, spec in of_spec(layout.of_kind("portal"), PortalSpec):
         half, door, back = spec.length_m / 2, spec.door_width_m / 2, -spec.thickness_m
         for sides in ((-half, -door), (door, half)):
@@ -58,7 +58,7 @@ def portals(layout: Layout, sheet: Sheet) -> Iterator[Region | Line | Text]:
 
 
 def turned(place: Placement, shape: Sequence[Point], colour: Colour, kind: str) -> Region:
-    """A shape where a placement has it."""
+    """Transform a shape to a placement."""
     return Region([place.to_world(point) for point in shape], colour, kind)
 
 

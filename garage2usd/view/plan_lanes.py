@@ -1,4 +1,4 @@
-"""Lanes on a plan: which of them are driven through, which are dead ends, and their directions."""
+"""Lanes on a plan: through lanes, dead ends and driving directions."""
 
 import math
 from collections.abc import Iterator
@@ -22,7 +22,7 @@ LANE_COLOUR: dict[LaneKind, Colour] = {
     LaneKind.ENTRANCE: (72, 160, 96),
     LaneKind.EXIT: (206, 84, 72),
 }
-"""Of portals, and of lanes that cars drive through, which is where loops run."""
+"""Colours of lanes by kind; lanes in dead ends have a tint of their own."""
 _LANE_NAME = {
     LaneKind.CROSSROADS: "crossroads",
     LaneKind.T_JUNCTION: "T-junction",
@@ -40,7 +40,7 @@ _CHEVRON_M = 0.7
 
 
 def lane_legend(layout: Layout, found: MeasuredCirculation | None) -> list[tuple[Colour, str]]:
-    """Kinds of lane that there are, with their colours; without circulation that of a grid, the lanes alone."""
+    """List the kinds of lane on the plan with their colours."""
     if found is None:
         return [(LANE_COLOUR[LaneKind.STRAIGHT], "lane")]
     rounds = found.circulation.rounds[layout.structure.cells >= Cell.LANE]
@@ -50,10 +50,10 @@ def lane_legend(layout: Layout, found: MeasuredCirculation | None) -> list[tuple
 
 
 def squares(layout: Layout, found: MeasuredCirculation) -> Iterator[Region | Line]:
-    """Every square by its kind; a lane in a dead end has a tint of its own."""
+    """Draw every square in the colour of its kind; lanes in dead ends have a separate tint."""
     structure, rounds = layout.structure, found.circulation.rounds
     x, z = structure.column_edges_m.tolist(), structure.row_edges_m.tolist()
-    nodes = iter(layout.lane_graph.nodes)  # which are numbered in reading order
+    nodes = iter(layout.lane_graph.nodes)  # tiles are numbered in reading order
     for row, line in enumerate(structure.cells.tolist()):
         for col, cell in enumerate(line):
             if cell == Cell.OBSTACLE:
@@ -84,7 +84,7 @@ def ribbons(layout: Layout) -> Iterator[Region]:
 
 
 def arrows(lanes: LaneGraph) -> Iterator[Line]:
-    """A chevron for each direction of each pair of lanes that join, on its right; one between a lane and a portal."""
+    """Draw a chevron for each direction of each lane edge, on its right; a single one between lane and portal."""
     for (start, end), edge in lanes.arcs.items():
         yield _chevron(lanes.nodes[start].position, lanes.nodes[end].position, 0.0 if edge.one_way else _KEEP_RIGHT_M)
 

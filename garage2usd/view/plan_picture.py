@@ -1,4 +1,4 @@
-"""The plan from above: squares by kind, stalls with numbers, columns, cars, a route, findings, dimensions."""
+"""Picture of a plan from above: squares by kind, stalls with numbers, columns, cars, a route, findings, dimensions."""
 
 import math
 import re
@@ -50,16 +50,16 @@ _ROUTE_ASIDE_M, _ROUTE_WIDTH_M, _ROUTE_INTO_STALL_M = 0.45, 0.45, 0.3
 
 
 def draw_plan(layout: Layout, *, stall: Stall | None = None, marks: Sequence[Mark] = ()) -> Drawing:
-    """Draw a layout from above, +X to the right and +Z down, its first square's corner at (0, 0).
+    """Draw a layout from above, +X to the right and +Z down, with the corner of the first square at (0, 0).
 
     Parameters
     ----------
     layout
-        What to draw.
+        The layout.
     stall
-        The stall whose route from an entrance and to an exit is drawn.
+        Stall whose routes from an entrance and to an exit are drawn.
     marks
-        Findings, drawn with a number at their places and listed below.
+        Findings, drawn as numbers at their places and listed below.
     """
     rows, cols = layout.structure.shape
     found = None if layout.matrices is None else measured_circulation(layout.structure)
@@ -86,7 +86,7 @@ def draw_plan(layout: Layout, *, stall: Stall | None = None, marks: Sequence[Mar
 
 
 def _figures(layout: Layout, found: MeasuredCirculation | None) -> str:
-    """The garage in an architect's figures."""
+    """Key figures of the garage in a line: stalls, area per stall, loops, dead ends, stretches."""
     stalls = layout.parking_stalls
     if found is None:
         return f"{stalls} stalls, {layout.counts()['car']} occupied, {layout.area_per_stall_m2:.1f} m2 a stall"
@@ -103,7 +103,7 @@ def _figures(layout: Layout, found: MeasuredCirculation | None) -> str:
 
 
 def _legend(layout: Layout, found: MeasuredCirculation | None, *, with_route: bool) -> list[tuple[Colour, str]]:
-    """Colours and names of what the plan shows."""
+    """Colours and names of the elements on the plan."""
     uses = {stall.use for stall in layout.quads}
     counts = layout.counts()
     entries = lane_legend(layout, found)
@@ -130,7 +130,7 @@ def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
         kind = f"stall {stall.use}{said}"
         yield Region(corners, STALL_COLOUR[stall.use], kind, stall.name)
         yield Line([corners[0], corners[3], corners[2], corners[1]], PAPER, LINE_M)
-    # some cars reach into the next stall
+    # after all stalls, as some cars reach into the next one
     yield from (
         Region(_car_outline(car, car.spec.measures), _CAR, "car")
         for car in cars.values()
@@ -140,14 +140,14 @@ def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
 
 
 def _clutter(layout: Layout) -> Iterator[Region]:
-    """People and things that stand about."""
+    """Draw people and loose objects."""
     for kind in _CLUTTER:
         for place in layout.of_kind(kind.name):
             yield from (Region(outline, _STANDING, kind.name, place.name) for outline in place.outlines())
 
 
 def _car_outline(car: Placement, body: CarBody) -> list[Point]:
-    """A body with a pointed nose, which tells where it looks."""
+    """Outline of a car body with a pointed nose, which shows its direction."""
     half_x, half_z = body.width_m / 2, body.length_m / 2
     nose = 0.45 * half_x
     shape = [
@@ -158,8 +158,8 @@ def _car_outline(car: Placement, body: CarBody) -> list[Point]:
 
 
 def _number(stall: Stall, number: str) -> Text:
-    """The number of a stall, level and beside its mouth, so that the stall's middle stays clear."""
-    # all digits as wide as the widest, so that few are measured
+    """Draw the number of a stall, horizontal and beside its entry, so that the stall's centre stays clear."""
+    # all digits count as the widest one, so that few widths are measured
     width = text_width(_DIGIT.sub("8", number), _NUMBER_M)
     height = _NUMBER_M * min(1.0, _NUMBER_WIDTH_M / width)
     x, z = stall.outwards
@@ -168,7 +168,7 @@ def _number(stall: Stall, number: str) -> Text:
 
 
 def _inside(stall: Stall, inwards_m: float) -> Point:
-    """The (x, z) of a point at some distance inwards from the middle of a stall's mouth."""
+    """Point (x, z) at a distance inwards from the centre of a stall's entry."""
     (x, z), (out_x, out_z) = stall.mouth, stall.outwards
     return x - inwards_m * out_x, z - inwards_m * out_z
 
@@ -186,7 +186,7 @@ def _building(layout: Layout) -> Iterator[Region | Line]:
 
 
 def _route(lanes: LaneGraph, stall: Stall) -> Iterator[Region | Line]:
-    """Both routes on the right side of the lanes, and the stall with a frame."""
+    """Draw the routes from an entrance and to an exit on the right side of the lanes, and frame the stall."""
     route = route_of(lanes, stall)
     corners = stall.corners
     yield Line([*corners, corners[0]], _IN, 2.5 * LINE_M, "chosen")
@@ -204,9 +204,9 @@ def _way(
     *,
     is_reversed: bool = False,
 ) -> Iterator[Line]:
-    """The line from a portal to a stall, or reversed, with an arrow head."""
+    """Draw the route between a portal and a stall, in either direction, with an arrow head."""
     middles = [lanes.nodes[node].position for node in nodes]
-    # the lane before the stall is left where the mouth lies
+    # the route leaves the lane at the stall's entry
     before, mouth = middles[-1], end[0]
     is_along_x = abs(end[1][0] - mouth[0]) < abs(end[1][1] - mouth[1])
     turn = (mouth[0], before[1]) if is_along_x else (before[0], mouth[1])

@@ -1,4 +1,4 @@
-"""What stands around a plan: dimensions, the numbers of rows and columns, the legend, the list of findings."""
+"""Sheet around a plan: dimension chains, numbers of rows and columns, legend, list of findings."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ _MAX_SIDE_PX = 4000
 _MAX_PX_PER_M = 20.0
 _LEAST_WIDTH_PX = 900
 ARROW_END_M = 3.6
-"""How far from a wall the arrows before its doors end."""
+"""Distance in metres from a wall to the end of the arrows at its doors."""
 _DIMENSION_GAP = 2.2
 _LETTERS_PX, _LETTERS_SHARE = 15, 1 / 140
 _TITLE, _TITLE_ROOM, _RAMP_GAP = 1.4, 2.4, 1.6
@@ -28,16 +28,16 @@ _MOST_LISTED = 60
 
 @dataclass(frozen=True)
 class Mark:
-    """A finding at its place.
+    """A finding and its place on the plan.
 
     Attributes
     ----------
     x_m, z_m
-        Where, metres.
+        Position in metres.
     severity
         ``error``, ``warning`` or ``info``.
     text
-        What was found, one line.
+        The finding in one line.
     """
 
     x_m: float
@@ -47,18 +47,18 @@ class Mark:
 
 
 class Sheet:
-    """Sizes of the paper around a plan.
+    """Layout of the sheet around a plan.
 
     Attributes
     ----------
     px_per_m
-        Such that the plan's longer side is at most 4000 pixels, a metre at most 20.
+        Pixels per metre: at most 20, and at most 4000 pixels for the plan's longer side.
     letters_m
-        Height of letters on it.
+        Height of letters.
     low, high
-        Corners (x, z) of the paper; the plan begins at (0, 0).
+        Corners (x, z) of the sheet; the plan begins at (0, 0).
     ramp_m
-        How far from the inner side of a wall the ramp behind it is shown.
+        Visible length of a ramp from the inner side of its wall.
     """
 
     def __init__(self, structure: Structure, marks: Sequence[Mark], legend: Sequence[tuple[Colour, str]]) -> None:
@@ -80,7 +80,7 @@ class Sheet:
         self.high = (right, self._foot_m + lines)
 
     def title(self, words: str) -> Text:
-        """A line over everything else, in larger letters where they find room."""
+        """Draw the title above everything else, enlarged if there is space."""
         letters = _TITLE * self.letters_m
         room = self.high[0] - self.low[0] - 2 * self.letters_m
         height = letters * min(1.0, room / text_width(words, letters))
@@ -88,7 +88,7 @@ class Sheet:
         return Text(at, words, height, INK, is_left=True, kind="title")
 
     def dimensions(self) -> Iterator[Line | Text]:
-        """Chains of R above and of C to the left, each with the overall size, and the numbers of columns and rows."""
+        """Draw dimension chains of R above and of C to the left, with totals, and the numbers of columns and rows."""
         letters = self.letters_m
         for edges, is_row in ((self._structure.column_edges_m, False), (self._structure.row_edges_m, True)):
             edges_m = edges.tolist()
@@ -113,7 +113,7 @@ class Sheet:
             yield Text(at, text, letters, INK, is_turned=is_row, kind="dimension")
 
     def legend(self, layout: Layout) -> Iterator[Region | Line | Text]:
-        """What the colours mean, a bar of ten metres, and the garage in figures."""
+        """Draw the legend of colours, a scale bar of ten metres, and the garage's key figures."""
         letters = self.letters_m
         for (colour, text), (x, z) in zip(self._legend, self._places, strict=True):
             half = letters / 2
@@ -134,7 +134,7 @@ class Sheet:
         yield Text((_SCALE_BAR_M + 5 * letters, z), words, letters, INK, is_left=True, kind="summary")
 
     def marks(self) -> Iterator[Disc | Text]:
-        """Findings as numbered discs at their places, and the list of them."""
+        """Draw findings as numbered discs at their places, and list them."""
         radius = 0.8 * self.letters_m
         for number, mark in enumerate(self._marks, 1):
             yield from self._disc((mark.x_m, mark.z_m), radius, mark, number)
@@ -162,7 +162,7 @@ class Sheet:
         return f"{text}..."
 
     def _legend_places(self, right_m: float) -> list[Point]:
-        """Where each entry begins, in as many lines as it takes."""
+        """Positions of the legend's entries, in as many lines as necessary."""
         places: list[Point] = []
         x, z = 0.0, self._foot_m + 1.5 * self.letters_m
         for _, text in self._legend:

@@ -1,4 +1,4 @@
-"""A plan as a small drawing of its squares, for sheets that show many."""
+"""Thumbnail of a plan's squares, for sheets with many plans."""
 
 from collections.abc import Iterator
 from itertools import groupby
@@ -26,7 +26,7 @@ THUMBNAIL_COLOURS: dict[str, Colour] = {
     "free": FREE,
     "obstacle": SOLID,
 }
-"""What the squares of a thumbnail are, by the kind of their regions: those of a plan's picture."""
+"""Colours of a thumbnail's squares by kind, as in the plan picture."""
 _LETTERS = {Cell.ENTRANCE: "E", Cell.EXIT: "X"}
 _LETTER: Colour = (255, 255, 255)
 _SEAM, _LETTER_HEIGHT = 0.06, 0.8
@@ -34,19 +34,19 @@ _PX_PER_SQUARE = 16
 
 
 def draw_thumbnail(cells: CellArray, title: str) -> Drawing:
-    """Draw the squares of a plan, a metre wide each, whatever their sides are.
+    """Draw the squares of a plan with sides of one metre, whatever their actual sides.
 
     Parameters
     ----------
     cells
         S, int8, shape (rows, cols).
     title
-        What the drawing is said to show.
+        Title of the drawing.
 
     Notes
     -----
-    Free squares beside a lane, which hold stalls, and lanes of dead ends have colours of their own. Nothing is drawn
-    where the garage is not.
+    Free squares beside a lane, which hold stalls, and lanes in dead ends have separate colours. Squares outside the
+    garage are left blank.
     """
     rows, cols = cells.shape
     return Drawing((0.0, 0.0), (float(cols), float(rows)), _PX_PER_SQUARE, PAPER, title, list(_elements(cells)))
@@ -68,7 +68,7 @@ def _elements(cells: CellArray) -> Iterator[Region | Line | Text]:
 
 
 def _kinds(cells: CellArray) -> list[list[str]]:
-    """The kind of each square, empty outside."""
+    """Kind of each square; empty outside the garage."""
     side_mm = round(1000 * DEFAULT_SIDE_M)
     structure = Structure(cells, np.full(cells.shape[1], side_mm), np.full(cells.shape[0], side_mm))
     is_dead_end = measured_circulation(structure).circulation.rounds > 0
@@ -91,6 +91,6 @@ def _kinds(cells: CellArray) -> list[list[str]]:
 
 
 def _comb(rows: int, cols: int) -> list[Point]:
-    """One line along all borders of rows, to and fro."""
+    """A single polyline along all borders of rows, back and forth."""
     ends = (0.0, float(cols))
     return [(ends[(row + end) % 2], float(row)) for row in range(rows + 1) for end in (0, 1)]

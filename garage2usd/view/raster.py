@@ -1,4 +1,4 @@
-"""A drawing as a picture of pixels."""
+"""Rasterisation of a drawing to an image."""
 
 import math
 from functools import lru_cache
@@ -12,18 +12,19 @@ __all__ = ["to_image", "write_png"]
 
 _LEAST_LETTERS_PX = 6
 _ROOM_PX = 2
-"""Beside letters, which may reach over their width."""
+"""Padding in pixels around text, which may exceed its nominal width."""
 _SHADES = 3
-"""Of a letter's rim, from nothing to all of its colour."""
+"""Number of shades at the rim of a letter."""
 _SHADE_OF = [round(round(share / 255 * (_SHADES - 1)) * 255 / (_SHADES - 1)) for share in range(256)]
 _COMPRESSION, _COMPRESSION_OF_LARGE = 8, 7
-"""Of zlib: a plan of 7 x 9 squares takes 35 KB and 32 ms with 8, 43 KB and 17 ms with 7, 34 KB and 74 ms with 9; one of
-20 x 30 takes 214 KB and 240 ms with 8, 239 KB and 100 ms with 7, a hundredth of its stage more."""
+"""Compression levels of zlib. A plan of 7 x 9 squares takes 35 KB and 32 ms with 8, 43 KB and 17 ms with 7, 34 KB and
+74 ms with 9; one of 20 x 30 takes 214 KB and 240 ms with 8, 239 KB and 100 ms with 7, the difference being
+1 % of its stage."""
 _LARGE_PX = 4_000_000
 
 
 def to_image(drawing: Drawing) -> Image.Image:
-    """Draw a drawing as RGB; letters of less than 6 pixels are left out.
+    """Rasterise a drawing as RGB; text lower than 6 pixels is left out.
 
     Notes
     -----
@@ -52,20 +53,21 @@ def to_image(drawing: Drawing) -> Image.Image:
 
 
 def write_png(image: Image.Image, path: Path) -> None:
-    """Write a drawn picture as a PNG of 256 colours, which takes half the bytes and the time of one of 16 million.
+    """Write an image as a PNG with a palette of 256 colours, at half the bytes and time of true colour.
 
-    An area's colour is moved by at most one step of 255, and the rims of letters by few more.
+    The colour of an area changes by at most one step of 255, and that of a letter's rim by few more.
     """
     few = image.quantize(256, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
     if few.width * few.height > _LARGE_PX:
         few.save(path, format="PNG", compress_level=_COMPRESSION_OF_LARGE)
         return
-    used = [colour for colour, pixels in enumerate(few.histogram()) if pixels]  # a palette of all 256 takes 0.6 KB more
+    # only the used entries: a full palette takes 0.6 KB more
+    used = [colour for colour, pixels in enumerate(few.histogram()) if pixels]
     few.remap_palette(used).save(path, format="PNG", compress_level=_COMPRESSION)
 
 
 def _write(image: Image.Image, text: Text, at: tuple[float, float], size_px: int) -> None:
-    """Write letters in few shades, at whole pixels: most of a plan's bytes are the rims of its letters."""
+    """Draw text in few shades at whole pixels, since the rims of letters make up most of a plan's bytes."""
     if size_px < _LEAST_LETTERS_PX:
         return
     font = _font(size_px)

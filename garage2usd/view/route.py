@@ -1,9 +1,9 @@
-"""The routes to a stall and away from it, on lanes."""
+"""Shortest routes on the lane graph to a stall and away from it."""
 
 from dataclasses import dataclass
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.spelling import called
+from garage2usd.common.spelling import find_named
 from garage2usd.garage import LaneGraph, LaneKind, Stall
 from garage2usd.layout import Layout
 
@@ -14,14 +14,14 @@ _SHOWN_NUMBERS = 3
 
 @dataclass(frozen=True)
 class Route:
-    """Lane nodes from an entrance to the lane before a stall, and from there to an exit, each the shortest way."""
+    """Lane nodes of the shortest routes from an entrance to the lane before a stall, and from there to an exit."""
 
     to_stall: tuple[int, ...]
     from_stall: tuple[int, ...]
 
 
 def find_stall(layout: Layout, number: str) -> Stall:
-    """The stall of a number (``B2-07``) or an id (``Stall_r03_c07_2``), in letters of whatever case.
+    """Find a stall by its number (``B2-07``) or id (``Stall_r03_c07_2``), ignoring case.
 
     Raises
     ------
@@ -29,7 +29,7 @@ def find_stall(layout: Layout, number: str) -> Stall:
         If there is no such stall.
     """
     names = {stall: [str(name) for name in (stall.number, stall.name) if name] for stall in layout.quads}
-    found = called(number, names)
+    found = find_named(number, names)
     if len(found) == 1:
         return found[0]
     some = [str(stall.number) for stall in layout.quads if stall.number]
@@ -38,9 +38,9 @@ def find_stall(layout: Layout, number: str) -> Stall:
 
 
 def route_of(lanes: LaneGraph, stall: Stall) -> Route:
-    """The shortest routes from any entrance to a stall and from it to any exit, not through another portal."""
+    """Find the shortest routes from any entrance to a stall and from it to any exit, not through other portals."""
     arrivals = (lanes.shortest_way(portal, stall.access) for portal in lanes.portals(LaneKind.ENTRANCE))
     departures = (lanes.shortest_way(stall.access, portal) for portal in lanes.portals(LaneKind.EXIT))
-    # there is one of each, as every stall is reached
+    # both exist, as every stall is reachable
     to_stall, from_stall = (min(filter(None, ways), key=lanes.way_m) for ways in (arrivals, departures))
     return Route(tuple(to_stall), tuple(from_stall))

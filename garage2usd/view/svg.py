@@ -1,4 +1,4 @@
-"""A drawing as SVG."""
+"""SVG output of a drawing."""
 
 from collections.abc import Sequence
 from xml.etree import ElementTree as ET
@@ -8,17 +8,17 @@ from garage2usd.view.drawing import Colour, Disc, Drawing, Line, Point, Region, 
 __all__ = ["CM_PER_M", "to_svg"]
 
 CM_PER_M = 100
-"""The unit of the file is the centimetre, as programs round letters of less than a unit."""
+"""Centimetres as the unit of the file, as some programs round text heights below one unit."""
 _FONT = "Aileron, Helvetica, Arial, sans-serif"
 
 
 def to_svg(drawing: Drawing) -> str:
-    """Write a drawing as an SVG document whose unit is a centimetre in the garage.
+    """Write a drawing as an SVG document with the centimetre as its unit.
 
     Notes
     -----
-    Areas, lines, discs and texts that say what they are have it as ``class``, and areas with a name have it as ``id``.
-    The same drawing gives the same text.
+    The kind of an element is written as its ``class``, and the name of a region as its ``id``. The same drawing gives
+    the same text.
     """
     (left, top), (right, bottom) = drawing.low, drawing.high
     root = ET.Element(

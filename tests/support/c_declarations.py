@@ -107,7 +107,8 @@ def same_field(hint, c_type, structs):
     array = re.fullmatch(r"(Bool|Int8|Int32|Int64|UInt64|Float|Double)(Row|Table|Cube)", c_type)
     names = {"Bool": np.bool_, "Int8": np.int8, "Int32": np.int32, "Int64": np.int64, "UInt64": np.uint64}
     names |= {"Float": np.float32, "Double": np.float64}
-    return array is not None and names[array[1]] is dtype_of(hint)
+    dimensions = next((one for one in typing.get_args(hint) if isinstance(one, int)), 1)
+    return array is not None and (names[array[1]], WORDS[array[2]] - 1) == (dtype_of(hint), dimensions)
 
 
 def size_of(struct, structs):

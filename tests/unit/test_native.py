@@ -9,7 +9,7 @@ from support.c_declarations import c_functions, c_structs, python_functions, sam
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.driving.search import Task
-from garage2usd.driving.sweep import Scene
+from garage2usd.driving.sweep import Scene, least_clearance, touched_shapes
 from garage2usd.native import LIBRARY, in_c, load, packed
 from garage2usd.planning import aisles, annealing, sarsa
 from garage2usd.planning.archive import new_archive, next_random
@@ -62,6 +62,29 @@ def test_arrays_of_other_numbers_or_with_gaps_are_refused():
     for array in (np.zeros(1, np.int64), np.zeros((2, 2), np.uint64).T):
         with pytest.raises(TypeError, match="uint64"):
             next_random(array)
+
+
+def test_read_only_arrays_are_refused_as_c_may_write_them():
+    random = np.ones(1, np.uint64)
+    random.flags.writeable = False
+    with pytest.raises(TypeError, match="read-only"):
+        next_random(random)
+    assert random[0] == 1
+
+
+def test_arrays_without_numbers_are_taken():
+    scene = Scene(np.zeros((0, 4, 2)), np.zeros((0, 4)), np.zeros(3))
+    assert least_clearance(scene, np.zeros((2, 3)), np.zeros(1), 9.0) == 9.0
+    assert len(touched_shapes(scene, np.zeros(3), 0.1)) == 0
+
+
+def test_fields_with_other_dimensions_are_refused():
+    for scene in (
+        Scene(np.zeros((2, 4, 2)), np.zeros(8), np.zeros(3)),
+        Scene(np.zeros((8, 2)), np.zeros((2, 4)), np.zeros(3)),
+    ):
+        with pytest.raises(TypeError, match="dimensions in Scene, where C takes"):
+            touched_shapes(scene, np.zeros(3), 0.1)
 
 
 def test_an_annotation_that_c_does_not_know_is_refused():

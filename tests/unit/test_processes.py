@@ -11,7 +11,7 @@ from garage2usd.common.processes import without_collector
 TASKS = """
 import os, threading
 from functools import partial
-from garage2usd.common.processes import each_in_a_copy
+from garage2usd.common.processes import run_in_forks
 own = os.getpid()
 here = [number for number in range({tasks})]
 def task(number):
@@ -20,7 +20,7 @@ def task(number):
     return here[number] ** 2, os.getpid() == own
 {before}
 try:
-    print(*each_in_a_copy([partial(task, number) for number in here], {workers}))
+    print(*run_in_forks([partial(task, number) for number in here], {workers}))
 except ValueError as error:
     print(error)
 """

@@ -1,4 +1,4 @@
-"""The shipped textures: what draws them, and where they are."""
+"""Shipped textures: procedural generators and location."""
 
 from garage2usd.assets.textures.baking import bake_textures, texture_folder
 

@@ -37,29 +37,29 @@ _BAKERS: Bakers = {
     "plate_ink.png": bake_plate_ink,
 }
 _COLOUR_STEPS = {"plate_characters.png": 12, **dict.fromkeys(GLOSSES, 3), "gloss_matt.png": 5}
-"""Saved with a palette, in half the bytes: those that have few colours, and how far these are apart."""
+"""Textures with few colours, saved with a palette in half the bytes, and the distance between their colours."""
 _SEED = 20_260_101
 _DIVISORS = {TextureQuality.LOW: 4, TextureQuality.MEDIUM: 2, TextureQuality.HIGH: 1}
 _JPEG_QUALITY, _FINISH_QUALITY = 90, 76
-"""Of the textures of every garage, and of those that a look may choose."""
+"""JPEG quality of the textures of every garage, and of those that a look selects."""
 _RGBA, _LEVELS_ALONE = 4, 2
 _WEAR_PAINT_RGB, _WEAR_GROUND_RGB = (0.75, 0.75, 0.72), (0.16, 0.16, 0.15)
-"""Linear colours that wear is shipped in: white on concrete."""
+"""Linear colours of the shipped wear textures: white on concrete."""
 _ALPHA_STEPS = 28
 _PALETTE_BYTES = 768
 
 
 def texture_folder(quality: TextureQuality) -> Path:
-    """The folder of the texture set in a quality: inside the installed package, else at the top of the repository."""
+    """Folder of the texture set in a quality: in the installed package, else at the top of the repository."""
     package = Path(__file__).parents[2]
     shipped = package / "textures"
     return (shipped if shipped.is_dir() else package.parent / "textures") / quality
 
 
 def bake_textures(folder: Path) -> None:
-    """Write the whole set into an existing folder, each quality into a folder of its own.
+    """Write the texture set into an existing folder, with a subfolder for each quality.
 
-    A pixel of a lower quality is the mean of those that it covers, so that it still repeats.
+    A pixel of a lower quality is the mean of those that it covers, which keeps the texture tileable.
     """
     for quality in _DIVISORS:
         (folder / quality).mkdir()
@@ -77,7 +77,7 @@ def _save(pixels: Pixels, divisor: int, path: Path) -> None:
         picture.putpalette(wear_palette(_WEAR_PAINT_RGB, _WEAR_GROUND_RGB))
         picture.save(path, format="PNG", optimize=True)
     elif pixels.shape[2] == _RGBA:
-        # its colours are few and each cell has one of them, its opacity is fine where there is little of it
+        # palette with opacity: few colours, one for each cell, but fine steps of low opacity
         alpha = np.rint(np.sqrt(np.asarray(picture.getchannel("A")) / 255.0) * _ALPHA_STEPS)
         opaque = np.rint((alpha / _ALPHA_STEPS) ** 2 * 255).astype(np.uint8)
         entries, picture = _palette(np.dstack([pixels[::divisor, ::divisor, :3], opaque]))
@@ -90,7 +90,7 @@ def _save(pixels: Pixels, divisor: int, path: Path) -> None:
         picture.putpalette(entries.tobytes() + bytes(rest))
         picture.save(path, format="PNG", optimize=True)
     elif path.suffix == ".jpg":
-        # colours that meet at sharp edges need all their pixels
+        # no chroma subsampling for colours with sharp edges
         subsampling = "4:4:4" if path.stem == "hazard" or path.name in GUARDS else "4:2:0"
         quality = _FINISH_QUALITY if path.name in _FINISHES else _JPEG_QUALITY
         picture.save(path, format="JPEG", quality=quality, subsampling=subsampling, optimize=True)
@@ -99,8 +99,8 @@ def _save(pixels: Pixels, divisor: int, path: Path) -> None:
 
 
 def _palette(colours: Pixels) -> tuple[Pixels, Image.Image]:
-    """The colours that there are, in order, a row each; and which of them each pixel has."""
-    # sorted as whole numbers, which is much faster than as rows
+    """Distinct colours in order, one per row, and an image of their indices."""
+    # sorted as integers, which is much faster than as rows
     places = 256 ** np.arange(colours.shape[2], dtype=np.uint32)[::-1]
     numbers, index = np.unique((colours * places).sum(axis=2, dtype=np.uint32), return_inverse=True)
     entries = (numbers[:, None] // places % 256).astype(np.uint8)

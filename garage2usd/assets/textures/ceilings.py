@@ -1,4 +1,4 @@
-"""The textures of ceilings."""
+"""Textures of ceilings."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from garage2usd.assets.textures.walls import sheet_tones
 __all__ = ["CEILINGS", "CEILING_FINISHES"]
 
 _SHEETS_ACROSS, _SHEETS_ALONG = 3, 6
-"""Of formwork, 2.7 m by 1.35 m, in a repeat of 8.1 m."""
+"""Number of formwork sheets, 2.7 m by 1.35 m, in a repeat of 8.1 m."""
 _BOARD_MM = 1200.0, 600.0
 _NEUTRAL = 1.0, 0.996, 0.985
 
@@ -40,7 +40,7 @@ def _ceiling_normal(rng: np.random.Generator) -> Pixels:
 
 
 def _ceiling_painted(rng: np.random.Generator) -> Pixels:
-    """The same sheets under white paint, which soot and water have marked; light, so that a tint gives any colour."""
+    """Formwork sheets under white paint, marked by soot and water; light, so that it can be tinted."""
     shape = 768, 768
     value = 224.0 + 10.0 * (clouds(rng, shape, (6, 6), 5) - 0.5) + 4.0 * (grain(rng, shape) - 0.5)
     sheets = sheet_tones(rng, shape, (_SHEETS_ALONG, _SHEETS_ACROSS))
@@ -52,7 +52,7 @@ def _ceiling_painted(rng: np.random.Generator) -> Pixels:
 
 
 def _insulation(rng: np.random.Generator) -> Pixels:
-    """Boards of mineral wool, 1.2 m by 0.6 m in half bond, each on six plates 70 mm wide; 3.6 m a repeat."""
+    """Boards of mineral wool, 1.2 m by 0.6 m in half bond, each with six washers of 70 mm; 3.6 m per repeat."""
     shape = 960, 960
     pixel_mm = 3600 / shape[0]
     down = (np.arange(shape[0])[:, None] + 0.5) * pixel_mm + np.zeros(shape)

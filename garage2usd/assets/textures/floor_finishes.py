@@ -1,4 +1,4 @@
-"""The textures of other floors, neutral in hue and light, so that a tint gives them any colour."""
+"""Textures of floor finishes, neutral in hue and light, so that they can be tinted."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ __all__ = ["FLOOR_FINISHES"]
 _NEUTRAL = 1.0, 0.996, 0.985
 _GREY = 1.0, 1.0, 1.0
 
-# concrete and epoxy: 5.4 m a repeat, so that a pixel is 5.3 mm
+# concrete and epoxy: 5.4 m per repeat, so that a pixel is 5.3 mm
 
 _SHAPE = 1024, 1024
 _PIXEL_MM = 5400 / 1024
@@ -27,16 +27,16 @@ def _concrete(rng: np.random.Generator) -> Field:
 
 
 def _cracks(rng: np.random.Generator, across: int, widest_mm: float, rim: float) -> Field:
-    """Cracks along bent edges of cells, of which some places have none: how dark they make each pixel, 0 to 1.
+    """Draw cracks along curved edges of cells, with gaps; darkness of each pixel, 0 to 1.
 
     Parameters
     ----------
     rng, across
-        What draws, and how many cells there are in a repeat each way.
+        Random generator, and number of cells in a repeat in each direction.
     widest_mm
-        Width of the widest.
+        Greatest width of a crack.
     rim
-        How dark its rims are with dirt, 16 mm to each side.
+        Darkness of dirt at the rims, 16 mm on each side.
     """
     bends = (clouds(rng, _SHAPE, (2 * across, 2 * across), 4) for _ in range(2))
     down, aside = (0.5 * _SHAPE[0] / across * (bend - 0.5) for bend in bends)
@@ -52,7 +52,7 @@ def _trowelled(rng: np.random.Generator) -> Pixels:
 
 
 def _sawn(rng: np.random.Generator) -> Pixels:
-    """A panel of 5.4 m between joints that a saw has cut 4 mm wide."""
+    """A panel of 5.4 m between saw-cut joints 4 mm wide."""
     value = _concrete(rng)
     half = _SHAPE[0] // 2
     away = np.minimum(distance_to(_SHAPE, _SHAPE[0], 0, half), distance_to(_SHAPE, _SHAPE[1], 1, half))
@@ -62,7 +62,7 @@ def _sawn(rng: np.random.Generator) -> Pixels:
 
 
 def _cracked(rng: np.random.Generator) -> Pixels:
-    """Old concrete: cracks of 0.2 to 1 mm across it, finer ones between them, dirt, splashes and rubber."""
+    """Old concrete with cracks of 0.2 to 1 mm, finer ones between them, dirt, splashes and rubber."""
     value = _concrete(rng)
     dirt = 0.16 * ramp(clouds(rng, _SHAPE, (3, 3), 6), 0.46, 0.72)
     dirt = np.maximum(dirt, 0.22 * ramp(clouds(rng, _SHAPE, (8, 8), 5), 0.62, 0.74))
@@ -74,7 +74,7 @@ def _cracked(rng: np.random.Generator) -> Pixels:
 
 
 def _epoxy(rng: np.random.Generator) -> Pixels:
-    """A rolled coat: even, in faint lanes of the roller, scuffed and rubbed by tyres."""
+    """A rolled epoxy coat: even, with faint roller lanes, scuffs and tyre marks."""
     value = 208.0 + 9.0 * (clouds(rng, _SHAPE, (5, 5), 5) - 0.5)
     lanes = noise(rng, (1, _SHAPE[1]), (1, 22)) + 0.5 * noise(rng, _SHAPE, (3, 44))
     value += 4.0 * (lanes - 0.75) + 3.0 * (grain(rng, _SHAPE) - 0.5)
@@ -94,7 +94,7 @@ _PATCHES = 4
 
 
 def _asphalt(rng: np.random.Generator) -> Pixels:
-    """Stones of 4 to 11 mm in bitumen that traffic has worn off their heads."""
+    """Asphalt: stones of 4 to 11 mm, whose heads traffic has cleared of bitumen."""
     stones = cells(rng, _STONES_SHAPE, (240, 240))
     tones = rng.integers(0, 256, size=240 * 240) / 255.0
     heads = ramp(stones.from_edge, 0.1, 1.3)
@@ -104,7 +104,7 @@ def _asphalt(rng: np.random.Generator) -> Pixels:
 
 
 def _asphalt_patched(rng: np.random.Generator) -> Pixels:
-    """Worn asphalt with patches of other age, their edges and its cracks sealed with bitumen."""
+    """Worn asphalt with older and newer patches, whose edges and cracks are sealed with bitumen."""
     shape = _PATCHED_SHAPE
     value = 132.0 + 18.0 * (clouds(rng, shape, (5, 5), 5) - 0.5) + 15.0 * (grain(rng, shape) - 0.5)
     rows, columns = np.arange(shape[0])[:, None], np.arange(shape[1])[None, :]
@@ -114,7 +114,7 @@ def _asphalt_patched(rng: np.random.Generator) -> Pixels:
         top, left = (int(rng.integers(side)) for side in shape)
         high, wide = (int(rng.integers(50, 190)) for _ in range(2))
         down, across = (rows - top) % shape[0] - high, (columns - left) % shape[1] - wide
-        # from the border of a rectangle of twice these, negative inside
+        # signed distance from the border of a rectangle with these half sides, negative inside
         away = np.maximum(np.abs(down) - high, np.abs(across) - wide) + ragged
         patched = np.where(away < 0, 42.0 * (int(rng.integers(256)) / 255.0) - 30.0, patched)
         sealed = np.maximum(sealed * (away > 0), 0.8 * ramp(np.abs(away), 3.5, 1.5))
@@ -131,12 +131,12 @@ _UNIT_MM = 100.0
 
 
 def _blocks(shape: tuple[int, int]) -> tuple[Field, Field]:
-    """Which block each pixel is in, and its distance in mm from the middle of the nearest joint."""
+    """Index of each pixel's block, and its distance in mm from the centre of the nearest joint."""
     scale = _UNITS / shape[0]
     down = (np.arange(shape[0])[:, None] + 0.5) * scale + np.zeros(shape)
     across = (np.arange(shape[1])[None, :] + 0.5) * scale + np.zeros(shape)
     row, column = down.astype(np.int64), across.astype(np.int64)
-    # along each row two squares of a block that lies across, then one of each of two that lie down
+    # each row repeats two squares of a block across, then one square of each of two blocks down
     turn = (column - row) % 4
     lies_across = turn < 2  # noqa: PLR2004
     first_row, first_column = row - (turn == 2), column - (turn == 1)  # noqa: PLR2004
@@ -153,7 +153,7 @@ def _pavers(rng: np.random.Generator) -> Pixels:
     value = 176.0 + 30.0 * (tones[which.astype(np.int64)] - 0.5) + 10.0 * (grain(rng, shape) - 0.5)
     value += 22.0 * (clouds(rng, shape, (5, 5), 5) - 0.5)
     value -= 40.0 * ramp(spots(rng, shape, 300, (0.8, 2.2)), 0.3, 0.7)
-    # rims are worn, sand and dirt lie between them
+    # worn rims, with sand and dirt in the joints
     value -= 26.0 * ramp(away_mm, 9.0, 3.0)
     sand = joint(away_mm * shape[0] / (_UNITS * _UNIT_MM), 4.0 * shape[0] / (_UNITS * _UNIT_MM))
     sand_value = 96.0 + 40.0 * (noise(rng, shape, (60, 60)) - 0.5)

@@ -1,4 +1,4 @@
-"""The textures of floors."""
+"""Textures of the standard floor."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from garage2usd.assets.textures.pixels import Bakers, Pixels, normal_map, packed
 
 __all__ = ["FLOORS"]
 
-# floors: 8.1 m a repeat, as wide as a usual square, so that the pattern runs on from square to square
+# floors: 8.1 m per repeat, the usual side of a square, so that the pattern continues across squares
 
 
 def _floor_colour(rng: np.random.Generator) -> Pixels:

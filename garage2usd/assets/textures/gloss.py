@@ -1,4 +1,4 @@
-"""How rough floors are, from mirror-like to matt: packed textures for floors of any colour."""
+"""Roughness of floors from mirror-like to matt: packed textures for floors of any colour."""
 
 from collections.abc import Callable
 
@@ -15,7 +15,7 @@ _STEP = 3
 
 
 def _gloss(smooth: float, rough: float) -> Callable[[np.random.Generator], Pixels]:
-    """Polished by use in places, dulled by dust and fine scratches in others; roughness from one to the other."""
+    """Texture between two roughness values: polished by use in places, dulled by dust and fine scratches in others."""
 
     def bake(rng: np.random.Generator) -> Pixels:
         dust = ramp(clouds(rng, _SHAPE, (5, 5), 3), 0.25, 0.75)

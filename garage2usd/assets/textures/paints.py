@@ -1,4 +1,4 @@
-"""The textures of paint that is one with what shows through it."""
+"""Textures of worn paint in which paint and ground are combined."""
 
 from collections.abc import Callable
 
@@ -10,11 +10,11 @@ from garage2usd.assets.textures.pixels import Bakers, Pixels, mixed_over, shaded
 __all__ = ["GUARDS", "PAINTS"]
 
 _Colour = tuple[int, int, int]
-"""Display values."""
+"""sRGB values."""
 
 
 def _worn_paint(tint: tuple[float, float, float]) -> Callable[[np.random.Generator], Pixels]:
-    """Road paint of 2.7 m a repeat, worn to the concrete in places and grey where tyres cross it."""
+    """Road paint, 2.7 m per repeat, worn to the concrete in places and grey in the tyre tracks."""
 
     def bake(rng: np.random.Generator) -> Pixels:
         shape = 1024, 1024
@@ -28,7 +28,7 @@ def _worn_paint(tint: tuple[float, float, float]) -> Callable[[np.random.Generat
 
 
 def _stripes(light: _Colour, dark: _Colour, *, level: bool = False) -> Callable[[np.random.Generator], Pixels]:
-    """Stripes of two colours, one of each a repeat, diagonal or level, scuffed to the concrete."""
+    """Stripes of two colours, one of each per repeat, diagonal or level, scuffed to the concrete."""
 
     def bake(rng: np.random.Generator) -> Pixels:
         side = 256

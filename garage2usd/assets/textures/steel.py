@@ -1,4 +1,4 @@
-"""The textures of bare steel."""
+"""Textures of bare steel."""
 
 import numpy as np
 

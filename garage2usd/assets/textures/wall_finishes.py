@@ -1,4 +1,4 @@
-"""The textures of other walls and of painted columns, neutral in hue and light, so that a tint gives any colour."""
+"""Textures of wall finishes and painted columns, neutral in hue and light, so that they can be tinted."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ _GREY = 1.0, 1.0, 1.0
 
 
 def _rolled(rng: np.random.Generator, shape: tuple[int, int], per_m: float) -> Field:
-    """Paint rolled on plaster or smooth concrete; `per_m` pixels a metre."""
+    """Rolled paint on plaster or smooth concrete, with `per_m` pixels per metre."""
     rows, columns = (max(3, round(side / per_m)) for side in shape)
     value = 226.0 + 9.0 * (clouds(rng, shape, (rows, columns), 5) - 0.5)
     value += 4.0 * (noise(rng, shape, (3, 5 * columns)) - 0.5) + 4.0 * (grain(rng, shape) - 0.5)
@@ -22,7 +22,7 @@ def _rolled(rng: np.random.Generator, shape: tuple[int, int], per_m: float) -> F
 
 
 def _painted(rng: np.random.Generator) -> Pixels:
-    """4.05 m a repeat: films of dirt, touched-up places, water that ran down, hairline cracks."""
+    """Painted wall, 4.05 m per repeat: dirt films, touched-up places, water runs, hairline cracks."""
     shape = 768, 768
     pixel_mm = 4050 / shape[0]
     value = _rolled(rng, shape, 1000 / pixel_mm)
@@ -44,12 +44,12 @@ def _painted(rng: np.random.Generator) -> Pixels:
 
 
 def _column_painted(rng: np.random.Generator) -> Pixels:
-    """1.35 m around and 4.05 m up from the foot: rubbed by bumpers and doors, splashed from the floor."""
+    """Painted column, 1.35 m around, 4.05 m up from the foot: scraped by bumpers and doors, splashed from the floor."""
     shape = 576, 192
     value = _rolled(rng, shape, 142.0)
     above_m = ((shape[0] - 0.5 - np.arange(shape[0])) * (4.05 / shape[0]))[:, None]
     reach = ramp(np.abs(above_m - 0.5), 0.5, 0.1)
-    # rubbed along the ground, so drawn in a picture that is stretched across
+    # horizontal scrapes, drawn in an image that is stretched sideways
     rubs = np.maximum(
         0.6 * ramp(noise(rng, shape, (115, 5)), 0.8, 1.0), strokes(rng, shape, 50, (6.0, 40.0), (0.6, 2.4))
     )
@@ -68,7 +68,7 @@ _MORTAR_MM = 10.0
 
 
 def _blocks(shape: tuple[int, int]) -> tuple[NDArray[np.int64], Field]:
-    """Which block each pixel is in, and its distance in mm from the middle of the nearest joint."""
+    """Index of each pixel's block, and its distance in mm from the centre of the nearest joint."""
     up = (np.arange(shape[0])[:, None] + 0.5) * _COURSES / shape[0] + np.zeros(shape)
     across = (np.arange(shape[1])[None, :] + 0.5) * _BLOCKS / shape[1] + np.zeros(shape)
     course = up.astype(np.int64)
@@ -102,7 +102,7 @@ def _blockwork_normal(_rng: np.random.Generator) -> Pixels:
 
 
 def _panels(rng: np.random.Generator) -> Pixels:
-    """Boards with open joints 8 mm wide, on screws."""
+    """Fibre cement boards on screws, with open joints 8 mm wide."""
     shape = 512, 512
     pixel_mm = 2700 / shape[0]
     value = 204.0 + 7.0 * (clouds(rng, shape, (4, 4), 5) - 0.5) + 8.0 * (grain(rng, shape) - 0.5)
@@ -117,7 +117,7 @@ def _panels(rng: np.random.Generator) -> Pixels:
 
 
 def _sheet_steel(rng: np.random.Generator) -> Pixels:
-    """Lacquered sheets, dull and dirty in the hollows between their ribs."""
+    """Lacquered steel sheets, dull and dirty between their ribs."""
     shape = 256, 256
     value = 212.0 + 8.0 * (clouds(rng, shape, (4, 4), 4) - 0.5)
     hollow = ramp(_from_rib_mm(shape), 30.0, 60.0)
@@ -126,21 +126,21 @@ def _sheet_steel(rng: np.random.Generator) -> Pixels:
 
 
 def _from_rib_mm(shape: tuple[int, int]) -> Field:
-    """Distance from the middle of the nearest rib; 1 m a repeat."""
+    """Distance from the centre of the nearest rib; 1 m per repeat."""
     period = shape[1] // 4
     return distance_to(shape, period, 1, period // 2) * (1000.0 / shape[1])
 
 
 def _sheet_steel_normal(_rng: np.random.Generator) -> Pixels:
-    """Ribs 35 mm high: sides that lean by 60 degrees."""
+    """Normal map of ribs 35 mm high, with flanks of 60 degrees."""
     shape = 256, 256
     height_mm = 35.0 * np.clip((52.0 - _from_rib_mm(shape)) / 20.0, 0.0, 1.0)
-    # heights in pixels; the difference is over two of them
+    # heights in pixels; central differences span two pixels
     return normal_map(height_mm * (shape[1] / 1000.0), 0.5)
 
 
 def _dado(rng: np.random.Generator) -> Pixels:
-    """The painted foot of a wall, 1.1 m high and 8.1 m a repeat: rubbed by bumpers, splashed from the floor."""
+    """Painted foot of a wall, 1.1 m high and 8.1 m per repeat: scraped by bumpers, splashed from the floor."""
     shape = 256, 2048
     above_m = ((shape[0] - 0.5 - np.arange(shape[0])) * (1.1 / shape[0]))[:, None]
     value = 214.0 + 12.0 * (clouds(rng, shape, (3, 22), 5) - 0.5) + 4.0 * (grain(rng, shape) - 0.5)

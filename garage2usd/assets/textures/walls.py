@@ -1,4 +1,4 @@
-"""The textures of walls."""
+"""Textures of the standard walls."""
 
 import numpy as np
 
@@ -16,7 +16,7 @@ _BAND_M = 1.1
 
 
 def _wall_relief(shape: tuple[int, int]) -> tuple[Field, Field]:
-    """How near each pixel is to a joint of the formwork, and to a tie hole; 0 to 1."""
+    """Proximity of each pixel to a joint of the formwork, and to a tie hole; 0 to 1."""
     rows, columns = shape
     up, across = rows // _SHEETS_UP_WALL, columns // _SHEETS_ACROSS
     pixel = 2040 / columns
@@ -34,7 +34,7 @@ def _below_top(rows: int) -> Field:
 
 
 def sheet_tones(rng: np.random.Generator, shape: tuple[int, int], sheets: tuple[int, int]) -> Field:
-    """A tone of its own for each sheet of formwork, 0 to 1."""
+    """A random tone for each sheet of formwork, 0 to 1."""
     tones = rng.integers(0, 1024, size=sheets).astype(np.float64) / 1023.0
     return tones.repeat(shape[0] // sheets[0], axis=0).repeat(shape[1] // sheets[1], axis=1)
 
@@ -69,7 +69,7 @@ def _wall_normal(rng: np.random.Generator) -> Pixels:
 
 
 def _above_foot(rows: int) -> Field:
-    """Metres above the foot of the painted band of a wall, 1.1 m high."""
+    """Metres above the foot of a wall's painted band, 1.1 m high."""
     return ((rows - 0.5 - np.arange(rows)) * (_BAND_M / rows))[:, None]
 
 
@@ -78,7 +78,7 @@ def _band_colour(rng: np.random.Generator) -> Pixels:
     value = 122.0 + 14.0 * (clouds(rng, shape, (2, 14), 4) - 0.5) + 5.0 * (grain(rng, shape) - 0.5)
     base = shaded(value, (0.72, 0.95, 1.05))
     above = _above_foot(shape[0])
-    # rubbed by bumpers, chipped, and splashed from the floor
+    # scraped by bumpers, chipped, and splashed from the floor
     bumper = ramp(np.abs(above - 0.5), 0.13, 0.02) * ramp(noise(rng, shape, (48, 15)), 0.68, 0.9)
     base = mixed_over(base, (58, 56, 54), 0.6 * bumper)
     chips = ramp(clouds(rng, shape, (10, 74), 4) - 0.12 * ramp(above, 0.3, 0.8), 0.66, 0.70)

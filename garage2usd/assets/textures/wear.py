@@ -1,4 +1,4 @@
-"""The textures of worn paint, which hold how worn it is, 0 to 255; `worn_paint` gives them colours. 2.7 m a repeat."""
+"""Wear masks of paint, 0 to 255, 2.7 m per repeat; `worn_paint` gives them colours."""
 
 from collections.abc import Callable
 
@@ -13,18 +13,18 @@ _SHAPE = 512, 512
 
 
 def _chips(rng: np.random.Generator, count: int) -> Field:
-    """Where paint has come off the grains of the ground."""
+    """Chips where paint has come off the aggregate."""
     return ramp(spots(rng, _SHAPE, count, (1.0, 4.5)), 0.25, 0.5)
 
 
 def _fresh(rng: np.random.Generator) -> Field:
-    """A film that dirt has dulled, with few chips."""
+    """Fresh paint with a film of dirt and few chips."""
     dirt = 0.2 * ramp(clouds(rng, _SHAPE, (4, 4), 4), 0.42, 0.72)
     return np.maximum(dirt, 0.75 * _chips(rng, 60))
 
 
 def _worn(rng: np.random.Generator) -> Field:
-    """Off the grains of the ground in wide patches, thin between them."""
+    """Worn paint: off the aggregate in wide patches, thin between them."""
     where = clouds(rng, _SHAPE, (4, 4), 3)
     grains = clouds(rng, _SHAPE, (40, 40), 3)
     off = ramp(grains + 1.1 * (where - 0.5), 0.52, 0.68)
@@ -33,7 +33,7 @@ def _worn(rng: np.random.Generator) -> Field:
 
 
 def _gone(rng: np.random.Generator) -> Field:
-    """What is left in the hollows of the ground."""
+    """Remains of paint in the hollows of the ground."""
     where = clouds(rng, _SHAPE, (5, 5), 3)
     grains = clouds(rng, _SHAPE, (36, 36), 4)
     left = ramp(grains + 0.9 * (where - 0.5), 0.52, 0.68)
@@ -42,7 +42,7 @@ def _gone(rng: np.random.Generator) -> Field:
 
 
 def _ghost(rng: np.random.Generator) -> Field:
-    """What shows of a line that was ground off or painted over: an even trace, with some of the old film."""
+    """Trace of a line that was ground off or painted over, with remains of the old film."""
     trace = 0.8 + 0.3 * (clouds(rng, _SHAPE, (6, 6), 4) - 0.5)
     film = ramp(clouds(rng, _SHAPE, (30, 30), 3), 0.66, 0.74)
     return trace - 0.35 * film

@@ -1,4 +1,4 @@
-"""Markets as data: which shares of cars have which class of body and which paint, and stand nose out."""
+"""Car markets as data: shares of body classes and paints, and of cars parked nose out."""
 
 import tomllib
 from collections.abc import Mapping
@@ -15,14 +15,14 @@ __all__ = ["MARKET_NAMES", "Market", "MarketName", "PaintShares", "SegmentShares
 
 MarketName = Literal["china", "germany", "uk", "usa", "world"]
 MARKET_NAMES: tuple[str, ...] = get_args(MarketName)
-"""The markets that are shipped."""
+"""Names of the shipped markets."""
 _WORLD = "world"
 
 Share = Annotated[float, Field(ge=0, le=1)]
 
 
 def _shares_of(names: tuple[str, ...]) -> AfterValidator:
-    """Shares by name, some of which are more than 0; they are parts of their sum."""
+    """Validator of shares by name, at least one of them positive; they are normalised by their sum."""
 
     def checked(shares: Mapping[str, float]) -> Mapping[str, float]:
         if unknown := sorted(set(shares) - set(names)):
@@ -35,63 +35,63 @@ def _shares_of(names: tuple[str, ...]) -> AfterValidator:
 
 
 SegmentShares = Annotated[dict[str, Share], _shares_of(SEGMENTS)]
-"""Shares by the class of a car's body, as parts of their sum."""
+"""Shares of the body classes, normalised by their sum."""
 PaintShares = Annotated[dict[str, Share], _shares_of(PAINTS)]
-"""Shares by paint, as parts of their sum."""
+"""Shares of the paints, normalised by their sum."""
 
 
 class Segments(Settings):
-    """Shares of the classes of bodies."""
+    """Shares of the body classes in a market."""
 
     shares: SegmentShares
-    """By class."""
+    """Share by class."""
     source: str
-    """Where they are from, and what of them is assumed."""
+    """Source of the figures, and the assumptions among them."""
 
 
 class Paints(Settings):
-    """Shares of the paints."""
+    """Shares of the paints in a market."""
 
     shares: PaintShares
-    """By paint."""
+    """Share by paint."""
     source: str
-    """Where they are from, and what of them is assumed."""
+    """Source of the figures, and the assumptions among them."""
 
 
 class Reversed(Settings):
-    """The share of parked cars that stand nose out."""
+    """Share of the parked cars that stand nose out in a market."""
 
     share: Share
-    """Of all parked cars."""
+    """Share of all parked cars."""
     source: str
-    """Where it is from."""
+    """Source of the figure."""
 
 
 class Market(Settings):
-    """The cars of a market."""
+    """Mix of cars in a market."""
 
     title: str
-    """Its name for people."""
+    """Title of the market."""
     countries: tuple[str, ...]
-    """ISO 3166 codes of the countries whose profiles have it."""
+    """ISO 3166 codes of the countries whose profiles use this market."""
     segments: Segments
-    """Classes of bodies."""
+    """Shares of the body classes."""
     paints: Paints
-    """Paints."""
+    """Shares of the paints."""
     reversed: Reversed
-    """Cars nose out."""
+    """Share of cars parked nose out."""
 
 
 @cache
 def load_market(name: str) -> Market:
-    """A market by its name, one of `MARKET_NAMES`."""
+    """Load a market by its name, one of `MARKET_NAMES`."""
     text = (resources.files("garage2usd.config.markets") / f"{name}.toml").read_text(encoding="utf-8")
     return validated(Market, tomllib.loads(text), within="market")
 
 
 @cache
 def market_of(country: str) -> Market:
-    """The market of a country by its ISO 3166 code, that of the world where it has none."""
+    """Return the market of a country by its ISO 3166 code; the world's if the country has none."""
     return next(
         (market for market in map(load_market, MARKET_NAMES) if country in market.countries), load_market(_WORLD)
     )

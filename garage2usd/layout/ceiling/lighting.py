@@ -1,4 +1,4 @@
-"""How bright the floor is: lamps get the luminance that reaches the wanted illuminance, if all of them burn."""
+"""Lighting design: luminance of the lamps for the required floor illuminance, and the resulting levels."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -15,10 +15,11 @@ from garage2usd.objects.lamp import LampSpec
 __all__ = ["LightLevels", "Lux", "direct_lux", "lane_points_of", "light_up"]
 
 UTILISATION, MAINTENANCE = 1.0, 0.8
-"""Of lights that shine down only in a room with an index over 5 and grey surfaces, and of tubes cleaned once a year."""
+"""Utilisation factor of downlights in a room with an index above 5 and grey surfaces, and maintenance factor of tubes
+that are cleaned yearly."""
 _REACH_M = 25.0
 _POINTS_AT_ONCE = 4096
-"""Bounds the memory that pairs of points and lamps take."""
+"""Number of points computed at once, which limits memory."""
 _SEGMENTS = 3
 _POINTS_A_SIDE = 3
 
@@ -34,21 +35,21 @@ class Lux:
 
 @dataclass(frozen=True)
 class LightLevels:
-    """The light of a garage.
+    """Light levels of a garage.
 
     Attributes
     ----------
     luminance_nit
-        Of the lit face of each lamp that burns, cd/m2.
+        Luminance of the lit face of each working lamp, cd/m2.
     flux_lm
-        Of each of them: pi x luminance x area.
+        Luminous flux of each working lamp: pi x luminance x area.
     lanes, stalls
-        Direct light on the floor by the point-by-point method: on nine points of each lane square, and in the middle
-        of each stall; None where there is none.
+        Direct illuminance of the floor by the point-by-point method: at nine points of each lane square, and at the
+        centre of each stall; None if there are none.
     lumen_method_lux
-        Mean over the whole floor by the lumen method, reflections included.
+        Mean illuminance of the whole floor by the lumen method, reflections included.
     lamps, dead_lamps
-        How many there are over lanes and stalls, and how many of them give no light.
+        Numbers of lamps over lanes and stalls, and of dead ones among them.
     """
 
     luminance_nit: float
@@ -67,14 +68,14 @@ def light_up(
     stalls: Sequence[PlacedStall],
     fittings: FittingsConfig,
 ) -> tuple[list[Placement], LightLevels]:
-    """The same lamps with the luminance that the floor needs, and what the floor then gets.
+    """Set the luminance of lamps to the least that the floor requires, and compute the resulting light levels.
 
     Notes
     -----
-    ``E(p) = MF L sum dA h^2 / r^4`` for level lamps over a level floor, each in three pieces, without what stands in
-    the way; beams cut off less than half a per cent. L is the least with which the mean direct light on lanes reaches
-    ``lane_lux`` and that on stalls ``stall_lux`` while all lamps burn; what is told is without those that are dead.
-    The lumen method has ``E = N Phi UF MF / A``.
+    ``E(p) = MF L sum dA h^2 / r^4`` for level lamps over a level floor, each divided into three pieces, without
+    shadows; beams block less than half a per cent. L is the least luminance for which the mean direct illuminance
+    reaches ``lane_lux`` on lanes and ``stall_lux`` on stalls while all lamps burn. The returned levels exclude dead
+    lamps. The lumen method is ``E = N Phi UF MF / A``.
     """
     stall_points = np.array([stall.centre_m for stall in stalls]).reshape(-1, 2)
     new = [replace(lamp, spec=replace(spec, is_dead=False)) for lamp, spec in of_spec(lamps, LampSpec)]
@@ -108,7 +109,7 @@ def light_up(
 def direct_lux(points: NDArray[np.float64], lamps: Sequence[Placement]) -> NDArray[np.float64]:
     """Direct, maintained illuminance of points (x, z) on the floor for a luminance of 1 cd/m2; shape (n,).
 
-    Dead lamps give none.
+    Dead lamps contribute nothing.
     """
     pieces, areas, heights = _pieces(lamps)
     if not len(points) or not len(pieces):
@@ -125,7 +126,7 @@ def direct_lux(points: NDArray[np.float64], lamps: Sequence[Placement]) -> NDArr
 
 
 def _pieces(lamps: Sequence[Placement]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Middles (x, z), areas and heights over the floor of equal pieces of all lamps that burn."""
+    """Centres (x, z), areas and heights above the floor of equal pieces of all working lamps."""
     middles, areas, heights = [], [], []
     for lamp, spec in of_spec(lamps, LampSpec):
         if spec.is_dead:
@@ -140,7 +141,7 @@ def _pieces(lamps: Sequence[Placement]) -> tuple[NDArray[np.float64], NDArray[np
 
 
 def lane_points_of(squares: Iterable[tuple[float, float, float, float]]) -> NDArray[np.float64]:
-    """Nine points (x, z) on each lane square, given by its middle (x, z) and its extent along X and Z."""
+    """Nine points (x, z) on each lane square, given by its centre (x, z) and its extent along X and Z."""
     shares = (np.arange(_POINTS_A_SIDE) + 0.5) / _POINTS_A_SIDE - 0.5
     points = [(x + u * width, z + v * depth) for x, z, width, depth in squares for u in shares for v in shares]
     return np.array(points).reshape(-1, 2)

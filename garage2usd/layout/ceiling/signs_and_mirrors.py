@@ -1,4 +1,4 @@
-"""Exit signs over the aisles, and mirrors at junctions."""
+"""Exit signs and one-way signs over the aisles, and mirrors at junctions."""
 
 import math
 from collections.abc import Iterable, Mapping
@@ -27,29 +27,29 @@ _SIGN_HEIGHT_M = 0.2
 _SIGN_FROM_EDGE_M = 0.45
 _LANE_SIGN_M, _LEAST_LANE_SIGN_M = 0.4, 0.2
 _LANE_SIGN_ASIDE_M = 1.0
-"""From the middle of a lane, between the tubes over it and the ducts and trays beside."""
+"""Distance of signs from the centre of a lane, between the tubes and the ducts and trays."""
 _MIRROR_RADIUS_M = 0.25
 _MIRROR_GAP_M = 0.05
 _MIRROR_FROM_COLUMN_M, _MIRROR_FROM_WALL_M = 0.07, 0.22
 _ARM_TO_COLUMN_M, _ARM_TO_EDGE_M, _ARM_TO_WALL_M = 0.12, 0.099, 0.29
-"""Along the diagonal: to a column's bevelled edge, to the sharp edge of a core, to where its sides touch walls."""
+"""Lengths along the diagonal: to a column's bevelled edge, to the sharp edge of a core, to the meeting of two walls."""
 _INTO_COLUMN_M = 0.025
-"""How far an arm goes into a column whose surface it does not meet squarely."""
+"""Depth to which an arm enters a column that it meets at an angle."""
 _CORNERS = tuple((vertical, side) for vertical in (Edge.DOWN, Edge.UP) for side in (Edge.LEFT, Edge.RIGHT))
 _JUNCTIONS = {LaneKind.CROSSROADS, LaneKind.T_JUNCTION}
 
 
 def exit_signs(grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, levels: CeilingLevels) -> list[Placement]:
-    """Lit signs over the lanes into each junction, which point along the shortest route to an exit.
+    """Place lit exit signs over the lanes into each junction, pointing along the shortest route to an exit.
 
-    A ceiling without room over the clear height has no signs.
+    There are none without space above the clear height.
     """
     foot = fittings.ceiling_height_m - levels.sign_top_m - _SIGN_HEIGHT_M
     if not fittings.exit_signs or foot < fittings.clear_height_m:
         return []
     exits = {square for square, kind in graph.graph.nodes(data="kind") if kind is LaneKind.EXIT}
     ways_back = graph.graph.to_directed()
-    ways_back.remove_edges_from(list(graph.directions.one_way))  # from an exit cars are followed against their way
+    ways_back.remove_edges_from(list(graph.directions.one_way))  # search back from exits
     distance = nx.multi_source_dijkstra_path_length(ways_back, exits, weight="length_m")
     signs: list[Placement] = []
     for tile in grid:
@@ -73,9 +73,9 @@ def exit_signs(grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, lev
 
 
 def _exit_sign(tile: Tile, edge: Edge, out: Edge, ceiling_m: float, top_m: float) -> Placement:
-    """The sign over one edge of a junction, which faces the drivers who enter there."""
+    """Sign over one edge of a junction, facing the drivers who enter there."""
     (dr, dc), (out_r, out_c) = NEIGHBOUR_STEPS[edge], NEIGHBOUR_STEPS[out]
-    # the driver comes along (-dr, -dc); a right turn leads to (-dc, dr) in rows and columns
+    # the driver moves along (-dr, -dc); a right turn leads to (-dc, dr) in rows and columns
     turn = Turn.AHEAD if (out_r, out_c) == (-dr, -dc) else Turn.RIGHT if (out_r, out_c) == (-dc, dr) else Turn.LEFT
     x = tile.x_m + dc * (tile.half_x_m - _SIGN_FROM_EDGE_M)
     z = tile.z_m + dr * (tile.half_z_m - _SIGN_FROM_EDGE_M)
@@ -85,10 +85,10 @@ def _exit_sign(tile: Tile, edge: Edge, out: Edge, ceiling_m: float, top_m: float
 
 
 def lane_signs(grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, levels: CeilingLevels) -> list[Placement]:
-    """Signs over both ends of one-way lanes: one way for those who may enter, no entry for those who may not.
+    """Place signs over both ends of one-way lanes: one-way signs at the start, no-entry signs at the end.
 
-    Each hangs over the right half of the first square of the lane, as its reader sees it. A ceiling without room over
-    the clear height has no signs.
+    Each hangs over the right half of the lane's first square, as seen by its reader. There are none without space above
+    the clear height.
     """
     room = fittings.ceiling_height_m - levels.sign_top_m - fittings.clear_height_m
     height_m = round(min(_LANE_SIGN_M, room), 3)
@@ -107,9 +107,9 @@ def lane_signs(grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, lev
 
 
 def _lane_sign(tile: Tile, edge: Edge, spec: LaneSignSpec, fittings: FittingsConfig) -> Placement:
-    """The sign over one edge of a lane square, which faces the drivers who come over that edge."""
+    """Sign over one edge of a lane square, facing the drivers who cross that edge."""
     half = (tile.half_x_m, tile.half_z_m)
-    # on the right of who looks at it, which is the sign's own +X
+    # on the reader's right, which is the sign's local +X
     to_right = _LANE_SIGN_ASIDE_M if edge in {Edge.DOWN, Edge.LEFT} else -_LANE_SIGN_ASIDE_M
     x, z, *_ = box_inside(edge, half, (to_right, to_right), (_SIGN_FROM_EDGE_M, _SIGN_FROM_EDGE_M))
     name = f"{pascal_case(spec.says)}Sign_{edge.name.capitalize()}"
@@ -128,13 +128,13 @@ def mirrors(
     fittings: FittingsConfig,
     levels: CeilingLevels,
 ) -> list[Placement]:
-    """Convex mirrors on columns and walls at the blind corners of junctions and bends, looking across the square.
+    """Place convex mirrors on columns and walls at the blind corners of junctions and bends.
 
     Notes
     -----
-    A driver who enters over an edge cannot see into another lane if no lane lies in the corner between the two. A
-    mirror shows that lane to drivers from either of the edges opposite its corner. Corners are chosen greedily, so that
-    few mirrors serve all edges. A ceiling without room over the clear height has no mirrors.
+    A driver who enters over an edge cannot see into a side lane if no lane square lies in the corner between the two. A
+    mirror in a corner faces across the square and shows the side lane to drivers from the two opposite edges. Corners
+    are chosen greedily, so that few mirrors serve all edges. There are none without space above the clear height.
     """
     highest = fittings.ceiling_height_m - max(levels.beam_depth_m, TUBE_DEPTH_M) - _MIRROR_GAP_M - _MIRROR_RADIUS_M
     if not fittings.mirrors or highest - _MIRROR_RADIUS_M < fittings.clear_height_m:
@@ -167,25 +167,25 @@ def mirrors(
 
 
 def _is_blind(edge: Edge, tile: Tile, grid: TileGrid) -> bool:
-    """Whether a driver who enters over an edge sees a lane to the side only from inside the square."""
+    """True if a driver who enters over an edge sees a side lane only from inside the square."""
     between = (grid.neighbour(tile, edge, side) for side in edge.ends if tile.drivable[side])
     return any(other is None or other.cell is Cell.FREE for other in between)
 
 
 def _served(corner: tuple[Edge, Edge]) -> set[Edge]:
-    """The edges from which a driver faces a corner."""
+    """Edges from which entering drivers face a corner."""
     return set(Edge) - set(corner)
 
 
 def _mount_m(
     corner: tuple[Edge, Edge], tile: Tile, grid: TileGrid, feet: Mapping[Point, ColumnSpec]
 ) -> tuple[float, float] | None:
-    """How far a mirror's middle is from both sides of a corner, and how long its arm; None if nothing holds it."""
+    """Distance of a mirror's centre from both sides of a corner, and length of its arm; None without a support."""
     side_z, side_x = (sum(NEIGHBOUR_STEPS[edge]) for edge in corner)
     point = (round(tile.x_m + side_x * tile.half_x_m, 4), round(tile.z_m + side_z * tile.half_z_m, 4))
     column = feet.get(point)
     if column is not None:
-        # the mirrors around one column hang side by side: around a thin one farther out, on longer arms
+        # mirrors around one column must not touch: a thin column needs longer arms
         nearest = column.size_m / 2 + _MIRROR_FROM_COLUMN_M
         inset = max(nearest, _MIRROR_RADIUS_M)
         usual_m = ColumnSpec(column.size_m, column.height_m).diagonal_m

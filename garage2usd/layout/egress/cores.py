@@ -1,5 +1,5 @@
-"""Stair cores: where people leave on foot, and which stalls give way to them."""
-# Over 300 lines: candidates among perpendicular, angled and parallel stalls share their room.
+"""Stair cores: candidate positions beside lanes, the stalls that they replace, and their placements."""
+# Over 300 lines: candidates among perpendicular, angled and parallel stalls share their geometry.
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
@@ -33,38 +33,38 @@ from garage2usd.structure.stalls import Edge, StallRow
 __all__ = ["Core", "core_candidates", "core_placements", "obstacle_cores"]
 
 RECESS_M = 0.5
-"""How far the door of a core among stalls stands back from the lane, so that nobody steps into traffic."""
+"""Setback of a core's door from the lane, so that nobody steps into traffic."""
 _FROM_REAR_M = 0.2
 _FROM_COLUMN_M = 0.08
-"""Room for the zone plates of the column beside."""
+"""Gap for the zone plates of the adjacent column."""
 _LEAST_WIDTH_M, _MOST_WIDTH_M = 2.6, 4.6
 _LEAST_DEPTH_M = 3.0
 _MOST_STALLS = 2
 _WALL_CLEARANCE_M = 0.6
-"""Beside a car, where the profile asks for nothing."""
+"""Clearance beside a car if the profile has no clause for it."""
 _DOOR_SIDES = (Edge.DOWN, Edge.UP, Edge.LEFT, Edge.RIGHT)
 
 
 @dataclass(frozen=True)
 class Core:
-    """A block with stairs or lifts, with a door onto a lane.
+    """A block with stairs or lifts and a door to a lane.
 
     Attributes
     ----------
     square
-        (row, col) of the square that it stands on.
+        (row, col) of its square.
     edge
-        The edge of that square that its door looks to.
+        Edge of that square that the door faces.
     centre_m
-        (x, z) of its middle.
+        (x, z) of its centre.
     width_m, depth_m
-        Its extent along that edge and across it.
+        Extent along that edge and across it.
     along_m
-        Its middle along that edge, from the square's middle.
+        Position of its centre along that edge, from the square's centre.
     recess_m
-        From that edge back to its door.
+        Distance from that edge back to the door.
     stalls
-        Ids of the stalls in whose place it stands.
+        Ids of the stalls that it replaces.
     """
 
     square: Square
@@ -78,21 +78,21 @@ class Core:
 
     @property
     def lane(self) -> Square:
-        """(row, col) of the lane square that its door opens onto."""
+        """(row, col) of the lane square in front of its door."""
         return self.edge.beyond(self.square)
 
     @property
     def along_x(self) -> bool:
-        """Whether the edge that its door looks to runs along X."""
+        """True if the edge that its door faces runs along X."""
         return self.edge.along_x
 
     def beside_m(self, half_m: float) -> float:
-        """The middle of what it leaves of a square of half an extent along its edge, from the square's middle."""
+        """Centre of the free part beside the core along its edge, from the square's centre; `half_m` is half a side."""
         side = 1 if self.along_m < 0 else -1
         return round((self.along_m + side * (self.width_m / 2 + half_m)) / 2, 6)
 
     def landing(self, tile: Tile) -> Box:
-        """The floor between its door and the lane, in its square's coordinates."""
+        """Floor between its door and the lane, in its square's coordinates."""
         along = self.along_m - self.width_m / 2, self.along_m + self.width_m / 2
         half = tile.half_x_m, tile.half_z_m
         left, top, right, bottom = box_inside(self.edge, half, along, (0.0, self.recess_m))
@@ -100,19 +100,19 @@ class Core:
 
     @property
     def ground(self) -> shapely.Polygon:
-        """Its outline (x, z) with the floor between its door and the lane."""
+        """Outline (x, z) including the floor between its door and the lane."""
         x, near, far = self.width_m / 2, self.depth_m / 2 + self.recess_m, -self.depth_m / 2
         corners = ((-x, near), (x, near), (x, far), (-x, far))
         return shapely.Polygon([to_world(corner, self.centre_m, edge_yaw_rad(self.edge)) for corner in corners])
 
     @property
     def door_m(self) -> Point:
-        """(x, z) of the middle of its door."""
+        """(x, z) of the centre of its door."""
         return to_world((0.0, self.depth_m / 2), self.centre_m, edge_yaw_rad(self.edge))
 
 
 def obstacle_cores(structure: Structure) -> list[Core]:
-    """The obstacles that fill a square beside a lane, each with a door onto it."""
+    """Make a core of each obstacle that fills a square beside a lane."""
     cells = structure.cells
     lane = np.pad(cells == Cell.LANE, 1)
     x, z = structure.column_edges_m, structure.row_edges_m
@@ -130,7 +130,7 @@ def obstacle_cores(structure: Structure) -> list[Core]:
 
 
 def core_placements(structure: Structure, cores: list[Core], height_m: float, look: WallsLook) -> list[Placement]:
-    """A concrete block on every obstacle inside the contour, with a door where it is a core, and all other cores."""
+    """Place a concrete block on every obstacle inside the contour, with a door if it is a core, and all other cores."""
     dado_m = None if look.dado == NATURAL else look.dado_m
     x, z = structure.column_edges_m, structure.row_edges_m
     by_square = {core.square: core for core in cores}
@@ -151,9 +151,9 @@ def core_placements(structure: Structure, cores: list[Core], height_m: float, lo
 
 
 def core_candidates(structure: Structure, graph: LaneSquares, config: GarageConfig) -> Iterator[Core]:
-    """Every place for a core beside a lane: on a free square without stalls, or at the end of a row of stalls.
+    """Yield all candidate cores beside a lane: on free squares without stalls, or at the ends of rows of stalls.
 
-    One takes the place of as many stalls as it needs; the car in the next one keeps its distance from the wall.
+    A candidate replaces as many stalls as it needs; the car in the next stall keeps its clearance from the wall.
     """
     named = _named_rows(graph)
     leaning = _leaning_grounds(structure, named)
@@ -167,7 +167,7 @@ _NamedRows = Mapping[tuple[Square, Edge], tuple[StallRow, tuple[str, ...]]]
 
 
 def _named_rows(graph: LaneSquares) -> _NamedRows:
-    """Each row by its square and edge, with the names of its stalls."""
+    """Rows by square and edge, with the names of their stalls."""
     ordinals: Counter[Square] = Counter()
     named = {}
     for row in graph.stall_rows:
@@ -179,7 +179,7 @@ def _named_rows(graph: LaneSquares) -> _NamedRows:
 
 
 def _candidates(structure: Structure, graph: LaneSquares, named: _NamedRows, config: GarageConfig) -> Iterator[Core]:
-    """All candidates, also those that an angled stall of a square beside leans into."""
+    """Yield all candidates, including those that overlap an angled stall of an adjacent square."""
     for row, names in named.values():
         if row.shape.kind is StallKind.PERPENDICULAR:
             yield from _in_row(structure, row, names, config)
@@ -194,7 +194,7 @@ def _candidates(structure: Structure, graph: LaneSquares, named: _NamedRows, con
 
 
 def _leaning_grounds(structure: Structure, named: _NamedRows) -> dict[str, shapely.Polygon]:
-    """Ground (x, z) of each angled stall by its name."""
+    """Outline (x, z) of each angled stall by its name."""
     grounds = {}
     for row, names in named.values():
         if not row.shape.slope:
@@ -209,7 +209,7 @@ def _leaning_grounds(structure: Structure, named: _NamedRows) -> dict[str, shape
 
 
 def _in_row(structure: Structure, row: StallRow, names: tuple[str, ...], config: GarageConfig) -> Iterator[Core]:
-    """The cores that fit the two ends of a row of stalls."""
+    """Yield the cores that fit the two ends of a row of perpendicular stalls."""
     room = _room_m(structure, row, config)
     if room is None:
         return
@@ -227,7 +227,7 @@ def _in_row(structure: Structure, row: StallRow, names: tuple[str, ...], config:
         width = min(right - left, _MOST_WIDTH_M)
         if width < _LEAST_WIDTH_M:
             continue
-        # against the column or the wall, or in the middle where no stall is left
+        # against the column or the wall, or centred if no stall is left
         middle = (left + right) / 2 if taken == row.count else left + width / 2 if left == low else right - width / 2
         yield _core(structure, row, (middle, width, depth_m), stalls)
 
@@ -238,7 +238,7 @@ def _across_rows(
     named: _NamedRows,
     config: GarageConfig,
 ) -> Iterator[Core]:
-    """The cores at the two ends of a square with angled or parallel stalls, in place of all that they would touch."""
+    """Yield the cores at the two ends of a square with angled or parallel stalls, in place of those they overlap."""
     room = _room_m(structure, row, config)
     if room is None:
         return
@@ -259,7 +259,7 @@ def _spans_m(
     named: _NamedRows,
     depth_m: float,
 ) -> Iterator[tuple[str, float, float]]:
-    """Name and extent along a row, from its square's middle, of its stalls and of those on the squares beside it."""
+    """Name and extent along a row, from its square's centre, of its stalls and those of adjacent squares."""
     edges_m = structure.column_edges_m if row.edge.along_x else structure.row_edges_m
     at = row.col if row.edge.along_x else row.row
     for step, end in ((0, None), (-1, row.edge.ends[0]), (1, row.edge.ends[1])):
@@ -274,7 +274,7 @@ def _spans_m(
 
 
 def _room_m(structure: Structure, row: StallRow, config: GarageConfig) -> tuple[float, float, float] | None:
-    """From where to where a core may reach along a row's square, from its middle, and its depth; None if too small."""
+    """Interval along a row's square available to a core, from its centre, and its depth; None if too small."""
     bay = config.bay
     sides_m = structure.column_widths_mm[row.col] / 1000, structure.row_depths_mm[row.row] / 1000
     side_m, across_m = (float(side) for side in (sides_m if row.edge.along_x else sides_m[::-1]))
@@ -296,6 +296,6 @@ def _core(structure: Structure, row: StallRow, place: tuple[float, float, float]
 
 
 def _gap_to_stalls_m(stall_width_m: float, profile: Profile) -> float:
-    """What a core leaves beside the next stall's line, so that a car in its middle keeps its distance."""
+    """Gap between a core and the next stall's line that keeps the clearance of a centred car."""
     wall_m = profile.wall_clearance.amount if profile.wall_clearance else _WALL_CLEARANCE_M
     return max(wall_m - (stall_width_m - profile.car_width_m) / 2, 0.0)

@@ -1,4 +1,4 @@
-"""Which cores a garage gets: enough exits on foot in each fire compartment, and none too far from a stall."""
+"""Choice of stair cores: enough exits on foot in each fire compartment, within reach of every stall."""
 
 from collections import defaultdict
 from typing import NamedTuple
@@ -21,26 +21,26 @@ __all__ = ["Egress", "plan_egress"]
 Points = NDArray[np.float64]
 
 _EXITS = 2
-"""Exits of a compartment where the profile asks for no number."""
+"""Number of exits per compartment if the profile has no clause for it."""
 _STALLS_FOR_ONE = 10
-"""Cores take at most one stall in this many, so that a small garage is not all stairs."""
+"""Cores replace at most one stall in this many, which limits them in small garages."""
 _STALL_WORTH_M = 12.0
-"""How far from the best place a core stands to save a stall."""
+"""Detour from the best place, in metres, that is accepted to save one stall."""
 _OFF_STRAIGHT_M = 8.0
-"""How far to find a straight lane, where a crossing leads to the door."""
+"""Search distance for a straight lane, where a crossing can lead to the door."""
 _SLACK_M = 1.0
 _ROUNDS = 6
 
 
 class Egress(NamedTuple):
-    """How people get out.
+    """Fire compartments and stair cores of a garage.
 
     Attributes
     ----------
     compartments
         Number of each square's fire compartment; see `garage2usd.layout.egress.compartments.compartments_of`.
     cores
-        The stair cores: obstacles with doors first.
+        Stair cores, first the obstacles with doors.
     """
 
     compartments: NDArray[np.int32]
@@ -48,7 +48,7 @@ class Egress(NamedTuple):
 
 
 class _Places(NamedTuple):
-    """Candidates of one compartment, with the places of their doors and their price in metres."""
+    """Candidates of one compartment, with the positions of their doors and their costs in metres."""
 
     cores: list[Core]
     doors: Points
@@ -56,23 +56,23 @@ class _Places(NamedTuple):
 
 
 def plan_egress(structure: Structure, graph: LaneSquares, config: GarageConfig, *, sprinklered: bool) -> Egress:
-    """Divide the floor into fire compartments, and place as many stair cores as each needs.
+    """Divide the floor into fire compartments, and choose the stair cores of each.
 
     Parameters
     ----------
     structure, graph
         The plan.
     config
-        Its profile, and whether there are stair cores.
+        Settings with the profile and the switch of stair cores.
     sprinklered
-        Whether the clauses for sprinklers count.
+        Whether the clauses for sprinklered garages apply.
 
     Notes
     -----
-    Obstacles beside lanes are cores already. For one more core after another, places are spread over the stalls of a
-    compartment by Lloyd's algorithm (1982) from farthest-first seeds (Gonzalez 1985). Each place goes to the nearest
-    candidate, where every stall that it costs counts as twelve metres. The first number of cores with which all stalls
-    have a door in reach is kept.
+    Obstacles beside lanes are cores already. For an increasing number of further cores, places are spread over the
+    stalls of a compartment by Lloyd's algorithm (1982) from farthest-first seeds (Gonzalez 1985). Each place is moved
+    to the nearest candidate, with a cost of twelve metres for every replaced stall. The least number of cores with a
+    door within reach of all stalls is used.
     """
     profile = config.standard
     compartments = compartments_of(structure, profile.compartment_area(sprinklered=sprinklered))
@@ -94,7 +94,7 @@ def plan_egress(structure: Structure, graph: LaneSquares, config: GarageConfig, 
 
 
 def _chosen(points: Points, places: _Places | None, fixed: Points, exits: int, reach_m: float) -> list[Core]:
-    """The fewest cores of a compartment with which it has its exits and each stall one in reach."""
+    """Least set of cores for a compartment that has enough exits and one within reach of each stall."""
     chosen: list[int] = []
     if places is None:
         return []
@@ -107,7 +107,7 @@ def _chosen(points: Points, places: _Places | None, fixed: Points, exits: int, r
 
 
 def _spread(points: Points, fixed: Points, count: int) -> Points:
-    """Spread `count` places over points, given some places that are fixed."""
+    """Spread `count` places over points, in addition to fixed places."""
     centres = fixed
     for _ in range(count):
         if len(centres):
@@ -126,7 +126,7 @@ def _spread(points: Points, fixed: Points, count: int) -> Points:
 
 
 def _snapped(places: _Places, centres: Points) -> list[int]:
-    """Numbers of the candidates nearest to the places, no two on one square."""
+    """Indices of the candidates nearest to the places, at most one on each square."""
     chosen: list[int] = []
     for centre in centres:
         taken = {square for index in chosen for square in (places.cores[index].square, places.cores[index].lane)}
@@ -150,7 +150,7 @@ def _reach_m(clause: Length | None) -> float:
 def _stalls_by_compartment(
     structure: Structure, graph: LaneSquares, compartments: NDArray[np.int32]
 ) -> dict[int, Points]:
-    """Middles of the stalls in each compartment."""
+    """Centres of the stalls in each compartment."""
     points: dict[int, list[tuple[float, float]]] = defaultdict(list)
     for row in graph.stall_rows:
         points[int(compartments[row.square])] += _middles(structure, row)
@@ -167,7 +167,7 @@ def _middles(structure: Structure, row: StallRow) -> list[tuple[float, float]]:
 def _places_by_compartment(
     structure: Structure, graph: LaneSquares, config: GarageConfig, compartments: NDArray[np.int32]
 ) -> dict[int, _Places]:
-    """The candidates whose doors open onto each compartment."""
+    """Candidates of each compartment, by the lanes in front of their doors."""
     found: dict[int, list[Core]] = defaultdict(list)
     for core in core_candidates(structure, graph, config):
         if compartments[core.square] == compartments[core.lane]:
@@ -189,6 +189,6 @@ def _places_by_compartment(
 
 
 def _is_straight(graph: LaneSquares, lane: Square, edge: Edge) -> bool:
-    """Whether cars drive over a lane square along an edge of it, and not across that edge."""
+    """True if cars drive over a lane square parallel to an edge of it, and not across that edge."""
     joined = set(graph.graph[lane])
     return bool(joined) and joined <= {end.beyond(lane) for end in edge.ends}

@@ -1,4 +1,4 @@
-"""Painted lane lines, arrows, zebra crossings and hatching, in metres from the middle of one floor panel."""
+"""Painted lane lines, arrows, zebra crossings and hatching, in metres relative to the centre of a floor panel."""
 
 from functools import lru_cache
 

@@ -1,4 +1,4 @@
-"""The floors of squares with their markings: lanes, portals, and what lies around stalls."""
+"""Floor panels of squares with their markings: lanes, portals, and the floor around stalls."""
 
 import itertools
 from collections.abc import Iterable, Iterator, Mapping
@@ -45,16 +45,16 @@ __all__ = ["DrawnMarkings", "drawn_markings_of", "floor_panels"]
 _WORN = {Surface.PAINT_WHITE: Surface.PAINT_WHITE_WORN}
 _DRIVEN = {Cell.LANE, Cell.ENTRANCE, Cell.EXIT}
 _DRAWS = 3
-"""Of each square: whether older lines show, which ones, and whether a lane has a crossing."""
+"""Random numbers of each square: presence and number of older lines, and presence of a lane crossing."""
 
 
 class DrawnMarkings(NamedTuple):
-    """What the seed draws of markings.
+    """Markings drawn by the seed.
 
     Attributes
     ----------
     ghosts
-        Number of the older row that shows before each square of stalls, of those that have one.
+        Number of the older row visible at each square with stalls, if any.
     zebras
         Straight lane squares with a crossing that leads to no door.
     """
@@ -64,7 +64,7 @@ class DrawnMarkings(NamedTuple):
 
 
 def drawn_markings_of(grid: TileGrid, look: MarkingsLook, draws: SquareDraws) -> DrawnMarkings:
-    """Draw them from numbers that each square has of its own, so that a share moves no other square's."""
+    """Draw older lines and crossings from independent numbers of each square, so that squares stay independent."""
     if not look.ghosts and not look.zebra:
         return DrawnMarkings({}, frozenset())
     numbers = draws.of_step(Step.FLOOR_MARKINGS, _DRAWS)
@@ -80,7 +80,7 @@ def drawn_markings_of(grid: TileGrid, look: MarkingsLook, draws: SquareDraws) ->
 
 @dataclass(frozen=True)
 class _Panels:
-    """What all floors of a garage are made from."""
+    """Common inputs of all floor panels of a garage."""
 
     grid: TileGrid
     bay: BayConfig
@@ -90,7 +90,7 @@ class _Panels:
     def markings(
         self, tile: Tile, *, has_bump: bool, crossing_m: float | None, core: Core | None
     ) -> tuple[Marking, ...]:
-        """What is painted on one square's floor."""
+        """Markings of one square's floor."""
         if tile.cell is Cell.LANE:
             return tuple(self._lane(tile, has_bump=has_bump, crossing_m=crossing_m))
         if tile.cell is not Cell.FREE:
@@ -104,11 +104,11 @@ class _Panels:
         return (*self._row_ends(tile, places), *hatched)
 
     def openings(self, tile: Tile) -> tuple[Polygon, ...]:
-        """Where stalls lie on a square."""
+        """Openings of a square's floor, at its stalls."""
         return self.grid.openings(tile) if tile.cell is Cell.FREE else ()
 
     def _row_ends(self, tile: Tile, places: list[StallPlace]) -> Iterator[Marking]:
-        """The outer half of the lines beside stalls that have no other one there."""
+        """Outer halves of the stall lines at sides without a neighbouring stall."""
         half_line = self.look.line_width_m / 2
         for place in places:
             row, start = place.row, place.row.starts_m[place.slot]
@@ -140,12 +140,12 @@ class _Panels:
         yield from self._ghosts(tile)
 
     def _driven(self, marking: Marking) -> Marking:
-        """Paint in the middle of a lane, which is more worn than that beside it."""
+        """Increase the wear of paint in the middle of a lane."""
         worn = _WORN.get(marking.surface) if self.look.wear is Wear.WORN else None
         return replace(marking, surface=worn) if worn else marking
 
     def _edge_lines(self, tile: Tile) -> Iterator[Marking]:
-        """The yellow lines along closed edges without stalls, and around columns."""
+        """Yellow lines along closed edges without stalls, and around columns."""
         half_x, half_z, setback = tile.half_x_m, tile.half_z_m, self.grid.setback_m
         for edge in Edge:
             if not tile.drivable[edge] and not tile.stall_mouths[edge]:
@@ -160,7 +160,7 @@ class _Panels:
         )
 
     def _around(self, tile: Tile) -> ClosedSides:
-        """What closes a square; a door does not."""
+        """Closed edges and corners of a square; a door is open."""
         is_open = {edge for edge in Edge if tile.drivable[edge] or self.grid.doors.get(tile.square) is edge}
         corners = set()
         for corner in itertools.product((Edge.UP, Edge.DOWN), (Edge.LEFT, Edge.RIGHT)):
@@ -170,12 +170,12 @@ class _Panels:
         return ClosedSides(frozenset(Edge) - is_open, frozenset(corners))
 
     def _portal(self, tile: Tile) -> Iterator[Marking]:
-        """Arrows on a portal: into the garage on an entrance, out of it on an exit."""
+        """Arrows on a portal: inwards on an entrance, outwards on an exit."""
         inwards = lane_edges(tile)[0]
         yield self._driven(arrow(0.0, 0.0, inwards if tile.cell is Cell.ENTRANCE else inwards.opposite))
 
     def _ghosts(self, tile: Tile) -> Iterator[Marking]:
-        """The older lines before the stalls at a lane square's edges."""
+        """Ghost lines in front of the stalls at a lane square's edges."""
         for edge in Edge:
             beyond = edge.beyond(tile.square)
             if not tile.stall_mouths[edge] or beyond not in self.drawn.ghosts:
@@ -196,20 +196,20 @@ def floor_panels(
     crossings: Mapping[Square, float],
     cores: Mapping[Square, Core],
 ) -> list[Placement]:
-    """The floor of each square with its markings, open where stalls lie.
+    """Make the floor panel of each square with its markings, with openings for stalls.
 
     Parameters
     ----------
     grid
-        The squares.
+        Squares of the garage in metres.
     look, drawn
-        What is painted on them.
+        Settings of the look, and the drawn markings.
     bumps
         The speed bumps.
     crossings
-        Where on lanes crossings to the doors of cores lie, in metres along them from their middles.
+        Positions of the crossings to the doors of cores, in metres along their lanes from the square's centre.
     cores
-        The cores that stand among stalls, by their squares, whose landings are kept free.
+        Cores among stalls by their squares; their landings are kept free of markings.
     """
     panels = _Panels(grid, grid.bay, look, drawn)
     placements, with_bump = [], {bump.square for bump in bumps}
@@ -224,7 +224,7 @@ def floor_panels(
 
 
 def _trim(tile: Tile, edge: Edge, side: Edge, setback: float) -> float:
-    """How much an edge line is cut at the end on `side`, so that lines meet in a corner without overlap."""
+    """Trim of an edge line at the end on `side`, so that lines meet in a corner without overlap."""
     if tile.drivable[side]:
         return 0.0
     runs_behind = not edge.along_x and not tile.stall_mouths[side]

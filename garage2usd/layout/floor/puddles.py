@@ -1,4 +1,4 @@
-"""Puddles on lanes: where there are drains and before ramps more often than elsewhere."""
+"""Puddles on lanes, more frequent at drains and before ramps."""
 
 import math
 from collections.abc import Iterable, Mapping
@@ -17,13 +17,13 @@ from garage2usd.structure.stalls import Edge
 __all__ = ["puddles"]
 
 _LIFT_M = 0.0024
-"""Over the floor: above all stains, which show through the water."""
+"""Height above the floor: above all stains, which show through the water."""
 _SIZES_M = ((3.0, 2.0), (2.2, 1.4), (1.5, 1.1), (0.9, 0.7))
 _VARIANTS, _YAWS = 12, 16
 _LOW_WEIGHT = 3.0
-"""How many times as likely as elsewhere a puddle is in a low place: at a drain or before a ramp."""
+"""Relative probability of a puddle in a low place, at a drain or before a ramp."""
 _NUMBERS = 6
-"""Draws for each square: whether there is one, its variant, its size, its turn, and its place across and along."""
+"""Random numbers of each square: presence, variant, size, yaw, and position across and along."""
 _AROUND_DRAIN_M = 0.7
 _LEAST_DRAW = 1e-12
 
@@ -35,20 +35,20 @@ def puddles(
     bumps: Iterable[Placement],
     draws: SquareDraws,
 ) -> list[Placement]:
-    """The puddles of a share of the lane squares without a bump, clear of columns and stalls.
+    """Place puddles on a share of the lane squares without a bump, clear of columns and stalls.
 
-    A larger share has the puddles of a smaller one, and more.
+    The puddles of a larger share include those of a smaller one.
 
     Parameters
     ----------
     grid
-        The squares.
+        Squares of the garage in metres.
     wet
-        The share, 0 to 1; rounded to whole squares.
+        Share of the squares, 0 to 1; rounded to whole squares.
     drains
         All drains.
     bumps
-        The speed bumps, which water runs off.
+        Speed bumps; their squares stay dry.
     draws
         Random numbers for each square.
     """
@@ -60,7 +60,7 @@ def puddles(
     lanes = [tile for tile in grid if tile.cell is Cell.LANE and tile.square not in with_bump]
 
     def dryness(tile: Tile) -> float:
-        """The least ones of all squares are a sample by weight."""
+        """Sort key of a square for a weighted sample: the squares with the least keys are sampled."""
         is_low = tile.square in drain_on or _is_before_ramp(tile, grid)
         return -elementary.log(max(1.0 - float(numbers[tile.square][0]), _LEAST_DRAW)) / (
             _LOW_WEIGHT if is_low else 1.0
@@ -79,7 +79,7 @@ def _is_before_ramp(tile: Tile, grid: TileGrid) -> bool:
 def _puddle(
     tile: Tile, drain_on: Mapping[Square | None, tuple[Placement, DrainSpec]], grid: TileGrid, drawn: list[float]
 ) -> Placement:
-    """The puddle of one square: as large as is drawn, or as there is room for."""
+    """Puddle of one square, with the drawn size or the greatest that fits."""
     _, shape, size, turn, across, along = drawn
     yaw = int(turn * _YAWS) * (math.tau / _YAWS) - math.pi
     variant = int(shape * _VARIANTS)
@@ -92,7 +92,7 @@ def _puddle(
     x, z = (2 * across - 1) * room_x, (2 * along - 1) * room_z
     if tile.square in drain_on:
         drain, grating = drain_on[tile.square]
-        # water stands around a gully, and somewhere along a channel
+        # centred on a gully, or at a random position along a channel
         drain_x, drain_z = drain.position_m[0] - tile.x_m, drain.position_m[2] - tile.z_m
         aside_x, aside_z = (2 * across - 1) * _AROUND_DRAIN_M, (2 * along - 1) * _AROUND_DRAIN_M
         if not (grating.is_channel and drain.yaw_rad):
@@ -105,6 +105,6 @@ def _puddle(
 
 
 def _reach(width_m: float, depth_m: float, yaw_rad: float) -> tuple[float, float]:
-    """How far a turned rectangle reaches from its middle along X and Z."""
+    """Half extents along X and Z of a rotated rectangle."""
     corners = [to_world((side * width_m / 2, depth_m / 2), (0.0, 0.0), yaw_rad) for side in (-1, 1)]
     return max(abs(x) for x, _ in corners), max(abs(z) for _, z in corners)

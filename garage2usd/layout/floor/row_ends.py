@@ -1,4 +1,4 @@
-"""Hatched ground at the ends of rows of stalls, beside columns."""
+"""Hatching at the ends of rows of stalls, beside columns."""
 
 import shapely
 
@@ -11,13 +11,13 @@ from garage2usd.objects.panel import Marking, Paint, Surface
 __all__ = ["row_end_hatching"]
 
 _LEAST_M = 0.2
-"""Narrower ground stays bare."""
+"""Least width of hatched floor."""
 _STRIPE_M, _PERIOD_M = 0.14, 0.62
 _LEAST_M2 = 1e-4
 
 
 def row_end_hatching(tile: Tile, places: list[StallPlace], look: MarkingsLook) -> tuple[Marking, ...]:
-    """The hatching between the outermost stalls of a square and its sides; that of two squares meets in angles."""
+    """Hatch the floor between the outermost stalls of a square and its sides; adjacent hatchings form chevrons."""
     markings: list[Marking] = []
     line = look.line_width_m
     for place in places:
@@ -37,7 +37,7 @@ def row_end_hatching(tile: Tile, places: list[StallPlace], look: MarkingsLook) -
 
 
 def _stripes(inner: float, outer: float, length: float, line: float) -> list[tuple[tuple[float, float], ...]]:
-    """Frame and stripes by how far they lie along the row from its middle and inside its mouths."""
+    """Frame and stripes in coordinates along the row, from its centre, and inwards from the stalls' entries."""
     field = shapely.box(inner, line, outer, length - line)
     shapes = [rectangle(inner, 0.0, outer, line), rectangle(inner, length - line, outer, length)]
     wide = outer - inner

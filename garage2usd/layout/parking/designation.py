@@ -1,4 +1,4 @@
-"""What single stalls are for: accessible and charging stalls, their symbols and chargers."""
+"""Use of single stalls: accessible and charging stalls, their symbols and chargers."""
 
 import math
 from collections.abc import Iterable
@@ -31,15 +31,15 @@ _ROUNDING_M = 1e-6
 def with_designated_stalls(
     stalls: tuple[PlacedStall, ...], anchors: Iterable[Point], parking: ParkingConfig, profile: Profile
 ) -> tuple[PlacedStall, ...]:
-    """The same with the accessible stalls nearest to any of `anchors`, stair cores or doors, then the charging ones.
+    """Designate the stalls nearest to `anchors` (stair cores or doors) as accessible, and the next ones for charging.
 
     Notes
     -----
     An accessible stall needs an access aisle of 1.2 m (GB 50763, 3.14.3) or 60 in (ADA 502.3) beside it. Between the
-    columns there is no such room but another stall's: the standard stall beside becomes the aisle, and where one more
-    accessible stall is wanted, it is the one on the aisle's other side. A stall without such a neighbour in its row
-    is not made accessible. An aisle stays among the stalls, with its use, so that their number is the plan's; it gives
-    the accessible stalls beside it what their standard, or that of vans, asks for more than a stall's width.
+    columns only another stall has this space: the adjacent standard stall becomes the aisle, and the stall on its other
+    side the next accessible one, if more are required. A stall without such a neighbour in its row is not eligible. The
+    aisle remains in the list of stalls, with its use, so that their number equals the plan's; it yields to the
+    accessible stalls the width by which their standard, or that of vans, exceeds a stall's.
     """
     far_m = Points(list(anchors)).nearest_m(np.array([stall.centre_m for stall in stalls]).reshape(-1, 2)).tolist()
     accessible = _accessible_count(len(stalls), parking, profile)
@@ -77,9 +77,9 @@ def with_designated_stalls(
 def _divided(
     row: list[int], stalls: tuple[PlacedStall, ...], profile: Profile, vans: int
 ) -> tuple[list[int], AccessWidths | None]:
-    """An accessible stall, its aisle and, where there is room, the one beyond it, with their widths.
+    """Widths of an accessible stall, its aisle and, if there is space, the stall beyond it.
 
-    Stalls that take vans come first. Where not even one finds room, all stay as they are.
+    Van-accessible stalls come first. If not even one fits, the stalls are unchanged.
     """
     width_m = stalls[row[0]].width_m
     for most_vans in dict.fromkeys((vans, 0)):
@@ -92,7 +92,7 @@ def _divided(
 
 
 def _redrawn(row: list[PlacedStall], widths: AccessWidths | None) -> list[PlacedStall]:
-    """The stalls of a row from its first one on with other widths, on the same ground."""
+    """Stalls of a row, from its first one on, with other widths on the same area."""
     if widths is None or math.isclose(widths.aisle_m, row[0].width_m, abs_tol=_ROUNDING_M):
         return row
     first, *others = widths.stalls_m
@@ -102,7 +102,7 @@ def _redrawn(row: list[PlacedStall], widths: AccessWidths | None) -> list[Placed
     for stall, width_m in zip(row, (first, widths.aisle_m, *others), strict=True):
         middle_m = done_m + width_m / 2
         centre = rounded((x + step_x * middle_m, z + step_z * middle_m))
-        # the sides of an angled stall stay as long as they are
+        # the sides of an angled stall keep their length
         length_m = stall.length_m - (width_m - stall.width_m) * abs(stall.slope)
         redrawn.append(replace(stall, width_m=round(width_m, 6), length_m=round(length_m, 6), centre_m=centre))
         done_m += width_m
@@ -110,7 +110,7 @@ def _redrawn(row: list[PlacedStall], widths: AccessWidths | None) -> list[Placed
 
 
 def _accessible_count(stalls: int, parking: ParkingConfig, profile: Profile) -> int:
-    """How many stalls are accessible: the user's share, or what the profile asks for."""
+    """Number of accessible stalls: the user's share, or the number that the profile requires."""
     if parking.accessible_share is None and profile.accessible_stalls is not None:
         return profile.accessible_stalls.required(stalls)
     share = _ACCESSIBLE_SHARE if parking.accessible_share is None else parking.accessible_share
@@ -119,24 +119,24 @@ def _accessible_count(stalls: int, parking: ParkingConfig, profile: Profile) -> 
 
 
 def _access_aisle(index: int, stalls: tuple[PlacedStall, ...], uses: list[StallUse]) -> int | None:
-    """The standard stall beside one that its access aisle may take, rather one that has another on its other side."""
+    """Choose a standard stall beside an accessible one as access aisle, preferably with another on its far side."""
     beside = [other for other in (index - 1, index + 1) if _is_standard_beside(index, other, stalls, uses)]
     return max(beside, key=lambda aisle: _is_standard_beside(aisle, 2 * aisle - index, stalls, uses), default=None)
 
 
 def _is_standard_beside(index: int, other: int, stalls: tuple[PlacedStall, ...], uses: list[StallUse]) -> bool:
-    """Whether `other` is a standard stall in the same row as the stall of an index next to it."""
+    """True if `other` is a standard stall in the same row and adjacent to the stall at an index."""
     if not 0 <= other < len(stalls) or uses[other] is not StallUse.STANDARD:
         return False
     first, second = stalls[index], stalls[other]
-    # of three, the one in the middle may be left out
+    # the middle one of three stalls may be left out
     is_next = abs(first.ordinal - second.ordinal) == 1
     is_beside = is_next and (first.square, first.edge) == (second.square, second.edge)
     return is_beside and first.stall_kind is not StallKind.PARALLEL
 
 
 def use_symbol(use: StallUse) -> tuple[Marking, ...]:
-    """The white symbol of a stall's use, upright for a driver who enters; empty for a standard stall."""
+    """White symbol of a stall's use, upright for a driver who enters; empty for a standard stall."""
     if use is StallUse.EV:
         bolt = ((0.12, -0.75), (-0.38, 0.12), (-0.04, 0.12), (-0.16, 0.75), (0.38, -0.18), (0.03, -0.18))
         return (Marking(tuple((x, z + _SYMBOL_Z_M) for x, z in bolt), Surface.PAINT_WHITE, Paint.STALL_SYMBOL),)
@@ -146,7 +146,7 @@ def use_symbol(use: StallUse) -> tuple[Marking, ...]:
 
 
 def _wheelchair() -> list[tuple[Point, ...]]:
-    """The outlines of a wheelchair with its user, as polygons without holes."""
+    """Outlines of a wheelchair with its user, as polygons without holes."""
     head = shapely.Point(-0.1, -0.68).buffer(0.12, quad_segs=4)
     body = shapely.LineString([(-0.07, -0.5), (0.0, 0.0), (0.38, 0.0), (0.52, 0.46), (0.68, 0.41)])
     arm = shapely.LineString([(-0.04, -0.24), (0.32, -0.24)])
@@ -161,7 +161,7 @@ def _wheelchair() -> list[tuple[Point, ...]]:
 
 
 def chargers(stalls: tuple[PlacedStall, ...]) -> list[Placement]:
-    """A charging post at the rear of each charging stall, behind where cars end; beside them in parallel stalls."""
+    """Place a charging post at the rear of each charging stall, behind the car; beside the car in parallel stalls."""
     return [_charger(stall) for stall in stalls if stall.use is StallUse.EV]
 
 

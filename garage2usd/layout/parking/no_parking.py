@@ -1,4 +1,4 @@
-"""No-parking signs where a car would be in the way: on hatched squares, before cores, beside vehicle doors."""
+"""No-parking signs on hatched squares, in front of cores, and beside vehicle doors."""
 
 from collections.abc import Collection, Iterable
 
@@ -27,9 +27,9 @@ _FROM_JAMB_M, _FROM_WALL_M = 0.3, 0.4
 def no_parking_signs(
     grid: TileGrid, walls: Iterable[Placement], cores: Collection[Core], fittings: FittingsConfig, *, seed: int
 ) -> list[Placement]:
-    """A sign in the middle of some of the free squares that hold nothing, before each core, and beside each door.
+    """Place signs in the centre of some of the empty free squares, before each core, and beside each door.
 
-    A garage whose share of such squares is 0 has no signs.
+    There are none if the share of such squares is 0.
     """
     rng = generator(seed, Step.SIGNS)
     built_on = {core.square for core in cores}
@@ -46,9 +46,9 @@ def no_parking_signs(
 
 
 def _before_core(core: Core) -> Placement:
-    """At the end of the landing that is not beside a stall, looking at the lane."""
+    """Sign at the end of the landing that is not beside a stall, facing the lane."""
     away = -1 if core.along_m <= 0 else 1
-    # a core's own +X runs against its edge where it looks up or right
+    # a core's local +X is opposite to its edge's direction if it faces up or right
     turned = -1 if core.edge.name in {"UP", "RIGHT"} else 1
     across = turned * away * (core.width_m / 2 - _FROM_END_M)
     yaw = edge_yaw_rad(core.edge)
@@ -56,7 +56,7 @@ def _before_core(core: Core) -> Placement:
 
 
 def _beside_doors(grid: TileGrid, walls: Iterable[Placement]) -> list[Placement]:
-    """Inside each vehicle door, on the side without a gate, unless cars turn to that side."""
+    """Signs inside each vehicle door, on the side without a gate, unless cars turn to that side."""
     doors = {f"Portal_r{row:02d}_c{col:02d}_": (row, col) for row, col in door_edges(grid.structure.cells)}
     signs = []
     for wall, door in of_spec(walls, PortalSpec):
@@ -69,7 +69,7 @@ def _beside_doors(grid: TileGrid, walls: Iterable[Placement]) -> list[Placement]
 
 
 def _beside(wall: Placement, place: Point) -> Edge:
-    """The edge of a door's square that a place lies towards from the door's middle."""
+    """Edge of a door's square on the side of a point, as seen from the door's centre."""
     across_x, across_z = to_world((1.0, 0.0), (0.0, 0.0), wall.yaw_rad)
     off = (place[0] - wall.position_m[0]) * abs(across_x) + (place[1] - wall.position_m[2]) * abs(across_z)
     low, high = (Edge.LEFT, Edge.RIGHT) if abs(across_x) > abs(across_z) else (Edge.UP, Edge.DOWN)

@@ -1,4 +1,4 @@
-"""Parked cars that are models of one's own, in the places of cars of the catalogue."""
+"""Parked cars of the user's models, in place of cars of the catalogue."""
 
 from dataclasses import replace
 
@@ -14,22 +14,22 @@ from garage2usd.objects.car import CarSpec, car_spec
 __all__ = ["with_own_cars"]
 
 _CLEARANCE_M = 0.1
-"""From the lines and the entry of a stall."""
+"""Distance from the lines and the entry of a stall."""
 
 
 def with_own_cars(
     parked: ParkedCars, stalls: tuple[PlacedStall, ...], vehicles: VehiclesConfig, draws: SquareDraws
 ) -> ParkedCars:
-    """The parked cars, of which a share are models of one's own.
+    """Replace a share of the parked cars by models of the user.
 
-    Such a car stands as the one in whose place it is did: with the same yaw, and its rear or its nose as far from the
-    stall's rear. A car stays where no model fits between the lines there, and where it stands over a line itself. What
-    is drawn here moves no other car.
+    A model has the yaw of the car that it replaces, and its rear (or its nose) at the same distance from the stall's
+    rear. A car is kept if no model fits between the lines at its pose, or if it stands over a line. These draws move no
+    other car.
 
     Raises
     ------
     ConfigError
-        If the models are not those that the settings were read with.
+        If the models have changed since the settings were read.
     """
     if vehicles.models is None:
         return parked
@@ -52,16 +52,16 @@ def with_own_cars(
 
 
 def _in_place_of(car: Placement, spec: CarSpec, model: OwnCar, stall: PlacedStall) -> Placement | None:
-    """The car as a model, moved so that it is within its stall; None where the stall is too small."""
+    """Place a model instead of a car, moved so that it is within the stall; None if the stall is too small."""
     turn = car.yaw_rad - stall.yaw_rad
     is_reversed = elementary.cos(turn) < 0
-    # the place around the stall's middle, the mouth at +Z
+    # in the stall's coordinates, with its entry at +Z
     dx, dz = car.position_m[0] - stall.centre_m[0], car.position_m[2] - stall.centre_m[1]
     cos, sin = elementary.cos(stall.yaw_rad), elementary.sin(stall.yaw_rad)
     x, z = dx * cos - dz * sin, dx * sin + dz * cos
     half_x, half_z = model.half_extents_m(turn)
     side = stall.width_m / 2 - _CLEARANCE_M - half_x
-    # the wheels at the rear stand where those of the other car did, before the wheel stop
+    # the rear wheels keep their position in front of the wheel stop
     rear = z - _behind_wheels(spec.measures, is_reversed=is_reversed)
     z = rear + _behind_wheels(model, is_reversed=is_reversed)
     mouth = stall.length_m / 2 - _CLEARANCE_M - half_z
@@ -72,6 +72,6 @@ def _in_place_of(car: Placement, spec: CarSpec, model: OwnCar, stall: PlacedStal
 
 
 def _behind_wheels(body: CarBody, *, is_reversed: bool) -> float:
-    """From the tyres nearest to the stall's rear to the middle of a car."""
+    """Distance from the tyres nearest to the stall's rear to the centre of the car."""
     axle_m = body.rear_axle_m if is_reversed else body.length_m / 2 - body.front_overhang_m
     return axle_m + body.wheel_radius_m

@@ -1,5 +1,5 @@
-"""The cars parked in stalls: which stand there, and how people leave them."""
-# Over 300 lines: which car it is and where it stands depend on each other and on the cars beside it.
+"""Parked cars: bodies, poses and occupied stalls."""
+# Over 300 lines: body and pose of a car depend on each other and on the adjacent cars.
 
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -29,39 +29,39 @@ from garage2usd.structure.lane_graph import Square
 __all__ = ["ParkedCars", "fitting", "park_cars"]
 
 _END_CLEARANCE_M = 0.1
-"""Between a car and the mouth of its stall."""
+"""Distance between a car and the entry of its stall."""
 _REAR_CLEARANCE_M = 0.12
 _LINE_M = 0.05
-"""Half the width of a line: bodies of cars between their lines keep off it."""
+"""Half the width of a line, which car bodies between their lines do not touch."""
 _ROW_END_M = 0.03
-"""What mirrors keep inside the line at the end of a row, where columns and walls stand."""
+"""Distance of mirrors from the line at the end of a row, beside columns and walls."""
 _GAP_M = 0.1
-"""Between what stands out of two cars beside each other, mirrors included."""
+"""Distance between two adjacent cars, mirrors included."""
 _OVER_M = (0.01, 0.08)
-"""How far the body of a car reaches over the middle of a line that it stands over."""
+"""Range by which a car body reaches over the centre of a line."""
 _FAR_OVER_M = (0.25, 0.75)
-"""The same of a car that is misparked: its body is less than half in the next stall."""
+"""Range for a misparked car, whose body is less than half in the next stall."""
 _SLANT_DEG = (4.0, 12.0)
 _SLANTED_SHARE = 0.4
-"""Assumption: of the misparked cars, as far as the length of their stalls leaves room for it."""
+"""Share of the misparked cars at an angle, limited by the length of their stalls; an assumption."""
 _DRAWS_A_CAR, _HABITS, _STATES = 7, 4, 3
 _STEER_DEG = (-20.0, -10.0, 10.0, 20.0)
-"""How far wheels are left turned: few angles, so that cars share assets. Assumption."""
+"""Steering angles of parked cars; few, so that cars share assets. Assumption."""
 _TOUCH_M, _ROUNDING_M = 1e-3, 1e-9
 _USUAL = NormalDist()
 
 
 class ParkedCars(NamedTuple):
-    """The parked cars.
+    """The parked cars of a garage.
 
     Attributes
     ----------
     cars
         The cars, in the order of their stalls.
     reaching
-        Name of the stall of each car whose body stands over a line, and of the one beside that it reaches into.
+        For each car whose body stands over a line, the name of its stall and that of the stall that it reaches into.
     misparked
-        Names of the stalls of those that are misparked.
+        Names of the stalls of misparked cars.
     """
 
     cars: list[Placement]
@@ -70,13 +70,13 @@ class ParkedCars(NamedTuple):
 
     @property
     def touched(self) -> set[str]:
-        """Names of the stalls that cars stand in or reach into."""
+        """Names of the stalls that cars occupy or reach into."""
         return {car.stall for car in self.cars if car.stall}.union(self.reaching.values())
 
 
 @dataclass(frozen=True, slots=True)
 class _Car:
-    """A car before it has its place across the stall; lengths in metres, angles in radians."""
+    """A car before its lateral position in the stall is known; lengths in metres, angles in radians."""
 
     stall: PlacedStall
     body: CarBody
@@ -91,18 +91,18 @@ class _Car:
     is_lit: bool
 
     def half_x(self, *, mirrors: bool = True) -> float:
-        """Half its extent across the stall."""
-        # the arches of the wheels stand out of the body
+        """Half of its extent across the stall."""
+        # wheel arches protrude from the body
         width_m = None if mirrors else self.body.width_m + 0.02
         return self.body.half_extents_m(self.yaw, width_m=width_m)[0]
 
     @property
     def half_z(self) -> float:
-        """Half its extent along the stall."""
+        """Half of its extent along the stall."""
         return self.body.half_extents_m(self.yaw)[1]
 
     def placement(self, side_m: float) -> Placement:
-        """The car at a distance beside the middle of its stall."""
+        """The car at a lateral offset from the centre line of its stall."""
         rear_most = self.stall.length_m / 2 - _END_CLEARANCE_M - self.room_m + self.half_z
         along = rear_most + self.along_share * max(self.room_m - 2 * self.half_z, 0.0)
         turned = self.stall.yaw_rad + self.yaw + (math.pi if self.is_reversed else 0.0)
@@ -111,39 +111,41 @@ class _Car:
 
 
 class _Row:
-    """The stalls of a square beside each other, from the left as one looks out of their mouths, and their cars."""
+    """Adjacent stalls of a square, from the left as seen looking out of their entries, and their cars."""
 
     def __init__(self, stalls: Sequence[PlacedStall], cars: Mapping[str, _Car], tight: Collection[str]) -> None:
         self.stalls = stalls
         self.width_m = stalls[0].width_m
         self.numbers = [number for number, stall in enumerate(stalls) if stall.name in cars]
         self.cars = {number: cars[stalls[number].name] for number in self.numbers}
-        # far over a line a car of a slanted row would leave the row or stand on the wheel stop beside
+        # far over a line, a car of an angled row would leave the row or stand on the adjacent wheel stop
         self.takes_misparked = stalls[0].stall_kind is StallKind.PERPENDICULAR
         self.is_tight = any(stall.name in tight for stall in stalls)
         self.limits = {number: self._limits(number) for number in self.numbers}
         self.reaching: dict[int, int] = {}
         self.misparked: set[int] = set()
 
-    def is_lent(self, number: int) -> bool:
-        """Whether there is a stall of a number whose cars leave some of its side to the next one's."""
+    def yields_width(self, number: int) -> bool:
+        """True if a stall exists whose car can leave some of its width to the next one."""
         inside = 0 <= number < len(self.stalls)
         return inside and self.stalls[number].use in {StallUse.STANDARD, StallUse.EV} and not self.is_tight
 
     def free_beside(self, number: int) -> list[int]:
-        """Numbers of the stalls beside one that hold no car and that no car reaches into."""
-        beside = [other for other in (number - 1, number + 1) if self.takes_misparked and self.is_lent(other)]
+        """Indices of the adjacent stalls without a car of their own or one that reaches into them."""
+        beside = [other for other in (number - 1, number + 1) if self.takes_misparked and self.yields_width(other)]
         return [other for other in beside if other not in self.cars and other not in self.reaching.values()]
 
     def _limits(self, number: int) -> tuple[float, float]:
-        """From where to where the middle of a car between its lines lies."""
+        """Interval of a car's centre if it is between its lines."""
         car = self.cars[number]
         free_m = max(self.width_m / 2 - _LINE_M - car.half_x(mirrors=False), 0.0)
         walled_m = max(self.width_m / 2 - _ROW_END_M - car.half_x(), 0.0)
-        return -(free_m if self.is_lent(number - 1) else walled_m), free_m if self.is_lent(number + 1) else walled_m
+        return -(free_m if self.yields_width(number - 1) else walled_m), free_m if self.yields_width(
+            number + 1
+        ) else walled_m
 
     def _ranges(self) -> dict[int, tuple[float, float]] | None:
-        """The least and the greatest place of each car that leave room for all others; None where there is none."""
+        """Interval of each car's lateral offset that leaves space for all others; None if there is no solution."""
         least: dict[int, float] = {}
         most: dict[int, float] = {}
         for numbers, sign, found in ((self.numbers, 1, least), (self.numbers[::-1], -1, most)):
@@ -160,9 +162,9 @@ class _Row:
         return ranges if all(low <= high + _ROUNDING_M for low, high in ranges.values()) else None
 
     def lean(self, number: int, beside: int, over_m: float, yaw: float | None = None) -> bool:
-        """Let the body of a car reach so far into the stall beside; whether there is room for that.
+        """Let the body of a car reach into the adjacent stall by `over_m`; False if there is no space.
 
-        One that stands aslant reaches farther, as it keeps off its other line.
+        A car at an angle reaches farther, as it also keeps off its other line.
         """
         before, car, limits = self.cars[number], self.cars[number], self.limits[number]
         if yaw is not None:
@@ -178,7 +180,7 @@ class _Row:
         return True
 
     def places(self, spread_m: float) -> dict[int, float]:
-        """The place of each car beside the middle of its stall."""
+        """Lateral offset of each car from the centre line of its stall."""
         placed: dict[int, float] = {}
         ranges = self._ranges()
         assert ranges is not None
@@ -202,27 +204,26 @@ def park_cars(
     tight: Iterable[Stall] = (),
     held_back: Collection[str] = (),
 ) -> ParkedCars:
-    """Random cars, of which none touches another or leaves the length of its stall.
+    """Park random cars, without collisions and within the lengths of their stalls.
 
     Parameters
     ----------
     stalls
         All stalls.
     config
-        Which cars, how many, and how they stand; its profile's country is whose they are.
+        Occupancy, shares of bodies, paints and poses; the country of its profile selects the market.
     draws
         Random numbers.
     tight
-        Stalls whose cars keep their mirrors between the lines, with those beside them.
+        Stalls whose cars keep their mirrors between the lines, and so do adjacent cars.
     held_back
         Names of the stalls whose cars do not stand over a line.
 
     Notes
     -----
-    A car is drawn among the bodies that fit, then its yaw, then its place across the stall from what neighbours and
-    lines leave, by a normal distribution that is cut there. Every stall draws the same number of times, so that the
-    occupancy changes no other car. A car stands over a line only towards a stall of the same row, and far over only in
-    rows of perpendicular stalls.
+    A car is drawn among the bodies that fit, then its yaw, then its lateral offset from a normal distribution truncated
+    by neighbours and lines. Every stall uses the same number of draws, so that the occupancy changes no other car. A
+    car stands over a line only towards a stall of the same row, and far over only in rows of perpendicular stalls.
     """
     parking = config.parking
     most = max((stall.ordinal for stall in stalls), default=0)
@@ -262,9 +263,9 @@ def park_cars(
 def _car(
     stall: PlacedStall, drawn: Sequence[float], state: Sequence[float], fleet: Fleet, parking: ParkingConfig
 ) -> _Car | None:
-    """The car of a stall by its draws and those of the state that it was left in; None where no body fits."""
+    """Car of a stall by its random numbers, and those of its state; None if no body fits."""
     _, reverse, yaw_share, side_share, along_share, body_share, paint_share = drawn
-    # beside a lane and aslant cars stand as traffic flows; that they are backed in nowhere there is an assumption
+    # cars in parallel and angled stalls face along the traffic; assumes that nobody backs into them
     is_reversed = stall.stall_kind is StallKind.PERPENDICULAR and reverse < fleet.reversed_share
     bodies = fitting(stall.width_m, stall.length_m, is_reversed=is_reversed)
     if not bodies:
@@ -294,10 +295,9 @@ def _car(
 
 
 def _rows(stalls: Iterable[PlacedStall]) -> list[list[PlacedStall]]:
-    """The stalls that lie beside each other on a square, each row from the left as one looks out of their mouths.
+    """Rows of adjacent stalls on a square, from the left as seen looking out of their entries.
 
-    Angled stalls are as far apart across their sides as they are wide. Parallel ones lie one behind the other, each a
-    row of its own.
+    The distance of angled stalls across their sides is their width. Each parallel stall is a row of its own.
     """
     rows: list[list[PlacedStall]] = []
     of_side: dict[tuple[object, ...], list[PlacedStall]] = {}
@@ -322,7 +322,7 @@ def _lean_over(
     habits: Mapping[Square, NDArray[np.float64]],
     held_back: Collection[str],
 ) -> None:
-    """Let some cars stand over their lines, so many of those that can that they are the asked shares of all."""
+    """Shift some cars over their lines, as many of the eligible ones as the shares of all cars require."""
     count = sum(len(row.cars) for row in rows)
 
     def chance(share: float, able: int) -> float:
@@ -334,7 +334,7 @@ def _lean_over(
         return found
 
     misparking = chance(parking.misparked, sum(bool(row.free_beside(n)) for row in rows for n in row.numbers))
-    able = sum(row.is_lent(n - 1) or row.is_lent(n + 1) for row in rows for n in row.numbers)
+    able = sum(row.yields_width(n - 1) or row.yields_width(n + 1) for row in rows for n in row.numbers)
     leaning = chance(parking.over_line, able)
     for row in rows:
         for number in row.numbers:
@@ -351,19 +351,19 @@ def _lean_over(
                 low, high = _OVER_M
                 sides = (number - 1, number + 1) if side < 0.5 else (number + 1, number - 1)  # noqa: PLR2004
                 for beside in sides:
-                    if row.is_lent(beside) and row.lean(number, beside, low + depth * (high - low)):
+                    if row.yields_width(beside) and row.lean(number, beside, low + depth * (high - low)):
                         break
 
 
 def _slant(car: _Car, share: float, towards: int) -> float:
-    """The yaw of a car that stands aslant, as far as the length of its stall leaves room for."""
+    """Yaw of a car at an angle, limited by the length of its stall."""
     room_m = max(car.room_m - car.body.length_m, 0.0) / car.body.overall_width_m
     low, high = map(math.radians, _SLANT_DEG)
     return math.copysign(min(low + share * (high - low), elementary.arcsin(min(room_m, 1.0))), towards)
 
 
 def _occupancy(stalls: tuple[PlacedStall, ...], parking: ParkingConfig) -> dict[str, bool]:
-    """Whether a car stands in each stall that the configuration names."""
+    """Occupancy of the stalls named in the configuration."""
     uses = {stall.name: stall.use for stall in stalls}
     named = {}
     for field, holds_car in (("occupied_stalls", True), ("empty_stalls", False)):
@@ -384,7 +384,7 @@ def _occupancy(stalls: tuple[PlacedStall, ...], parking: ParkingConfig) -> dict[
 
 @lru_cache
 def fitting(width_m: float, length_m: float, *, is_reversed: bool) -> tuple[CarBody, ...]:
-    """The bodies that fit into a stall of some width and length in metres."""
+    """Bodies that fit a stall of a width and length in metres."""
     return tuple(
         body
         for body in CAR_BODIES
@@ -393,16 +393,16 @@ def fitting(width_m: float, length_m: float, *, is_reversed: bool) -> tuple[CarB
 
 
 def _room_m(length_m: float, body: CarBody, *, is_reversed: bool) -> float:
-    """Length of a stall that a car may take: short of its mouth, and with the tyres before the wheel stop."""
+    """Length of a stall usable by a car, from the entry to the tyres at the wheel stop."""
     overhang_m = body.length_m - body.wheelbase_m - body.front_overhang_m if is_reversed else body.front_overhang_m
-    # half the chord of a tyre at the stop's height
+    # half of the tyre's chord at the height of the wheel stop
     tyre_m = math.sqrt((2 * body.wheel_radius_m - WHEEL_STOP_HEIGHT_M) * WHEEL_STOP_HEIGHT_M)
     axle_m = WHEEL_STOP_FROM_REAR_M + WHEEL_STOP_WIDTH_M / 2 + tyre_m
     return length_m - _END_CLEARANCE_M - max(_REAR_CLEARANCE_M, axle_m - overhang_m)
 
 
 def _cut_normal(share: float, spread: float, low: float, high: float) -> float:
-    """The value at a share from 0 to 1 of a normal distribution around 0 that is cut at two values."""
+    """Quantile at `share` (0 to 1) of a normal distribution around 0, truncated to two bounds."""
     if spread <= 0 or high - low < _ROUNDING_M:
         return min(max(0.0, low), high)
     first, last = _USUAL.cdf(low / spread), _USUAL.cdf(high / spread)

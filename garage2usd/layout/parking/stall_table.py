@@ -1,4 +1,4 @@
-"""All stalls of a garage in columns, as light as its objects."""
+"""Column table of all stalls of a garage."""
 
 from collections.abc import Iterable
 
@@ -16,35 +16,35 @@ __all__ = ["STALL_USES", "StallTable"]
 
 EDGES, STALL_TYPES, STALL_USES = tuple(Edge), tuple(StallType), tuple(StallUse)
 STALL_SIZES = tuple(size.value for size in SizeClass)
-"""The edges, types, uses and size classes by the number that a table holds for each."""
+"""Size classes in the order of their numbers in the table."""
 _TYPE_NUMBERS = {stall_type: number for number, stall_type in enumerate(STALL_TYPES)}
 _SIZE_NUMBERS = {size: number for number, size in enumerate(STALL_SIZES)}
 _USE_NUMBERS = {use: number for number, use in enumerate(STALL_USES)}
 
 
 class StallTable(Table[PlacedStall]):
-    """The stalls of a garage: a sequence of them, and their columns as arrays.
+    """The stalls of a garage as a sequence, stored as one array per column.
 
     Attributes
     ----------
     square
-        (row, col) of the square that each lies on; int32, shape (n, 2).
+        (row, col) of each stall's square; int32, shape (n, 2).
     ordinal
-        Number of each on its square, from 1; uint16, shape (n,).
+        Number of each stall on its square, from 1; uint16, shape (n,).
     edge, stall_type, use
-        Number of each in `EDGES`, `STALL_TYPES` and `STALL_USES`; uint8, shape (n,).
+        Index of each in `EDGES`, `STALL_TYPES` and `STALL_USES`; uint8, shape (n,).
     centre_m, size_m
-        (x, z) of the middle, and width and length; float64, shape (n, 2).
+        (x, z) of the centre, and width and length; float64, shape (n, 2).
     yaw_rad
-        Turn of each about +Y; float64, shape (n,).
+        Rotation of each stall about +Y; float64, shape (n,).
     angle_deg
-        Angle of the long sides of each to its lane; float64, shape (n,).
+        Angle of each stall's long sides to its lane; float64, shape (n,).
     turn
-        1 for each that is entered by a turn to the right, else -1; int8, shape (n,).
+        1 for a stall entered by a right turn, else -1; int8, shape (n,).
     size
-        Number of the size class of each in `STALL_SIZES`; uint8, shape (n,).
+        Index of the size class in `STALL_SIZES`; uint8, shape (n,).
     number
-        What people read, as ASCII; shape (n,).
+        Painted number, as ASCII; shape (n,).
     """
 
     def __init__(self, stalls: Iterable[PlacedStall]) -> None:
@@ -68,12 +68,12 @@ class StallTable(Table[PlacedStall]):
 
     @property
     def takes_cars(self) -> NDArray[np.bool_]:
-        """Whether cars park in each one; bool, shape (n,)."""
+        """True if cars park in each stall; bool, shape (n,)."""
         return np.array([use.takes_cars for use in STALL_USES])[self.use]
 
     @property
     def access_square(self) -> NDArray[np.int32]:
-        """(row, col) of the lane square beyond each one's mouth; int32, shape (n, 2)."""
+        """(row, col) of the lane square at each stall's entry; int32, shape (n, 2)."""
         beyond: NDArray[np.int32] = self.square + np.array(NEIGHBOUR_STEPS, dtype=np.int32)[self.edge]
         return beyond
 
@@ -83,7 +83,7 @@ class StallTable(Table[PlacedStall]):
         return list(map(stall_name, zip(rows, cols, strict=True), self.ordinal.tolist()))
 
     def at(self, rows: NDArray[np.intp]) -> list[PlacedStall]:
-        """The stalls in some rows."""
+        """Return the stalls at some rows of the table."""
         columns = (
             self.square,
             self.ordinal,

@@ -1,4 +1,4 @@
-"""Stalls on the squares that lanes serve and their wheel stops."""
+"""Stalls on the squares along lanes: placement, turning stalls, floor panels and wheel stops."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -36,10 +36,10 @@ __all__ = [
 ]
 
 WHEEL_STOP_FROM_REAR_M = 0.55
-"""Middle of a wheel stop from the stall's rear: behind the front wheels of a car parked nose-in."""
+"""Distance of a wheel stop's centre from the stall's rear: behind the front wheels of a car parked nose-in."""
 _WHEEL_STOP_LENGTH_M, _LOWEST_WHEEL_STOP_M = 1.65, 0.05
 _WHEEL_STOP_GAP_M = 0.65
-"""Between the two blocks of a pair."""
+"""Gap between the two blocks of a pair."""
 _HATCH_MARGIN_M = 0.25
 _NEAR_STALLS = 12
 _COATINGS = {
@@ -55,7 +55,7 @@ _HATCHES = {
 
 
 def stalls_of(grid: TileGrid, graph: LaneSquares) -> tuple[PlacedStall, ...]:
-    """All stalls in reading order, numbered from 1 on each square."""
+    """Place all stalls in reading order, numbered from 1 on each square."""
     return tuple(
         PlacedStall(
             square=tile.square,
@@ -78,11 +78,11 @@ def stalls_of(grid: TileGrid, graph: LaneSquares) -> tuple[PlacedStall, ...]:
 def with_turning_stalls(
     stalls: tuple[PlacedStall, ...], grid: TileGrid, ends: Sequence[DeadEnd]
 ) -> tuple[PlacedStall, ...]:
-    """The same with a stall of each dead-end aisle kept free for turning.
+    """Mark one stall of each dead-end aisle as a turning stall, which is kept free.
 
-    It is the nearest to the aisle's tip of those that open onto the lane nearest to it, or where none opens onto the
-    aisle, the nearest of all. A stall that cars drive straight on into helps nobody to turn, and is only taken where
-    the aisle has no other.
+    It is the stall nearest to the aisle's tip among those that open onto the lane square nearest to the tip; if no
+    stall opens onto the aisle, the nearest of all. A stall that cars enter straight ahead does not help to turn, and is
+    chosen only if the aisle has no other.
     """
     if not ends:
         return stalls
@@ -97,12 +97,12 @@ def with_turning_stalls(
     places_m = np.array([stall.centre_m for stall in stalls])
     for end in ends:
         tile = grid.tiles[end.tip]
-        # rounded, so that of two as near the first is taken on every machine
+        # rounded, so that ties are broken equally on every machine
         apart_m2 = ((places_m - (tile.x_m, tile.z_m)) ** 2).sum(axis=1).round(6)
         nearest = np.argsort(apart_m2, kind="stable")[:_NEAR_STALLS]
         own = (index for square in end.squares for index in opening_on.get(square, ()))
         back = {square: squares_back for squares_back, square in enumerate(end.squares)}
-        # a stable sort: the nearest first among those that open onto the same lane
+        # a stable sort, which keeps stalls of one lane square sorted by distance
         for index in sorted(
             dict.fromkeys((*nearest.tolist(), *own)),
             key=lambda index: (
@@ -120,7 +120,7 @@ def with_turning_stalls(
 def stall_panels(
     stalls: tuple[PlacedStall, ...], look: MarkingsLook, grid: TileGrid, ghosts: Mapping[Square, int]
 ) -> list[Placement]:
-    """The floor of each stall with its lines, below them those of older rows by the squares that show them."""
+    """Make the floor panel of each stall with its lines, and ghost lines of older rows by square."""
     return [stall.placement("Stall", _with_ghosts(stall, look, grid, ghosts)) for stall in stalls]
 
 
@@ -151,7 +151,7 @@ def _stall_panel(
 ) -> StallSpec:
     slope, depth_m = turn * slope_of_angle(angle_deg), length_m
     if kind_of_angle(angle_deg) is StallKind.PARALLEL:
-        # the mouth is a long side
+        # the entry is a long side
         lines = _moved(stall_lines(length_m, width_m, look), lambda x, z: (-turn * z, turn * x))
     else:
         depth_m = round(length_m + width_m * abs(slope), 6)
@@ -164,7 +164,7 @@ def _stall_panel(
 
 
 def _moved(markings: Iterable[Marking], place: Callable[[float, float], Point]) -> tuple[Marking, ...]:
-    """Markings with each corner at another place."""
+    """Translate markings corner by corner with a function."""
 
     def corner(x: float, z: float) -> Point:
         new_x, new_z = place(x, z)
@@ -174,7 +174,7 @@ def _moved(markings: Iterable[Marking], place: Callable[[float, float], Point]) 
 
 
 def wheel_stops(stalls: tuple[PlacedStall, ...], fittings: FittingsConfig, profile: Profile) -> list[Placement]:
-    """A wheel stop near the rear of each stall that cars park in, unless that would be too low to stop a wheel."""
+    """Place a wheel stop near the rear of each stall for cars, unless the height limit makes it ineffective."""
     clause = profile.wheel_stop_height
     height_m = min(WHEEL_STOP_HEIGHT_M, clause.amount if clause else math.inf)
     if not fittings.wheel_stops or height_m < _LOWEST_WHEEL_STOP_M:

@@ -1,4 +1,4 @@
-"""Stalls that a car may not get into: those beside a narrow aisle, and narrow ones."""
+"""Tight stalls, which need a proof of access: stalls at a narrow aisle, and narrow stalls."""
 
 from collections.abc import Iterable
 
@@ -7,12 +7,12 @@ from garage2usd.garage import LaneGraph, Stall
 __all__ = ["tight_stalls"]
 
 _ROOMY_AISLE_M, _ROOMY_STALL_M = 5.5, 2.3
-"""From these on the design car gets into stalls at right angles with no more than a few changes of gear."""
+"""Aisle and stall widths at which the design car enters perpendicular stalls with few gear changes."""
 _ROUNDING_M = 1e-6
 
 
 def tight_stalls(lanes: LaneGraph, stalls: Iterable[Stall]) -> tuple[Stall, ...]:
-    """Stalls of which it is in doubt whether the design car gets into them, in their order."""
+    """Select the stalls that the design car may be unable to enter, in their order."""
     return tuple(
         stall
         for stall in stalls

@@ -23,18 +23,25 @@ _LEAST_ARROW_M = 4.0
 """Least length in metres of a stretch with an arrow."""
 _ARROWS_M = 15.0
 """Least distance in metres between arrows of a direction."""
+_LEAST_FLOOR_M2 = 0.01
 _LINE_M, _DASH_M, _LEAST_TWO_WAY_M = 0.12, 2.0, 4.5
 
 
 def surveyed_floor(ground: SurveyedGround, lanes: LaneGraph, stalls: Sequence[PlacedStall]) -> Iterator[Placement]:
-    """Yield the floor panel of each tile, with openings for the stalls and for what lies outside the outline."""
+    """Yield the floor panel of each tile, with openings for the stalls and for what lies outside the outline.
+
+    A tile that is all stalls has none.
+    """
     panels = shapely.STRtree([shapely.Polygon(stall.corners_m()) for stall in stalls])
     taken = panels.geometries
     paints = list(_paints(lanes))
     painted = shapely.STRtree([shape for shape, _, _ in paints])
     for tile in ground:
-        openings = [shape for index in sorted(panels.query(tile.box).tolist()) for shape in tile.local(taken[index])]
+        near = sorted(panels.query(tile.box).tolist())
+        openings = [shape for index in near for shape in tile.local(taken[index])]
         openings += tile.local(shapely.difference(tile.box, ground.polygon))
+        if shapely.union_all([shapely.Polygon(opening) for opening in openings]).area > tile.box.area - _LEAST_FLOOR_M2:
+            continue
         markings = [
             Marking(polygon, surface, paint)
             for index in sorted(painted.query(tile.box).tolist())

@@ -1,4 +1,4 @@
-"""A stage in a browser: read with pxr, sent once to a page of this package."""
+"""Viewer of a stage in a browser: the stage is read with pxr and sent once to the package's page."""
 
 from garage2usd.view.viewer.reading import read_scene
 from garage2usd.view.viewer.scene import Scene

@@ -1,4 +1,4 @@
-"""Colliders of a stage as lines."""
+"""Colliders of a stage as line drawings."""
 
 from contextlib import suppress
 
@@ -19,7 +19,7 @@ _BOX_EDGES = [(a, b) for a in range(8) for b in range(a + 1, 8) if (a ^ b).bit_c
 
 
 def collider_of(prim: Usd.Prim) -> str:
-    """How a prim collides, as UsdPhysics' token of approximation; empty where it does not."""
+    """Collision shape of a prim, as UsdPhysics' token of approximation; empty for a prim without collision."""
     if "PhysicsCollisionAPI" not in prim.GetAppliedSchemas():
         return ""
     enabled = prim.GetAttribute("physics:collisionEnabled").Get(READ_AT)
@@ -29,7 +29,7 @@ def collider_of(prim: Usd.Prim) -> str:
 
 
 def collider_lines(piece: Piece) -> NDArray[np.float32]:
-    """Pairs of points that draw what collides, in its object's space: edges of the box or hull, or the mesh's creases.
+    """Line segments of a collider in its object's space: edges of the box or hull, or creases of the mesh.
 
     Returns
     -------
@@ -48,13 +48,13 @@ def _lines(mesh: Triangles, approximation: str) -> NDArray[np.float32]:
     if approximation in _HULLS:
         from scipy.spatial import ConvexHull, QhullError  # noqa: PLC0415 - few ask for colliders, all wait for imports
 
-        with suppress(QhullError):  # of what is flat: its own triangles draw it as well
+        with suppress(QhullError):  # flat points have no hull; their triangles are drawn instead
             triangles = ConvexHull(points).simplices
     return _creases(points, triangles)
 
 
 def _creases(points: NDArray[np.float32], triangles: NDArray[np.int64]) -> NDArray[np.float32]:
-    """Edges of triangles, without those between two in one plane."""
+    """Edges of a triangle mesh, without those between coplanar triangles."""
     _, same = np.unique(np.round(points, 5), axis=0, return_inverse=True)
     places = points[triangles]
     normals = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
@@ -63,7 +63,7 @@ def _creases(points: NDArray[np.float32], triangles: NDArray[np.int64]) -> NDArr
     ends = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     _, first, inverse, counts = np.unique(edges, axis=0, return_index=True, return_inverse=True, return_counts=True)
     normal_of = np.repeat(normals, 3, axis=0)
-    # an edge is flat where all its triangles have the first one's normal, whichever way they face
+    # an edge is flat if the normals of all its triangles are parallel, regardless of sign
     along = np.abs((normal_of * normal_of[first][inverse.ravel()]).sum(axis=1)) > _CREASE_COS
     flat = np.bincount(inverse.ravel(), weights=along) == counts
     lines: NDArray[np.float32] = points[ends[first[~(flat & (counts > 1))]]]

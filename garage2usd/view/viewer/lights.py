@@ -1,4 +1,4 @@
-"""The lights of a stage as the viewer takes them."""
+"""Lights of a stage, converted for the viewer."""
 
 import numpy as np
 from pxr import Usd
@@ -11,16 +11,16 @@ __all__ = ["placed_light"]
 
 
 def placed_light(prim: Usd.Prim, within: Matrix, to_world: Matrix, metres_per_unit: float) -> Light:
-    """A light in its object's space.
+    """Convert a UsdLux light to its object's space.
 
     Parameters
     ----------
     prim
         The light.
     within, to_world
-        From its space to that of the object, and to the world, in metres.
+        Transforms from the light's space to that of the object, and to the world in metres.
     metres_per_unit
-        Of the stage.
+        Length unit of the stage.
     """
     source = light_of(prim, to_world, metres_per_unit)
     sizes = np.maximum(np.linalg.norm(to_world[:2, :3], axis=1), np.finfo(np.float64).tiny)

@@ -1,4 +1,4 @@
-"""What the objects of a stage look like: every shape once."""
+"""Shapes and palettes of a stage's objects, without duplicates."""
 
 from collections import Counter
 from functools import partial
@@ -22,24 +22,24 @@ from garage2usd.view.viewer.surfaces import ShownSurface, ShownSurfaces
 __all__ = ["Looks"]
 
 NOWHERE = DOMES | {"DistantLight"}
-"""Types of lights that shine from no place."""
+"""Types of lights without a position."""
 
 
 class Looks:
-    """Collects what is drawn: what is the same in several places is kept once.
+    """Collector of a stage's visible objects; equal shapes, palettes and surfaces are stored once.
 
     Attributes
     ----------
     drawn
-        The meshes and surfaces that they consist of.
+        Meshes and surfaces of the objects.
     shapes, palettes, surfaces
-        As `garage2usd.view.viewer.scene.Scene` numbers them.
+        As numbered by `garage2usd.view.viewer.scene.Scene`.
     shown
-        The textures of those.
+        Textures of the surfaces.
     undrawn
-        How many prims of each type cannot be drawn.
+        Number of prims of each type that cannot be drawn.
     remarks
-        What else is not shown.
+        Other things that are not shown.
     """
 
     def __init__(self) -> None:
@@ -52,7 +52,7 @@ class Looks:
         self.undrawn: Counter[str] = Counter()
 
     def objects(self, stage: Usd.Stage, to_metres: Matrix) -> list[Placed]:
-        """Every object of a stage that can be drawn; `to_metres` leads from the stage's space to metres, Y up."""
+        """Collect every drawable object of a stage; `to_metres` transforms the stage's space to metres, Y up."""
         units = metres_per_unit(stage)
         found, numbers_of = [], once_for_each_look(partial(self._shape, metres_per_unit=units))
         for placed in placed_objects(stage, to_metres):
@@ -62,8 +62,8 @@ class Looks:
         return found
 
     def _shape(self, placed: PlacedObject, metres_per_unit: float) -> tuple[int, int] | None:
-        """Numbers of the shape and the palette of an object; None where nothing of it can be drawn."""
-        meshes: list[tuple[int, Matrix, int, str]] = []  # mesh, place, surface, collider
+        """Numbers of an object's shape and palette; None if no part of it can be drawn."""
+        meshes: list[tuple[int, Matrix, int, str]] = []  # mesh, transform, surface, collider
         lights: list[Light] = []
         for part in placed.parts:
             kind = part.prim.GetTypeName()
@@ -80,7 +80,7 @@ class Looks:
         return self._numbered(meshes, lights) if meshes or lights else None
 
     def _numbered(self, meshes: list[tuple[int, Matrix, int, str]], lights: list[Light]) -> tuple[int, int]:
-        """Numbers of the shape and the palette that these make."""
+        """Numbers of the shape and the palette made of these meshes and lights."""
         palette = tuple(dict.fromkeys(surface for _, _, surface, _ in meshes))
         pieces, keys = [], []
         for mesh, matrix, number, collider in meshes:
@@ -93,7 +93,7 @@ class Looks:
         return self.shapes.number(Shape(pieces, lights), key), self.palettes.number(palette, palette)
 
     def _surface(self, number: int) -> ShownSurface:
-        """A surface of what is drawn as the page has it."""
+        """Convert a surface for the page."""
         for look in self.drawn.surfaces.values[len(self.surfaces) : number + 1]:
             self.surfaces.append(self.shown.of(look))
         return self.surfaces[number]

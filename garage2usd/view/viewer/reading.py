@@ -1,4 +1,4 @@
-"""A stage's file read as a scene."""
+"""Reading of a stage's file as a viewer scene."""
 
 from pathlib import Path
 from typing import Any
@@ -20,19 +20,19 @@ _FACTS = ("generator", "version", "seed", "configDigest", "structureDigest")
 
 
 def read_scene(stage: Usd.Stage, path: Path) -> Scene:
-    """Everything that the viewer shows of a stage.
+    """Read a stage as a viewer scene.
 
     Parameters
     ----------
     stage
         The stage.
     path
-        Its file; ``<stem>_labels.json`` beside it gives the instance ids.
+        The stage's file; ``<stem>_labels.json`` beside it provides the instance ids.
 
     Raises
     ------
     StageError
-        If nothing in the stage can be drawn, or the file beside it is not a table of labels.
+        If nothing in the stage can be drawn, or the file beside it is not a label table.
     """
     looks = Looks()
     objects = looks.objects(stage, metres_y_up(stage))
@@ -63,7 +63,7 @@ def _facts(stage: Usd.Stage) -> dict[str, str]:
 
 
 def _ids(path: Path) -> dict[str, int]:
-    """Instance id of each object by its path; empty without a table."""
+    """Instance id of each object by its path; empty without a label table."""
     table = read_label_table(path)
     return {path: entry.id for path, entry in table.by_path()} if table else {}
 
@@ -77,7 +77,7 @@ def _bounds_m(objects: list[Placed], shapes: list[Shape]) -> NDArray[np.float64]
 
 
 def _corners(shape: Shape) -> NDArray[np.float64]:
-    """Eight corners of a shape's bounds in its own space; its lights where it has no triangles."""
+    """Eight corners of a shape's bounding box in its own space; those of its lights if it has no triangles."""
     points: list[NDArray[Any]] = [moved(piece.mesh.positions_m, piece.matrix) for piece in shape.pieces]
     points = points or [light.matrix[3:, :3] for light in shape.lights]
     return box_corners(np.concatenate(points)).astype(np.float64)

@@ -1,4 +1,4 @@
-"""A stage as the viewer draws it: every object with its class and place, every shape once."""
+"""The viewer's scene: every object of a stage with its class and transform, every shape once."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -16,38 +16,38 @@ from garage2usd.view.viewer.surfaces import ShownSurface
 __all__ = ["UNLABELLED", "Light", "Piece", "Placed", "Scene", "Shape", "box_corners", "moved"]
 
 UNLABELLED = "unlabelled"
-"""Class of what the stage gives no semantic label."""
+"""Class of objects without a semantic label."""
 
 
 def moved(points_m: NDArray[Any], place: NDArray[np.float64]) -> NDArray[np.float32]:
-    """Points, shape (..., 3), in another space; `place` is of shape (4, 4), points as rows."""
+    """Transform points, shape (..., 3), by a matrix, shape (4, 4), with points as rows."""
     found: NDArray[np.float32] = (points_m @ place[:3, :3] + place[3, :3]).astype(np.float32)
     return found
 
 
 def box_corners(points: NDArray[Any]) -> NDArray[Any]:
-    """The eight corners of the box around points, X changing fastest; shape (8, 3)."""
+    """Eight corners of the bounding box of points, X changing fastest; shape (8, 3)."""
     pair = points.min(axis=0), points.max(axis=0)
     return np.array([[pair[corner >> axis & 1][axis] for axis in range(3)] for corner in range(8)])
 
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """A mesh in its object's space, with one surface.
+    """A mesh of a shape in the object's space, with one surface.
 
     Attributes
     ----------
     mesh, matrix
-        The triangles, and where they stand; float64, shape (4, 4), points as rows.
+        The triangles, and their transform; float64, shape (4, 4), points as rows.
     coordinates
-        Where the vertices are on the texture of their surface; float32, shape (vertices, 2).
+        Texture coordinates of the vertices; float32, shape (vertices, 2).
     slot
-        Which of the surfaces of the object's palette it has.
+        Index of its surface in the object's palette.
     is_blended
-        Whether what is behind it shows through.
+        Whether the surface is translucent.
     collider
-        What a physics engine makes of it, as UsdPhysics' token: ``none`` for the triangles themselves, ``convexHull``,
-        ``boundingCube`` and others; empty where nothing collides with it.
+        Collision shape as UsdPhysics' token: ``none`` for the triangles themselves, ``convexHull``, ``boundingCube``
+        and others; empty without collision.
     """
 
     mesh: Triangles
@@ -65,15 +65,15 @@ class Light:
     Attributes
     ----------
     kind
-        Its UsdLux type.
+        UsdLux type.
     matrix
         float64, shape (4, 4), points as rows.
     width_m, height_m
-        Its sides, or its diameter twice.
+        Side lengths, or the diameter twice.
     colour_rgb
-        Linear.
+        Linear colour.
     candela
-        Along -Z.
+        Luminous intensity along -Z.
     """
 
     kind: str
@@ -84,11 +84,11 @@ class Light:
     candela: float
 
     def moved(self, place: NDArray[np.float64]) -> "Light":
-        """The same elsewhere."""
+        """Return the light transformed by a matrix."""
         return replace(self, matrix=self.matrix @ place)
 
     def key(self) -> tuple[object, ...]:
-        """Equal for lights that are equal in all."""
+        """Key of the light, equal for equal lights."""
         return (
             self.kind,
             self.matrix.tobytes(),
@@ -101,33 +101,33 @@ class Light:
 
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """What an object looks like in its own space; objects that differ in colour alone share one."""
+    """Shape of an object in its own space; objects that differ only in colour share one."""
 
     pieces: Sequence[Piece]
     lights: Sequence[Light] = ()
 
     @property
     def colliders(self) -> list[Piece]:
-        """The pieces that something can collide with."""
+        """Pieces with a collision shape."""
         return [piece for piece in self.pieces if piece.collider]
 
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """Where an object stands and what it is.
+    """An object of the scene: its prim, class and transform.
 
     Attributes
     ----------
     path
-        Its prim, or ``path[index]`` for a point of an instancer.
+        Path of its prim, or ``path[index]`` for a point of an instancer.
     label
-        Its semantic class, or `UNLABELLED`.
+        Semantic class, or `UNLABELLED`.
     square
-        What the label of the square says that it stands on; empty for none.
+        Label of the square on which it stands; empty without one.
     shape, palette
-        Numbers of its shape and palette in the scene.
+        Indices of its shape and palette in the scene.
     matrix
-        To the world; float64, shape (4, 4), points as rows.
+        Transform to the world; float64, shape (4, 4), points as rows.
     """
 
     path: str
@@ -140,28 +140,28 @@ class Placed:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """A stage, ready to be drawn; metres, Y up.
+    """A stage prepared for drawing, in metres, Y up.
 
     Attributes
     ----------
     name
         The stage's file name.
     facts
-        What the stage says of itself, by name.
+        Metadata of the stage, by name.
     objects
         Every object.
     shapes, palettes, surfaces
-        What they look like: a palette is the numbers of surfaces by slot.
+        Their geometry and surfaces; a palette has the index of a surface for each slot.
     textures, pictures
-        What each texture that the surfaces refer to shows, and what that is taken from.
+        Textures of the surfaces, and the images from which they are taken.
     lanes
-        The lane graph and the stalls, as far as they are sound.
+        Lane graph and stalls, as far as they are valid.
     ids
-        Instance id of each object by its path, where a label table stands beside the stage.
+        Instance id of each object by its path; empty without a label table beside the stage.
     bounds_m
-        Least and greatest corner of all; float64, shape (2, 3).
+        Least and greatest corner of the scene; float64, shape (2, 3).
     remarks
-        What is not shown, in words.
+        Descriptions of everything that is not shown.
     """
 
     name: str
@@ -178,6 +178,6 @@ class Scene:
     remarks: Sequence[str] = field(default_factory=tuple)
 
     def counts(self) -> dict[str, int]:
-        """How many objects each class has, the most first."""
+        """Number of objects of each class, in descending order."""
         counts = Counter(placed.label for placed in self.objects)
         return dict(sorted(counts.items(), key=lambda item: (-item[1], item[0])))

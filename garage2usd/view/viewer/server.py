@@ -1,4 +1,4 @@
-"""The server of the viewer's page: this machine alone, fixed paths alone, nothing written."""
+"""HTTP server of the viewer: loopback interface and fixed paths only, nothing is written."""
 
 import http.server
 import re
@@ -23,7 +23,7 @@ _BINARY = "application/octet-stream"
 _NUMBER = re.compile(r"[0-9]{1,6}")
 _MOST_TEXTURE_BYTES = 1 << 26
 _HEADERS = {
-    # WebAssembly is what makes coarse meshes of fine ones
+    # WebAssembly is needed for mesh simplification
     "Content-Security-Policy": "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; "
     "img-src 'self' blob: data:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
     "Cross-Origin-Resource-Policy": "same-origin",
@@ -36,7 +36,7 @@ _Answer = tuple[str, bytes]
 
 
 def page_files() -> Mapping[str, _Answer]:
-    """Type and bytes of each file of the page by its path on the server."""
+    """Load the files of the page: content type and bytes by path on the server."""
     found: dict[str, _Answer] = {}
     for file in (resources.files("garage2usd") / "view" / "page").iterdir():
         suffix = file.name[file.name.rfind(".") :]
@@ -47,23 +47,23 @@ def page_files() -> Mapping[str, _Answer]:
 
 
 class ViewerServer:
-    """Serves the page and, once one is shown, a scene, on the loopback interface until it is closed.
+    """Server of the viewer page and a scene on the loopback interface, until it is closed.
 
     Parameters
     ----------
     port
-        TCP port; 0 for any that is free.
+        TCP port; 0 for any free port.
 
     Raises
     ------
     OutputError
-        If the port cannot be had.
+        If the port is not available.
 
     Notes
     -----
-    A request is answered from a table of paths made beforehand, so that none can reach another file; textures go by
-    number, and only where their bytes are an image. Requests whose Host is not this server's are refused, so that no
-    foreign name that was pointed here (DNS rebinding) can read the stage.
+    Requests are answered from a table of paths made in advance, so that no other file can be reached. Textures are
+    addressed by index and sent only if their bytes are an image. Requests with a different Host header are rejected, so
+    that no foreign host name that resolves to this machine (DNS rebinding) can read the stage.
     """
 
     def __init__(self, port: int = 0) -> None:
@@ -80,7 +80,7 @@ class ViewerServer:
 
     @property
     def port(self) -> int:
-        """The port that it listens on."""
+        """TCP port of the server."""
         return int(self._server.server_address[1])
 
     @property
@@ -90,31 +90,31 @@ class ViewerServer:
 
     @property
     def hosts(self) -> frozenset[str]:
-        """What a request may call this server."""
+        """Accepted values of the Host header."""
         return frozenset(f"{name}:{self.port}" for name in (HOST, "localhost"))
 
     def __enter__(self) -> Self:
-        """Start to answer."""
+        """Start to answer requests."""
         self._thread.start()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Stop, and free the port."""
-        self._ready.set()  # nobody waits any longer
+        """Stop the server and free the port."""
+        self._ready.set()  # releases requests that wait for a scene
         self._server.shutdown()
         self._thread.join()
         self._server.server_close()
 
     def show(self, scene: Scene) -> None:
-        """Answer requests for the scene, which wait until then."""
+        """Publish a scene; requests for it wait until then."""
         self._encoded = encode_scene(scene)
         self._scene = scene
         self._ready.set()
 
     def answer(self, path: str) -> _Answer | None:
-        """Type and bytes of what stands at a path; None for nothing."""
+        """Content type and bytes for a path; None if there are none."""
         if path in {_SCENE, _COLLIDERS}:
             self._ready.wait()
             if self._scene is None:
@@ -130,7 +130,7 @@ class ViewerServer:
         if scene is None or not _NUMBER.fullmatch(number) or int(number) >= len(scene.textures):
             return None
         bands = scene.textures[int(number)]
-        # a channel of its own holds a number, and is no colour
+        # a single channel holds a number, not a colour
         shown = scene.pictures.composed(bands, is_srgb=all(band is not None for band in bands))
         return (shown.kind, shown.data) if len(shown.data) <= _MOST_TEXTURE_BYTES else None
 
@@ -147,15 +147,15 @@ class _Handler(http.server.BaseHTTPRequestHandler):
     server: _Listener
 
     def version_string(self) -> str:
-        """What it calls itself."""
+        """Value of the Server header."""
         return "garage2usd"
 
     def do_GET(self) -> None:
-        """Answer a request."""
+        """Answer a GET request."""
         self._respond(with_body=True)
 
     def do_HEAD(self) -> None:
-        """Answer a request without its bytes."""
+        """Answer a HEAD request."""
         self._respond(with_body=False)
 
     def _respond(self, *, with_body: bool) -> None:
@@ -179,10 +179,10 @@ class _Handler(http.server.BaseHTTPRequestHandler):
             self.wfile.write(body)
 
     def log_message(self, format: str, *args: object) -> None:  # noqa: A002 - the name in the base class
-        """Keep quiet."""
+        """Suppress log messages."""
 
     def handle(self) -> None:
-        """Answer until the other side goes, which is not an error."""
+        """Handle requests; a connection closed by the client is not an error."""
         try:
             super().handle()
         except (ConnectionError, TimeoutError):

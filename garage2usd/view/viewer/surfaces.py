@@ -1,4 +1,4 @@
-"""Surfaces as the page draws them."""
+"""Surfaces in the form in which the page draws them."""
 
 from typing import NamedTuple
 
@@ -14,20 +14,20 @@ _NONE = -1
 
 
 class ShownSurface(NamedTuple):
-    """A surface with one texture of its colour and its opacity or roughness.
+    """A surface with at most one texture each for colour with opacity, roughness and metallic.
 
     Attributes
     ----------
     colour_rgb, emissive_rgb, roughness, metallic, opacity, clearcoat, opacity_threshold
-        As `garage2usd.reading.surfaces.SurfaceLook` has them; with a texture the factors that it is multiplied with.
+        As in `garage2usd.reading.surfaces.SurfaceLook`; factors on the texture if there is one.
     colour_texture, roughness_texture, metallic_texture
-        Numbers of textures; -1 for none.
+        Indices of textures; -1 for none.
     roughness_channel, metallic_channel
-        Which channel of its texture each is.
+        Channel of the texture.
     has_alpha
-        Whether the colour's texture says how opaque it is.
+        Whether the colour texture has an alpha channel.
     set, layout
-        Which texture coordinates the textures are read at, and how they lie.
+        Set of texture coordinates, and the transform of the texture.
     """
 
     colour_rgb: Rgb
@@ -48,24 +48,24 @@ class ShownSurface(NamedTuple):
 
     @property
     def is_blended(self) -> bool:
-        """Whether what lies behind it shows."""
+        """True if the surface is translucent."""
         return self.has_alpha or self.opacity < 1
 
 
 class ShownSurfaces:
-    """Makes surfaces for the page, and collects the textures that they refer to.
+    """Converter of surfaces for the page, which collects their textures.
 
     Parameters
     ----------
     pictures
-        What textures show.
+        Images of textures.
     remarks
-        Told of what the page cannot show.
+        Called with everything that the page cannot show.
 
     Attributes
     ----------
     textures
-        What each shows.
+        Image of each texture.
     """
 
     def __init__(self, pictures: Pictures, remarks: Remarks) -> None:
@@ -73,7 +73,7 @@ class ShownSurfaces:
         self._pictures, self._remarks = pictures, remarks
 
     def of(self, look: SurfaceLook) -> ShownSurface:
-        """A surface as the page draws it."""
+        """Convert a surface for the page."""
         base = base_colour_of(look, self._pictures, self._remarks)
         rough, metal, layout = look.roughness_texture, look.metallic_texture, Layout()
         roughness, metallic = look.roughness, look.metallic
@@ -103,7 +103,7 @@ class ShownSurfaces:
         )
 
     def _channel(self, name: str, texture: Texture | None) -> dict[str, int]:
-        """Number and channel of a texture that is a number."""
+        """Index and channel of a texture for a scalar input."""
         if texture is None:
             return {f"{name}_texture": _NONE, f"{name}_channel": 0}
         band = texture.band()

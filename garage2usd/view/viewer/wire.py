@@ -1,8 +1,8 @@
-"""The bytes in which a scene goes to the page: a JSON header, then arrays.
+"""Binary format of a scene sent to the page: a JSON header, then arrays.
 
-``G2UV``, the header's length in bytes as uint32 (little endian), the header padded with blanks to four bytes, and the
-arrays one after the other, each at a multiple of four bytes. The header names each as ``{"at", "count"}`` in elements
-of its type.
+``G2UV``, the header's length in bytes as uint32 (little endian), the header padded with blanks to a multiple of four
+bytes, and the arrays, each aligned to four bytes. The header refers to each array by ``{"at", "count"}`` in elements of
+its type.
 """
 
 import json
@@ -24,7 +24,7 @@ _ALIGNMENT = 4
 
 
 def encode_scene(scene: Scene) -> bytes:
-    """A scene as the page reads it (``web/src/scene_file.ts``)."""
+    """Encode a scene in the format that the page reads (``web/src/scene_file.ts``)."""
     buffers = _Buffers()
     shapes = _shapes(scene.shapes, buffers)
     labels = list(scene.counts())
@@ -50,7 +50,7 @@ def encode_scene(scene: Scene) -> bytes:
             "square": buffers.add(np.array([square_of[placed.square] for placed in scene.objects], np.uint32)),
             "shape": buffers.add(np.array([placed.shape for placed in scene.objects], np.uint32)),
             "palette": buffers.add(np.array([placed.palette for placed in scene.objects], np.uint32)),
-            # points as rows: the first three columns, one after the other, are the rows that a shader multiplies with
+            # points are rows, so that the first three columns are the rows of the shader's matrix
             "matrix": buffers.add(matrices[:, :, :3].transpose(0, 2, 1).astype(np.float32)),
         },
         "lanes": _lanes(scene.lanes, buffers) if scene.lanes.nodes or scene.lanes.stalls else None,
@@ -62,14 +62,14 @@ def encode_scene(scene: Scene) -> bytes:
 
 
 def encode_colliders(scene: Scene) -> bytes:
-    """The lines that draw each shape's colliders: a uint32 a shape, the number of its points, then all as float32."""
+    """Encode the lines of each shape's colliders: a uint32 count of points per shape, then all points as float32."""
     lines = [[collider_lines(collider) for collider in shape.colliders] for shape in scene.shapes]
     counts = np.array([sum(2 * len(own) for own in shape) for shape in lines], dtype=np.uint32)
     return counts.tobytes() + b"".join(own.tobytes() for shape in lines for own in shape)
 
 
 class _Buffers:
-    """Arrays on their way into the file."""
+    """Arrays to be appended to the file."""
 
     def __init__(self) -> None:
         self.parts: list[bytes] = []
@@ -77,7 +77,7 @@ class _Buffers:
         self._bytes = 0
 
     def add(self, values: NDArray[Any]) -> int:
-        """Number of an array that is appended."""
+        """Append an array; return its index."""
         data = np.ascontiguousarray(values).tobytes()
         data += bytes(-len(data) % _ALIGNMENT)
         self.places.append({"at": self._bytes, "count": int(values.size)})
@@ -87,7 +87,7 @@ class _Buffers:
 
 
 def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
-    """All shapes, their vertices and indices one after the other; what is blended comes last in each."""
+    """Header of all shapes; appends their vertices and indices, translucent pieces last."""
     entries = []
     positions: list[NDArray[Any]] = []
     normals: list[NDArray[Any]] = []

@@ -21,8 +21,8 @@ def run(recipe, digest_of, order):
     """The plans of a recipe whose plans are fakes, made in an order."""
     draw = PlanDraw(recipe)
     count = 0
-    while asked := draw.asked():
-        made = [fake(number, attempt, digest_of(number, attempt)) for number, attempt in asked]
+    while requests := draw.missing():
+        made = [fake(number, attempt, digest_of(number, attempt)) for number, attempt in requests]
         count += len(made)
         for place in order.permutation(len(made)):
             draw.add([made[place]])
@@ -66,9 +66,9 @@ def test_a_recipe_by_which_no_garage_is_possible_is_refused():
     recipe = small_recipe(count=2, attempts=2, garage={"site": {"structure": "E#X"}})
     draw = PlanDraw(recipe)
     for _ in range(2):
-        draw.add(planned(recipe, draw.asked()))
+        draw.add(planned(recipe, draw.missing()))
     with pytest.raises(ConfigError, match=r"^garage: got .*; allowed: settings by which one of 2 garages is possible$"):
-        draw.asked()
+        draw.missing()
 
 
 def test_plans_survive_their_table_and_become_the_same_garages_again():
@@ -88,10 +88,10 @@ def test_levels_are_drawn_until_each_has_its_share():
     recipe = small_recipe(count=6, difficulty={"normal": 1, "extreme": 2}, attempts=8)
     levels = {0: "normal", 1: "complex", 2: "extreme"}
     draw = PlanDraw(recipe)
-    while asked := draw.asked():
+    while requests := draw.missing():
         draw.add(
             fake(number, attempt, f"{number}-{attempt}").model_copy(update={"level": levels[(number + attempt) % 3]})
-            for number, attempt in asked
+            for number, attempt in requests
         )
     found = [drawn.level for drawn in draw.plans()]
     assert (found.count("normal"), found.count("extreme")) == (2, 4)
@@ -103,10 +103,10 @@ def test_levels_that_a_recipe_does_not_reach_are_one_error():
     for attempt in range(3):
         draw.add(
             fake(number, attempt, f"{number}-{attempt}").model_copy(update={"level": "normal"})
-            for number, _ in draw.asked()
+            for number, _ in draw.missing()
         )
     with pytest.raises(ConfigError, match=r"^difficulty: got .* 3 attempts each; not found were 2 of 2 extreme$"):
-        draw.asked()
+        draw.missing()
 
 
 def test_plans_say_their_level_where_it_is_asked_for():
