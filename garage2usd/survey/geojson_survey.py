@@ -16,7 +16,7 @@ __all__ = ["read_geojson_survey"]
 
 Floats = NDArray[np.float64]
 
-_KIND_KEYS = ("kind", "type", "amenity", "service", "entrance")
+_KIND_KEYS = ("kind", "type", "amenity", "service", "entrance", "highway")
 _KINDS = {
     "stall": "stall",
     "parking_space": "stall",
@@ -24,6 +24,7 @@ _KINDS = {
     "lane": "lane",
     "aisle": "lane",
     "parking_aisle": "lane",
+    "service": "lane",
     "column": "column",
     "pillar": "column",
     "outline": "outline",
@@ -61,10 +62,10 @@ def read_geojson_survey(path: Path) -> Survey:
     path
         A FeatureCollection or a Feature. Positions are longitude and latitude, or with the member
         ``"coordinates": "metres"`` of the outermost object metres east and north. The first of the properties ``kind``,
-        ``type``, ``amenity``, ``service`` and ``entrance`` that has a known value tells what a feature is: ``stall`` or
-        ``parking_space``, ``lane`` or ``parking_aisle`` (with ``width``, ``oneway``), ``column`` (with ``size_m`` if it
-        is a point), ``entrance``, ``exit`` or ``portal``, and ``outline`` or ``parking``. Stalls may have ``use``,
-        ``size`` and ``number``.
+        ``type``, ``amenity``, ``service``, ``entrance`` and ``highway`` that has a known value tells what a feature is:
+        ``stall`` or ``parking_space``, ``lane``, ``parking_aisle`` or ``service`` (with ``width``, ``oneway``),
+        ``column`` (with ``size_m`` if it is a point), ``entrance``, ``exit`` or ``portal``, and ``outline`` or
+        ``parking``. Stalls may have ``use``, ``size`` and ``number``.
 
     Raises
     ------

@@ -75,7 +75,9 @@ def read_opendrive_survey(path: Path) -> Survey:
 
 
 def _origin(root: ET.Element) -> tuple[float, float] | None:
-    """Return latitude and longitude of (0, 0) of a transverse Mercator; None for other projections."""
+    """Return latitude and longitude of (0, 0) of a transverse Mercator; None for other projections and for offsets."""
+    if root.find("header/offset") is not None:
+        return None
     facts = dict(_DEGREES.findall(root.findtext("header/geoReference", "")))
     if facts.get("proj") != "tmerc" or any(_float_of(facts.get(key, "0")) != 0 for key in ("x_0", "y_0")):
         return None

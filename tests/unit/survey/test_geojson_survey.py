@@ -41,7 +41,7 @@ def test_every_kind_of_feature_is_read(tmp_path):
             feature(STALL, kind="stall", name="A", use="ev", size="van", number=7),
             feature(shapely.MultiPolygon([shapely.box(5, 0, 7, 5), shapely.box(7, 0, 9, 5)]), amenity="parking_space"),
             feature(shapely.box(10, 0, 13, 5), type="stall", parking_space="disabled"),
-            feature(shapely.LineString([(0, 8), (20, 8)]), highway="service", service="parking_aisle", width="5.5"),
+            feature(shapely.LineString([(0, 8), (20, 8)]), highway="service", width="5.5"),
             feature(shapely.LineString([(0, 20), (20, 20)]), kind="lane", oneway="-1"),
             feature(shapely.Point(3, 12), kind="column", size_m=0.5),
             feature(shapely.box(7, 11.8, 7.6, 12.4), kind="column"),
