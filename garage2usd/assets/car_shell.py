@@ -94,7 +94,7 @@ class Contour:
         return float(np.sign(x) * np.interp(abs(x), self.line[:, 0], self.arc_m))
 
     def arc_at_depth(self, depth_m: float) -> float:
-        """Metres along the line to where it is `depth_m` behind its middle."""
+        """Arc length in metres at which the line is `depth_m` behind its centre."""
         depths = np.abs(self.line[:, 1] - self.line[0, 1])
         return float(np.interp(depth_m, depths, self.arc_m))
 

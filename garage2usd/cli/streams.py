@@ -19,10 +19,10 @@ _OUTPUT, _ERROR = 1, 2
 
 
 def open_streams() -> None:
-    """Open standard output and standard error anew, so that they take any text, whatever their encoding is.
+    """Reopen standard output and standard error, so that they accept any text in any encoding.
 
-    What an encoding has not, such as letters of a file's name, is printed by its number. A standard output that takes
-    no more raises `OutputError`; what standard error does not take is lost, as is what goes to a stream that is closed.
+    Characters outside the encoding, for example in a file's name, are printed as their code numbers. A standard output
+    that accepts no more data raises `OutputError`; data for a failed standard error or for closed streams is lost.
     """
     for number in range(_ERROR + 1):  # else the next file gets the number, and what libraries print goes into it
         try:
@@ -64,7 +64,7 @@ class _File(io.FileIO):
         self._is_needed = is_needed
 
     def write(self, data: "ReadableBuffer", /) -> int:
-        """Write bytes; after an error into nothing, also what is held back."""
+        """Write bytes; after an error, discard them and all buffered ones."""
         size = memoryview(data).nbytes
         try:
             return super().write(data) if size else 0  # click tries with nothing whether a stream takes text

@@ -17,7 +17,7 @@ class Termination:
         self._asked = 0
 
     def install(self) -> None:
-        """Handle the signals, but for those that the caller of this process has it ignore, as `nohup` does."""
+        """Handle the signals, except those that the caller made this process ignore, as `nohup` does."""
         self._asked = 0
         for number in (*ENDING, signal.SIGINT):
             if signal.getsignal(number) is not signal.SIG_IGN:
@@ -29,7 +29,7 @@ class Termination:
         self.insist()
 
     def insist(self) -> None:
-        """Unwind now, if whatever was running when the signal came swallowed the exception, as callbacks from C do.
+        """Raise the exception again, if the interrupted code swallowed it, as callbacks from C do.
 
         USD's modules do so, too, while they are imported.
         """

@@ -64,7 +64,7 @@ class Placement:
 
     @property
     def kind(self) -> str:
-        """Name of its kind of object, a key of `garage2usd.objects.KINDS`."""
+        """Name of the object's kind, a key of `garage2usd.objects.KINDS`."""
         return self.spec.kind.name
 
     def to_world(self, point: Point) -> Point:
@@ -74,11 +74,11 @@ class Placement:
 
     @property
     def stall(self) -> str | None:
-        """Name of the stall that it belongs to, such as that of a car, a wheel stop or a painted number."""
+        """Name of the object's stall, for example of a car, a wheel stop or a painted number; None without one."""
         return None if self.square is None or self.ordinal is None else stall_name(self.square, self.ordinal)
 
     def outlines(self) -> list[Polygon]:
-        """Convex outlines (x, z) in the garage of its parts within reach of a car; empty if there are none."""
+        """Convex outlines (x, z) in the garage of the object's parts within reach of a car; empty if there are none."""
         return [tuple(map(self.to_world, outline)) for outline in self.spec.outlines()]
 
 
@@ -181,7 +181,7 @@ class PlacedStall:
         return self.turn * slope_of_angle(self.angle_deg)
 
     def outline(self) -> Polygon:
-        """Corners relative to its centre, with the entry at +Z; in a parallel stall, the entry is beside the car."""
+        """Corners relative to the stall's centre, with the entry at +Z; beside the car in a parallel stall."""
         x, z = self.width_m / 2, self.length_m / 2
         if self.stall_kind is StallKind.PARALLEL:
             x, z = -x * self.turn, -z * self.turn

@@ -68,17 +68,17 @@ class Tile:
 
     @property
     def middle_m(self) -> Point:
-        """(x, z) of its centre."""
+        """Centre (x, z) of the tile."""
         return self.x_m, self.z_m
 
     @property
     def half_x_m(self) -> float:
-        """Half of its extent along X."""
+        """Half of the tile's extent along X."""
         return self.width_m / 2
 
     @property
     def half_z_m(self) -> float:
-        """Half of its extent along Z."""
+        """Half of the tile's extent along Z."""
         return self.depth_m / 2
 
     @property

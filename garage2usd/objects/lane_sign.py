@@ -17,10 +17,10 @@ _DEPTH_M = 0.03
 _ROD_M = 0.008
 _ON_FACE_M = 0.002
 _BAR_WIDTH, _BAR_HEIGHT = 0.7, 0.2
-"""Of the bar of a no-entry sign, as shares of its height (Vienna Convention on Road Signs, C, 1a)."""
+"""Size of the bar of a no-entry sign, as shares of the sign's height (Vienna Convention on Road Signs, C, 1a)."""
 _SHAFT = ((-0.05, -0.34), (0.05, -0.34), (0.05, 0.06), (-0.05, 0.06))
 _HEAD = ((-0.18, 0.06), (0.18, 0.06), (0.0, 0.34))
-"""Of the upright arrow of a one-way sign, likewise (E, 3b)."""
+"""Outline of the upright arrow's head on a one-way sign (E, 3b), in shares of the sign's height."""
 
 
 class LaneSignText(StrEnum):

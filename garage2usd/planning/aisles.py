@@ -26,7 +26,7 @@ alone learning finds 937 instead of 975 points on average of six sites of 20 x 3
 _SIDE_RUNS, _APART = 3, 3
 """Number of runs per side of the contour, and least distance of rails, as for aisles with a row between them."""
 _SPREAD_SPINES = 12
-"""Single spines beside those that lead away from portals, where loops are not asked for. Not measured."""
+"""Number of additional single spines, besides those at portals, if loops are not required. Not measured."""
 _STATES = _PROFILES * _SHARES * _AHEAD
 _OPTIMISTIC = 40.0
 """More points than a run is likely to earn with all ahead of it. From zero learning finds 962 points on those six
@@ -129,7 +129,7 @@ def _of_direction(runs: Runs, direction: int) -> slice:
 
 
 def _places(ground: Ground, squares: Int64s, direction: int) -> Int64s:
-    """Columns of squares where aisles run along rows (0), their rows where they run along columns (1)."""
+    """Columns of squares for aisles along rows (0), rows of squares for aisles along columns (1)."""
     return squares % ground.stride if direction == 0 else squares // ground.stride
 
 

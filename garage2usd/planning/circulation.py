@@ -39,7 +39,7 @@ _MM_PER_M = 1000
 _MM2_PER_M2 = 1_000_000
 
 _STRETCH_SITE_SQUARES = 400
-"""Free squares from which on R4 is asked for: there one long ring would satisfy R2."""
+"""Number of free squares from which R4 applies, as one long ring would satisfy R2 there."""
 _STRETCH_SQUARES = 12
 """65 to 97 m; Palm Shores allows rows of 61 m without a cross drive."""
 

@@ -177,7 +177,7 @@ def observe(process: DecisionProcess, state: State) -> Observation:
 
 
 def actions(process: DecisionProcess, state: State) -> tuple[Action, ...]:
-    """List the actions that the agent may choose; empty where it is walled in.
+    """List the actions that the agent may choose; empty if it is enclosed.
 
     Notes
     -----

@@ -128,7 +128,7 @@ def find_optimum(
 
 
 class _TooLargeError(Exception):
-    """Says what is allowed."""
+    """Site that exceeds a limit of the search; the message gives the limit."""
 
 
 def _table_of(ground: Ground, cols: int) -> SquareTable:

@@ -51,7 +51,7 @@ class Clause(Settings):
     """Fields of every clause: source, confidence, severity and wording."""
 
     source: str = Field(min_length=1, max_length=500)
-    """Where the value was found."""
+    """Source of the value."""
     confidence: Confidence
     """'high': several sources agree, 'medium': one or two, 'low': a weak one."""
     verified: bool = False

@@ -212,7 +212,7 @@ def _read_stalls(curves: _Curves, lanes: Lanes) -> None:
 
 
 def _levels(curves: _Curves, lanes: Lanes, name: str) -> list[int]:
-    """Return the level of each curve, 0 where no levels are told."""
+    """Return the level of each curve; 0 without levels."""
     told = curves.values(name)
     if not all(isinstance(level, int) for level in told):
         lanes.faults.append(Fault(_RULE, curves.path, None, f"{name} that is not whole numbers"))

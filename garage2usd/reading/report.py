@@ -114,7 +114,7 @@ class ReportedStall(Record):
 
     @model_serializer(mode="wrap")
     def _what_is_unusual(self, handler: SerializerFunctionWrapHandler) -> dict[str, object]:
-        """Serialize the stall, without `blocked_by`, `kind`, `angle_rad` and `size` where they are the usual ones."""
+        """Serialize the stall, without default values of `blocked_by`, `kind`, `angle_rad` and `size`."""
         told: dict[str, object] = handler(self)
         usual = {name: field.default for name, field in type(self).model_fields.items()}
         if all(told[name] == usual[name] for name in _OF_SHAPE):

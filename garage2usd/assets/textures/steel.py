@@ -15,7 +15,7 @@ def _steel_colour(rng: np.random.Generator) -> Pixels:
 
 
 def _steel_packed(rng: np.random.Generator) -> Pixels:
-    """Spangled zinc, dull where it has turned white."""
+    """Surface of spangled zinc, dull at white corrosion."""
     shape = 128, 128
     dull = ramp(clouds(rng, shape, (6, 6), 4), 0.5, 0.75)
     rough = 0.36 + 0.16 * (noise(rng, shape, (28, 28)) - 0.5) + 0.26 * dull

@@ -100,14 +100,14 @@ class Core:
 
     @property
     def ground(self) -> shapely.Polygon:
-        """Outline (x, z) including the floor between its door and the lane."""
+        """Outline (x, z) of the core, including the floor between its door and the lane."""
         x, near, far = self.width_m / 2, self.depth_m / 2 + self.recess_m, -self.depth_m / 2
         corners = ((-x, near), (x, near), (x, far), (-x, far))
         return shapely.Polygon([to_world(corner, self.centre_m, edge_yaw_rad(self.edge)) for corner in corners])
 
     @property
     def door_m(self) -> Point:
-        """(x, z) of the centre of its door."""
+        """Centre (x, z) of the core's door."""
         return to_world((0.0, self.depth_m / 2), self.centre_m, edge_yaw_rad(self.edge))
 
 
@@ -259,7 +259,7 @@ def _spans_m(
     named: _NamedRows,
     depth_m: float,
 ) -> Iterator[tuple[str, float, float]]:
-    """Name and extent along a row, from its square's centre, of its stalls and those of adjacent squares."""
+    """Name and extent of a row's stalls and those of adjacent squares, along the row from its square's centre."""
     edges_m = structure.column_edges_m if row.edge.along_x else structure.row_edges_m
     at = row.col if row.edge.along_x else row.row
     for step, end in ((0, None), (-1, row.edge.ends[0]), (1, row.edge.ends[1])):

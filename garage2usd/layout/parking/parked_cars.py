@@ -91,14 +91,14 @@ class _Car:
     is_lit: bool
 
     def half_x(self, *, mirrors: bool = True) -> float:
-        """Half of its extent across the stall."""
+        """Half of the car's extent across the stall."""
         # wheel arches protrude from the body
         width_m = None if mirrors else self.body.width_m + 0.02
         return self.body.half_extents_m(self.yaw, width_m=width_m)[0]
 
     @property
     def half_z(self) -> float:
-        """Half of its extent along the stall."""
+        """Half of the car's extent along the stall."""
         return self.body.half_extents_m(self.yaw)[1]
 
     def placement(self, side_m: float) -> Placement:

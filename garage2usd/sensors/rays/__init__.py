@@ -1,1 +1,1 @@
-"""Rays: where a pixel or a laser looks, and what is hit."""
+"""Rays of pixels and lasers, and their intersections with the scene."""

@@ -1,1 +1,1 @@
-"""Rigs: which sensors there are, where they are mounted, and how they move."""
+"""Rigs of sensors: their kinds, mounting poses and motion."""
