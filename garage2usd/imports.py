@@ -21,6 +21,7 @@ from garage2usd.driving import StallProof, prove_stalls, with_truth_of_misparked
 from garage2usd.layout.surveyed import SurveyedLayout, lay_out_survey
 from garage2usd.stage import StageFormat, arrangement_of, shared_folder, write_labels, write_stage
 from garage2usd.survey.alignment import Alignment, aligned
+from garage2usd.survey.medial_lanes import with_medial_lanes
 from garage2usd.survey.reader import SURVEY_SUFFIXES, read_survey
 from garage2usd.survey.survey import Survey
 from garage2usd.view.plan_picture import draw_plan
@@ -105,7 +106,7 @@ def import_layout(
         check_writable(shared)
     start = time.perf_counter()
     survey = source if isinstance(source, Survey) else read_survey(Path(source))
-    survey, alignment = aligned(survey)
+    survey, alignment = aligned(with_medial_lanes(survey))
     layout = lay_out_survey(survey, config)
     truthful = with_truth_of_misparked(layout, config, progress=progress)
     assert isinstance(truthful, SurveyedLayout)

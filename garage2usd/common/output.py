@@ -243,7 +243,8 @@ def publish(items: Sequence[Path], folder: Path) -> tuple[Path, ...]:
 def publish_at(places: Mapping[Path, Path]) -> tuple[Path, ...]:
     """Move finished files and folders to their destinations, the last one last, replacing existing ones.
 
-    All of them are first copied beside their destinations under hidden names, and renamed only if every copy succeeds.
+    All of them are first copied beside their destinations under hidden names, and renamed only if every copy succeeds. If
+    one cannot be renamed because another program holds the existing file open, those before it are put back.
 
     Returns
     -------
@@ -253,25 +254,34 @@ def publish_at(places: Mapping[Path, Path]) -> tuple[Path, ...]:
     Raises
     ------
     OutputError
-        If a copy fails; existing files are then unchanged.
+        If the files could not be written. The files that existed before are unchanged, or where the message says.
     """
     made: list[Path] = []
+    replaced: list[tuple[Path, Path]] = []
     start = f"{HIDDEN_PREFIX}{os.getpid()}"
     hidden = [place.with_name(f"{start}-{number}-{place.name}") for number, place in enumerate(places.values())]
     try:
         for (item, place), copy in zip(places.items(), hidden, strict=True):
             made += _make_folder(place.parent)
             _copy(item, copy, place)
-        for copy, place in zip(hidden, places.values(), strict=True):
+        for number, (copy, place) in enumerate(zip(hidden, places.values(), strict=True)):
+            old = place.with_name(f"{start}-{number}-old-{place.name}")
             with writing(place):
-                _replace(copy, place)
-    except BaseException:
+                _replace(copy, place, old)
+            replaced.append((place, old))
+    except BaseException as error:
+        lost = [(place, old) for place, old in reversed(replaced) if not _put_back(place, old)]
         for copy in hidden:
             _remove(copy)
         for parent in sorted(made, reverse=True):  # contents of a folder before the folder itself
             with suppress(OSError):
                 parent.rmdir()
+        if lost and isinstance(error, OutputError):
+            kept = ", ".join(f"what {place} was is {old}" for place, old in lost)
+            raise OutputError(error.path, f"{error.reason}; {kept}") from None
         raise
+    for _, old in replaced:
+        _remove(old)
     return tuple(places.values())
 
 
@@ -331,18 +341,57 @@ def _make_folder(folder: Path) -> list[Path]:
     return missing
 
 
-def _replace(copy: Path, place: Path) -> None:
-    if copy.is_dir() and place.exists():
-        old = place.with_name(f"{HIDDEN_PREFIX}{os.getpid()}-old-{place.name}")
+def _replace(copy: Path, place: Path, old: Path) -> None:
+    """Move a file or folder to its place, and keep what stood there as `old`; if it fails, the place is as before."""
+    is_refused = not copy.is_dir() and place.is_dir() and not place.is_symlink()  # a file in a folder's place
+    if is_refused or (not copy.is_dir() and _is_linked(place, old)):
+        try:
+            persistently(lambda: copy.replace(place))
+        except BaseException:
+            _remove(old)
+            raise
+        return
+    stood = place.is_symlink() or place.exists()
+    if stood:
         persistently(lambda: place.rename(old))
+    try:
         persistently(lambda: copy.rename(place))
-        _remove(old)
-    else:
-        persistently(lambda: copy.replace(place))
+    except BaseException:
+        if stood:
+            _put_back(place, old)
+        raise
+
+
+def _is_linked(place: Path, old: Path) -> bool:
+    """Link a file that stands at `place` to `old`, if there are links, so that one stands at `place` at any moment."""
+    if not place.is_file() or place.is_symlink():
+        return False
+    try:
+        os.link(place, old)
+    except (OSError, NotImplementedError):
+        return False
+    return True
+
+
+def _put_back(place: Path, old: Path) -> bool:
+    """Restore what stood at a place, or nothing; whether that could be done."""
+    try:
+        if not (old.is_symlink() or old.exists()):
+            _remove(place)
+        elif old.is_dir() and not old.is_symlink():
+            _remove(place)
+            persistently(lambda: old.rename(place))
+        else:
+            persistently(lambda: old.replace(place))
+    except OSError:
+        return False
+    return True
 
 
 def _remove(path: Path) -> None:
+    """Remove a file or folder, if no program has it open."""
     if path.is_dir() and not path.is_symlink():
         shutil.rmtree(path, ignore_errors=True)
     else:
-        path.unlink(missing_ok=True)
+        with suppress(OSError):
+            path.unlink(missing_ok=True)

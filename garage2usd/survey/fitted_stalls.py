@@ -264,7 +264,7 @@ class _Fitting:
                 if other != number and mouths[other] and self._shares_side(number, other)
             ]
             votes = [
-                sum(math.dist(direction, other) < 0.5 for other in (*beside, directions[number][0]))  # noqa: PLR2004
+                sum(math.dist(direction, other) < 0.5 for other in beside)  # noqa: PLR2004 - within 30 degrees
                 for direction in directions[number]
             ]
             chosen.append(found[votes.index(max(votes))])

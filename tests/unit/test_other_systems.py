@@ -131,6 +131,34 @@ publish_at({{Path("new"): Path("old")}})
     assert {path.name for path in tmp_path.iterdir()} == {"new", "old"}
 
 
+def test_no_file_is_replaced_where_another_program_holds_one_of_them(tmp_path):
+    code = """
+import atexit, os
+from pathlib import Path
+from garage2usd.common.output import publish_at
+new = Path("new"); new.mkdir(); out = Path("out"); out.mkdir()
+for folder, text in ((new, "new"), (out, "old")):
+    for name in ("labels.json", "report.json", "stage.usdz"):
+        (folder / name).write_text(text)
+    (folder / "assets").mkdir()
+    (folder / "assets" / text).write_text(text)
+(out / "labels.json").unlink()
+held = open(out / "stage.usdz")
+names = ("assets", "labels.json", "report.json", "stage.usdz")
+publish_at({new / name: out / name for name in names})
+"""
+    run = evaluate_as_on("win32", tmp_path, code)
+    assert run.returncode == 1
+    assert "out/stage.usdz: The process cannot access the file; close the program" in run.stderr
+    files = [path for path in (tmp_path / "out").rglob("*") if path.is_file()]
+    assert {path.relative_to(tmp_path / "out").as_posix() for path in files} == {
+        "assets/old",
+        "report.json",
+        "stage.usdz",
+    }
+    assert {path.read_text() for path in files} == {"old"}
+
+
 @pytest.mark.parametrize(
     "name", ["con.usdz", "NUL", "com1.usda", "a:b.usdz", 'a"b.usdz', "a?.usdz", "garage.usdz.", "garage "]
 )

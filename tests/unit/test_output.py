@@ -1,7 +1,9 @@
 import os
+import re
 import resource
 import stat
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import pytest
 
@@ -34,6 +36,57 @@ def test_files_and_folders_replace_what_was_there(tmp_path):
     assert sorted(path.name for path in (tmp_path / "a" / "b").rglob("*")) == ["assets", "new.txt", "stage.txt"]
     assert (tmp_path / "a" / "b" / "stage.txt").read_text() == "new"
     assert not staging.exists()
+
+
+@pytest.mark.parametrize("has_links", [True, False])
+def test_places_before_one_that_fails_are_put_back(has_links, tmp_path, monkeypatch):
+    if not has_links:
+        monkeypatch.setattr(os, "link", refuse)
+    out = tmp_path / "out"
+    for name in ("1.txt", "2.txt", "assets/a.txt"):
+        make(out, name, "old")
+    (out / "target.txt").write_text("old")
+    (out / "3.txt").symlink_to("target.txt")
+    with staging_folder() as staging:
+        items = [make(staging, name, "new") for name in ("1.txt", "0.txt", "3.txt")]
+        items += [make(staging, "assets/b.txt", "new").parent, make(staging, "2.txt", "new")]
+        for function in ("replace", "rename"):
+            monkeypatch.setattr(os, function, refusing(getattr(os, function), out / "2.txt"))
+        with pytest.raises(OutputError, match=r"2\.txt"):
+            publish(items, out)
+    found = {path.relative_to(out).as_posix(): path.read_text() for path in out.rglob("*") if path.is_file()}
+    assert found == dict.fromkeys(("1.txt", "2.txt", "3.txt", "assets/a.txt", "target.txt"), "old")
+    assert (out / "3.txt").is_symlink()
+
+
+def test_a_file_does_not_take_the_place_of_a_folder(tmp_path):
+    make(tmp_path, "stage.txt/inner.txt", "old")
+    with staging_folder() as staging, pytest.raises(OutputError, match=r"stage\.txt"):
+        publish([make(staging, "first.txt", "new"), make(staging, "stage.txt", "new")], tmp_path)
+    assert [path.name for path in tmp_path.rglob("*")] == ["stage.txt", "inner.txt"]
+
+
+def test_what_cannot_be_put_back_is_named(tmp_path, monkeypatch):
+    for name in ("1.txt", "2.txt"):
+        make(tmp_path, name, "old")
+    with staging_folder() as staging:
+        items = [make(staging, name, "new") for name in ("1.txt", "2.txt")]
+        replace = os.replace
+        held = refusing(replace, tmp_path / "2.txt")
+        monkeypatch.setattr(os, "replace", lambda old, new: refuse() if "-old-" in str(old) else held(old, new))
+        with pytest.raises(OutputError, match=r"what \S+1.txt was is \S+-old-1.txt") as caught:
+            publish(items, tmp_path)
+    kept = re.search(r"was is (\S+-old-1.txt)", str(caught.value))[1]
+    assert Path(kept).read_text() == "old"
+
+
+def refuse(*_arguments, **_named):
+    raise PermissionError(13, "Permission denied")
+
+
+def refusing(move, held):
+    """A function that moves files, except to and from one that another program holds open."""
+    return lambda source, place: refuse() if held in {Path(source), Path(place)} else move(source, place)
 
 
 def test_a_place_that_is_named_twice_gets_the_last(tmp_path):
