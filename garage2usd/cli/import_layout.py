@@ -53,7 +53,7 @@ def import_layout(
 
     \b
     Examples:
-      garage2usd import samples/surveyed_lot.toml -o out/lot.usdz
+      garage2usd import samples/surveys/lot.toml -o out/lot.usdz
       garage2usd import map.osm --config look.toml --seed 3 -o out/lot.usda
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.config import GarageConfig, load_config, profile_setting  # noqa: PLC0415 - keeps --help instant

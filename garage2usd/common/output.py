@@ -243,8 +243,8 @@ def publish(items: Sequence[Path], folder: Path) -> tuple[Path, ...]:
 def publish_at(places: Mapping[Path, Path]) -> tuple[Path, ...]:
     """Move finished files and folders to their destinations, the last one last, replacing existing ones.
 
-    All of them are first copied beside their destinations under hidden names, and renamed only if every copy succeeds. If
-    one cannot be renamed because another program holds the existing file open, those before it are put back.
+    All of them are first copied beside their destinations under hidden names, and renamed only if every copy succeeds.
+    If one cannot be renamed because another program holds the existing file open, those before it are put back.
 
     Returns
     -------

@@ -8,9 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from garage2usd.garage import Arc, LaneGraph, Point
+from garage2usd.survey.stall_shapes import PARALLEL_DEG, StallShape, snapped_yaw_rad, stall_shape, with_parallel_rear
 from garage2usd.survey.survey import Survey, SurveyedStall, Unplaced
 
 __all__ = ["FittedStall", "fitted_stalls"]
@@ -19,20 +20,12 @@ Floats = NDArray[np.float64]
 _SIDES = 4
 _REACH_M = 9.0
 """Greatest distance in metres from the mouth of a stall to the middle of its lane."""
-_SQUARE_DEG, _LEAST_ANGLE_DEG = 1.0, 25.0
-_PERPENDICULAR_DEG, _PARALLEL_DEG = 90.0, 0.0
-_PARALLEL_SIDES_DEG = 3.0
-_MOST_OFF_M = 0.25
-"""Greatest distance in metres of a corner of a stall from the shape that is laid out."""
 _LEAST_WIDTH_M, _LEAST_LENGTH_M = 1.0, 2.0
 _MOST_OVERLAP = 0.05
 """Greatest share of a stall's ground that another one covers."""
 _INSIDE_M = 0.1
 _LEAST_GROUND_M2 = 0.25
-_QUARTER_RAD = 1e-3
-"""Angle in radians up to which a stall stands along an axis."""
 _BEHIND_M = 0.5
-_DIGITS, _YAW_DIGITS = 6, 9
 
 
 @dataclass(frozen=True)
@@ -80,16 +73,6 @@ class _Mouth(NamedTuple):
     side: int
     away_m: float
     foot: Point
-
-
-class _Shape(NamedTuple):
-    centre: Point
-    width_m: float
-    length_m: float
-    yaw_rad: float
-    angle_deg: float
-    turn: int
-    outwards: Point
 
 
 def fitted_stalls(
@@ -143,7 +126,7 @@ class _Fitting:
             if not reason and mouth is None:
                 reason = f"no lane within {_REACH_M:g} m of a free side"
             note = ""
-            shape = None if reason or mouth is None else _shape(stall.corners, mouth.side, self._keeps_left)
+            shape = None if reason or mouth is None else stall_shape(stall.corners, mouth.side, self._keeps_left)
             if isinstance(shape, str) and mouth is not None:
                 reason = shape
                 shape, note = self._reshaped(number, mouth)
@@ -155,18 +138,18 @@ class _Fitting:
             if isinstance(access, str):
                 unplaced.append(Unplaced(stall.name, access))
                 continue
-            if shape.angle_deg == _PARALLEL_DEG:
+            if shape.angle_deg == PARALLEL_DEG:
                 shape = self._along_traffic(shape, access)
             fitted.append(FittedStall(stall, *shape, access, note))
         return tuple(fitted), tuple(unplaced)
 
-    def _reshaped(self, number: int, mouth: _Mouth) -> tuple[_Shape | None, str]:
+    def _reshaped(self, number: int, mouth: _Mouth) -> tuple[StallShape | None, str]:
         """Return the shape of a stall with its rear laid parallel to its mouth, and what that changes."""
-        laid = _with_parallel_rear(np.roll(np.array(self._stalls[number].corners), -mouth.side, axis=0))
+        laid = with_parallel_rear(np.roll(np.array(self._stalls[number].corners), -mouth.side, axis=0))
         if laid is None:
             return None, ""
         corners, moved_m = laid
-        shape = _shape(corners, 0, self._keeps_left)
+        shape = stall_shape(corners, 0, self._keeps_left)
         ground = shapely.Polygon(corners)
         beside = self._grounds[[at for at in self._tree.query(ground).tolist() if at != number]]
         is_free = shapely.area(shapely.intersection(beside, ground)).sum() <= _MOST_OVERLAP * ground.area
@@ -306,7 +289,7 @@ class _Fitting:
             return f"no route {' and '.join(missing) or 'without a turn on the spot'} over its lane"
         return order[0]
 
-    def _along_traffic(self, shape: _Shape, access: int) -> _Shape:
+    def _along_traffic(self, shape: StallShape, access: int) -> StallShape:
         """Turn a parallel stall so that its car looks along the traffic of a one-way lane beside it."""
         arcs: list[Arc] = [arc for arc, edge in self._lanes.arcs.items() if access in arc and edge.one_way]
         arcs = [arc for arc in arcs if not self._is_gate(*arc)]
@@ -315,107 +298,6 @@ class _Fitting:
             (x, z), (end_x, end_z) = self._lanes.nodes[start].position, self._lanes.nodes[end].position
             along = ahead[0] * (end_x - x) + ahead[1] * (end_z - z)
             if along < -0.5 * math.hypot(end_x - x, end_z - z):
-                turned = _snapped(math.remainder(shape.yaw_rad + math.pi, math.tau))
+                turned = snapped_yaw_rad(math.remainder(shape.yaw_rad + math.pi, math.tau))
                 return shape._replace(yaw_rad=turned, turn=-shape.turn)
         return shape
-
-
-def _shape(given: ArrayLike, side: int, keeps_left: bool) -> _Shape | str:  # noqa: FBT001 - a fact of the country
-    """Return the rectangle or parallelogram of a stall by its mouth, or the reason that there is none."""
-    corners = np.roll(np.asarray(given, dtype=np.float64), -side, axis=0)
-    one, other, beyond_other, beyond_one = corners
-    out = (one + other - beyond_other - beyond_one) / 2
-    depth_m = float(np.linalg.norm(out))
-    along = (other - one + beyond_other - beyond_one) / 2
-    out_x, out_z = (out / depth_m).tolist()
-    right = np.array([out_z, -out_x])  # of a driver who drives in, seen from above with z downwards
-    across_m, rise_m = float(along @ right), float(along @ (out / depth_m))
-    if across_m < 0:
-        across_m, rise_m = -across_m, -rise_m
-    centre = corners.mean(axis=0)
-    angle_deg = math.degrees(math.atan2(across_m, abs(rise_m)))
-    if angle_deg < _LEAST_ANGLE_DEG:
-        return f"an angle of {angle_deg:.0f} degrees to its lane, below {_LEAST_ANGLE_DEG:g}"
-    turn, width_m, length_m = (1 if rise_m > 0 else -1), across_m, depth_m
-    if _PERPENDICULAR_DEG - angle_deg <= _SQUARE_DEG:
-        angle_deg, turn = _PERPENDICULAR_DEG, 1
-        yaw = math.atan2(out_x, out_z)
-        if across_m > depth_m:
-            angle_deg, width_m, length_m = _PARALLEL_DEG, depth_m, across_m
-            # the lane is on the left of a car that looks along the traffic on the right, and the other way round
-            turn = -1 if keeps_left else 1
-            yaw = math.atan2(turn * out_z, -turn * out_x)
-    else:
-        angle_deg = round(angle_deg, 6)
-        length_m = depth_m - width_m * abs(rise_m / across_m)
-        yaw = math.atan2(out_x, out_z)
-    if width_m < _LEAST_WIDTH_M or length_m < _LEAST_LENGTH_M:
-        return f"{width_m:.2f} by {length_m:.2f} m for a car, below {_LEAST_WIDTH_M:g} by {_LEAST_LENGTH_M:g}"
-    shape = _Shape(
-        (round(float(centre[0]), _DIGITS), round(float(centre[1]), _DIGITS)),
-        round(width_m, _DIGITS),
-        round(length_m, _DIGITS),
-        _snapped(yaw),
-        angle_deg,
-        turn,
-        (out_x, out_z),
-    )
-    off_m = _off_m(corners, shape)
-    if off_m > _MOST_OFF_M:
-        return f"a corner is {off_m:.2f} m from the nearest rectangle or parallelogram, above {_MOST_OFF_M:g}"
-    return shape
-
-
-def _with_parallel_rear(corners: Floats) -> tuple[Floats, float] | None:
-    """Return the corners of a stall with its mouth and its rectangle for a car, but its rear parallel to its mouth.
-
-    Parameters
-    ----------
-    corners
-        Both corners of the mouth, then of the rear; shape (4, 2).
-
-    Returns
-    -------
-    tuple or None
-        The corners and the greatest distance that one was moved; None if the sides are not parallel.
-    """
-    one, other, beyond_other, beyond_one = corners
-    sides = one - beyond_one, other - beyond_other
-    lengths_m = [float(np.linalg.norm(side)) for side in sides]
-    if min(lengths_m) < _LEAST_WIDTH_M:
-        return None
-    outs = [side / length_m for side, length_m in zip(sides, lengths_m, strict=True)]
-    if outs[0] @ outs[1] < math.cos(math.radians(_PARALLEL_SIDES_DEG)):
-        return None
-    out = (outs[0] + outs[1]) / np.linalg.norm(outs[0] + outs[1])
-    # the rectangle for a car ends where the first corner of the rear is, seen from the mouth
-    length_m = min(one @ out, other @ out) - max(beyond_one @ out, beyond_other @ out)
-    side_m = length_m + abs((one - other) @ out)
-    laid = np.array([one, other, other - side_m * out, one - side_m * out])
-    return laid, float(np.linalg.norm(laid - corners, axis=1).max())
-
-
-def _snapped(yaw_rad: float) -> float:
-    quarter = round(yaw_rad / (math.pi / 2))
-    if abs(yaw_rad - quarter * math.pi / 2) < _QUARTER_RAD:
-        return {0: 0.0, 1: math.pi / 2, 2: math.pi, -1: -math.pi / 2, -2: math.pi}[quarter]
-    return round(yaw_rad, _YAW_DIGITS)
-
-
-def _off_m(corners: Floats, shape: _Shape) -> float:
-    """Return the greatest distance of the corners of a stall from those of its shape."""
-    out = np.array(shape.outwards)
-    right = np.array([out[1], -out[0]])
-    across_m, depth_m, slope = shape.width_m, shape.length_m, 0.0
-    if shape.angle_deg == _PARALLEL_DEG:
-        across_m, depth_m = depth_m, across_m
-    elif shape.angle_deg != _PERPENDICULAR_DEG:
-        slope = shape.turn / math.tan(math.radians(shape.angle_deg))
-        depth_m += across_m * abs(slope)
-    laid = [
-        np.array(shape.centre)
-        + right * across * across_m / 2
-        + out * (deep * depth_m / 2 + slope * across * across_m / 2)
-        for across, deep in ((-1, 1), (1, 1), (1, -1), (-1, -1))
-    ]
-    return max(min(float(np.linalg.norm(corner - other)) for other in laid) for corner in corners)

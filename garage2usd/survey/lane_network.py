@@ -11,6 +11,7 @@ import networkx as nx
 import shapely
 
 from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, LaneNode, Point
+from garage2usd.survey.centre_lines import SAME_M, CentreLine, joined_lines
 from garage2usd.survey.survey import SurveyedLane
 
 __all__ = ["USUAL_LANE_M", "Gate", "lane_network", "with_clear_widths"]
@@ -19,12 +20,6 @@ USUAL_LANE_M = 6.0
 """Width in metres of a lane whose width is unknown."""
 _GATE_HALF_M = 2.5
 """Half the side in metres of the ground of a portal's node, which ends at the wall."""
-_SAME_M = 0.75
-"""Distance in metres up to which ends and crossings of centre lines are one node."""
-_GAP_M = 1.0
-"""Gap in metres beyond half a lane's width up to which the end of a centre line joins the next one."""
-_AHEAD_M = 8.0
-"""Gap in metres straight ahead of its end up to which a centre line joins the next one, where no stall lies between."""
 _PITCH_M = 6.0
 """Greatest distance in metres between nodes."""
 _STRAIGHT_M = 0.15
@@ -45,23 +40,20 @@ class Gate(NamedTuple):
         (x, z) of the middle of its opening.
     outwards
         Unit vector (x, z) out of the garage.
+    wall_m
+        Length of the piece of wall around the door.
     """
 
     kind: LaneKind
     foot: Point
     outwards: Point
+    wall_m: float
 
     @property
     def node_m(self) -> Point:
         """(x, z) of the node of the lane graph inside the door."""
         (x, z), (out_x, out_z) = self.foot, self.outwards
         return round(x - out_x * _GATE_HALF_M, _DIGITS), round(z - out_z * _GATE_HALF_M, _DIGITS)
-
-
-class _Line(NamedTuple):
-    line: shapely.LineString
-    width_m: float
-    one_way: bool
 
 
 def lane_network(
@@ -83,7 +75,7 @@ def lane_network(
     Ends of centre lines that stop short of another one are extended to it. Stretches that no junction joins to the
     others remain in the graph: no stall is reached there.
     """
-    lines = _joined([_line(lane) for lane in lanes], shapely.STRtree(list(grounds)))
+    lines = joined_lines([_line(lane) for lane in lanes], shapely.STRtree(list(grounds)))
     lines += [_approach(gate, lines) for gate in gates]
     cuts = _cuts(lines)
     nodes, number_of = _merged([point for points in cuts for _, point in points])
@@ -139,68 +131,17 @@ def with_clear_widths(network: LaneGraph, standing: shapely.Geometry) -> LaneGra
     return LaneGraph(tuple(nodes), tuple(edges))
 
 
-def _line(lane: SurveyedLane) -> _Line:
+def _line(lane: SurveyedLane) -> CentreLine:
     line = shapely.LineString(lane.points).simplify(_STRAIGHT_M)
-    return _Line(line, lane.width_m or USUAL_LANE_M, lane.one_way)
+    return CentreLine(line, lane.width_m or USUAL_LANE_M, lane.one_way)
 
 
-def _joined(lines: Sequence[_Line], grounds: shapely.STRtree) -> list[_Line]:
-    """Extend the ends of centre lines that stop short of another one."""
-    joined = []
-    for number, each in enumerate(lines):
-        points = list(each.line.coords)
-        others = [other for index, other in enumerate(lines) if index != number]
-        for place in (0, -1):
-            end = shapely.Point(points[place])
-            if any(other.line.distance(end) <= _SAME_M for other in others):
-                continue
-            near = [other for other in others if other.line.distance(end) <= other.width_m / 2 + _GAP_M]
-            if near:
-                other = min(near, key=lambda found: found.line.distance(end))
-                foot = other.line.interpolate(other.line.project(end)).coords[0]
-            else:
-                foot = _ahead(_ends(each.line)[place], others, grounds)
-            if foot is not None:
-                points.insert(0 if place == 0 else len(points), foot)
-        joined.append(each._replace(line=shapely.LineString(points)))
-    return joined
-
-
-def _ahead(points: Sequence[Point], others: Iterable[_Line], grounds: shapely.STRtree) -> Point | None:
-    """Return the nearest place on another centre line straight ahead of the end of one; None without one."""
-    end, ray = shapely.Point(points[-1]), _ray(points)
-    met = [other.line.intersection(ray) for other in others if other.line.intersects(ray)]
-    # two lines that both stop short of their corner meet in it
-    corners = [ray.intersection(_ray(points)) for other in others for points in _ends(other.line)]
-    met += [corner for corner in corners if corner.geom_type == "Point" and not corner.is_empty]
-    if not met:
-        return None
-    way = shapely.shortest_line(end, min(met, key=end.distance))
-    foot = shapely.Point(way.coords[-1])
-    if len(grounds) and len(grounds.query(way, predicate="intersects")):
-        return None
-    return float(foot.x), float(foot.y)
-
-
-def _ends(line: shapely.LineString) -> tuple[Sequence[Point], Sequence[Point]]:
-    """Return the points of a line towards each of its ends."""
-    points = list(line.coords)
-    return points[::-1], points
-
-
-def _ray(points: Sequence[Point]) -> shapely.LineString:
-    """Return the line straight ahead of the last of some points."""
-    (x, z), (end_x, end_z) = points[-2:]
-    scale = _AHEAD_M / math.dist((x, z), (end_x, end_z))
-    return shapely.LineString([(end_x, end_z), (end_x + (end_x - x) * scale, end_z + (end_z - z) * scale)])
-
-
-def _approach(gate: Gate, lines: Sequence[_Line]) -> _Line:
+def _approach(gate: Gate, lines: Sequence[CentreLine]) -> CentreLine:
     """Return the line from a door's node to the lane ahead, or reversed for an exit."""
     node, (out_x, out_z) = gate.node_m, gate.outwards
     start = shapely.Point(node)
     nearest_m = min(each.line.distance(start) for each in lines)
-    reach_m = 2 * nearest_m + _SAME_M
+    reach_m = 2 * nearest_m + SAME_M
     ray = shapely.LineString([node, (node[0] - out_x * reach_m, node[1] - out_z * reach_m)])
     crossed = [
         point
@@ -216,17 +157,17 @@ def _approach(gate: Gate, lines: Sequence[_Line]) -> _Line:
     ends = [node, foot.coords[0]]
     if gate.kind is LaneKind.EXIT:
         ends.reverse()
-    return _Line(shapely.LineString(ends), 2 * _GATE_HALF_M, one_way=True)
+    return CentreLine(shapely.LineString(ends), 2 * _GATE_HALF_M, one_way=True)
 
 
-def _cuts(lines: Sequence[_Line]) -> list[list[tuple[float, Point]]]:
+def _cuts(lines: Sequence[CentreLine]) -> list[list[tuple[float, Point]]]:
     """Return the nodes of each line by their distance along it: ends, bends, crossings, and more in between."""
     at: list[set[float]] = [
         {0.0, each.line.length, *(each.line.project(shapely.Point(point)) for point in each.line.coords)}
         for each in lines
     ]
     for (one, first), (other, second) in combinations(enumerate(lines), 2):
-        if first.line.distance(second.line) > _SAME_M:
+        if first.line.distance(second.line) > SAME_M:
             continue
         for point in _meetings(first.line, second.line):
             at[one].add(first.line.project(point))
@@ -241,7 +182,7 @@ def _meetings(first: shapely.LineString, second: shapely.LineString) -> list[sha
         shapely.Point(line.coords[place])
         for line, other in ((first, second), (second, first))
         for place in (0, -1)
-        if other.distance(shapely.Point(line.coords[place])) <= _SAME_M
+        if other.distance(shapely.Point(line.coords[place])) <= SAME_M
     ]
     return crossed + ends
 
@@ -250,7 +191,7 @@ def _apart(at: Iterable[float]) -> list[float]:
     """Return distances along a line, without those close to the one before; the first and the last remain."""
     ordered = sorted(at)
     kept = [ordered[0]]
-    kept += [run for run in ordered[1:-1] if run - kept[-1] > _SAME_M and ordered[-1] - run > _SAME_M]
+    kept += [run for run in ordered[1:-1] if run - kept[-1] > SAME_M and ordered[-1] - run > SAME_M]
     return [*kept, ordered[-1]]
 
 
@@ -269,7 +210,7 @@ def _pitched(line: shapely.LineString, runs: Sequence[float]) -> list[tuple[floa
 def _merged(points: Sequence[Point]) -> tuple[list[Point], list[int]]:
     """Return distinct points and the number of each given point among them; close ones are the first of them."""
     tree = shapely.STRtree(shapely.points(points))
-    one, other = tree.query(shapely.points(points), predicate="dwithin", distance=_SAME_M)
+    one, other = tree.query(shapely.points(points), predicate="dwithin", distance=SAME_M)
     near: defaultdict[int, list[int]] = defaultdict(list)
     for index, neighbour in zip(one.tolist(), other.tolist(), strict=True):
         near[index].append(neighbour)

@@ -26,11 +26,12 @@ from garage2usd.layout.parking.parked_cars import park_cars
 from garage2usd.layout.parking.stall_table import StallTable
 from garage2usd.layout.parking.stalls import bare_stall_panels, wheel_stops
 from garage2usd.layout.parking.tight import tight_stalls
-from garage2usd.layout.placement import PlacedStall, Placement, placed
+from garage2usd.layout.placement import Placement, placed
 from garage2usd.layout.shell.ramps import barriers, ramp_lights, with_ramps
 from garage2usd.layout.signs import country_of, with_signs_of
 from garage2usd.layout.surveyed.floor import surveyed_floor
 from garage2usd.layout.surveyed.ground import SurveyedGround
+from garage2usd.layout.surveyed.stalls import placed_stalls, surveyed_quads
 from garage2usd.layout.surveyed.walls import gates_of, surveyed_walls
 from garage2usd.layout.table import ObjectTable
 from garage2usd.layout.tiles import CEILING_THICKNESS_M
@@ -39,14 +40,12 @@ from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.column import ColumnSpec
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneSquares, StallType
-from garage2usd.structure.stalls import Edge
 from garage2usd.survey.fitted_stalls import FittedStall, fitted_stalls
 from garage2usd.survey.lane_network import lane_network, with_clear_widths
 from garage2usd.survey.survey import Survey, Unplaced
 
 __all__ = ["SurveyedLayout", "lay_out_survey"]
 
-_OUTWARDS = {Edge.UP: (0.0, -1.0), Edge.DOWN: (0.0, 1.0), Edge.LEFT: (-1.0, 0.0), Edge.RIGHT: (1.0, 0.0)}
 _TUBE_ASIDE_M = 2.0
 
 
@@ -85,7 +84,7 @@ class SurveyedLayout(Layout):
     def quads(self) -> tuple[Stall, ...]:
         """The stalls as those of the neutral garage, in the order of `Layout.stalls`, with the facts of a stage."""
         occupied = self.are_occupied().tolist()
-        return tuple(_quads(tuple(self.stalls), self.fitted, self.blocked, occupied))
+        return tuple(surveyed_quads(tuple(self.stalls), self.fitted, self.blocked, occupied))
 
     @property
     def again(self) -> "partial[SurveyedLayout]":  # type: ignore[override]
@@ -157,7 +156,13 @@ def lay_out_survey(
     ground = SurveyedGround(survey.outline)
     if not survey.lanes:
         raise ConfigError("lanes", [], "a lane or more")
-    gates = gates_of(ground.polygon, survey.portals, survey.lanes, keeps_left=keeps_left)
+    gates = gates_of(
+        ground.polygon,
+        survey.portals,
+        survey.lanes,
+        door_wall_m=config.bay.portal_side_m,
+        keeps_left=keeps_left,
+    )
     network = lane_network(survey.lanes, gates, survey.stall_polygons())
     standing = shapely.union_all([*survey.stall_polygons(), *_column_grounds(survey), ground.polygon.boundary])
     network = with_clear_widths(network, standing)
@@ -165,7 +170,7 @@ def lay_out_survey(
     if not found:
         reasons = ", ".join(dict.fromkeys(each.reason for each in unplaced)) or "it has none"
         raise ConfigError("stalls", reasons, "one stall or more that can be placed")
-    stalls, fitted = _placed_stalls(found, ground)
+    stalls, fitted = placed_stalls(found, ground)
     draws = SquareDraws(ground.tiles, seed=seed)
     shell = surveyed_walls(ground.polygon, gates, fittings, look.walls)
     pillars = _columns(survey, config)
@@ -177,7 +182,7 @@ def lay_out_survey(
         fittings,
     )
     country = country_of(look.signs, config.standard)
-    tight = tight_stalls(network, tuple(_quads(stalls, fitted)))
+    tight = tight_stalls(network, tuple(surveyed_quads(stalls, fitted)))
     parked = with_own_cars(
         park_cars(stalls, config, draws, tight=tight, held_back=held_back), stalls, config.vehicles, draws
     )
@@ -215,73 +220,6 @@ def lay_out_survey(
         fitted=fitted,
         unplaced=(*survey.unread, *unplaced),
     )
-
-
-def _placed_stalls(
-    fitted: Iterable[FittedStall], ground: SurveyedGround
-) -> tuple[tuple[PlacedStall, ...], tuple[FittedStall, ...]]:
-    """Return the stalls by tile in reading order, each with a number that people read, and the fitted ones likewise."""
-    fitted = list(fitted)
-    square_of = [ground.square_at(stall.centre) for stall in fitted]
-    numbers = _numbers(fitted)
-    order = sorted(range(len(fitted)), key=lambda index: (square_of[index], index))
-    ordinals: Counter[tuple[int, int]] = Counter()
-    stalls = []
-    for index in order:
-        stall, square = fitted[index], square_of[index]
-        ordinals[square] += 1
-        out_x, out_z = stall.outwards
-        stalls.append(
-            PlacedStall(
-                square=square,
-                ordinal=ordinals[square],
-                edge=max(Edge, key=lambda edge: _OUTWARDS[edge][0] * out_x + _OUTWARDS[edge][1] * out_z),
-                stall_type=StallType.TYPE_3,
-                centre_m=stall.centre,
-                width_m=stall.width_m,
-                length_m=stall.length_m,
-                yaw_rad=stall.yaw_rad,
-                use=stall.source.use,
-                number=numbers[index] if stall.source.use.takes_cars else "",
-                angle_deg=stall.angle_deg,
-                turn=stall.turn,
-                size=stall.source.size.value,
-            )
-        )
-    return tuple(stalls), tuple(fitted[index] for index in order)
-
-
-def _numbers(fitted: Iterable[FittedStall]) -> list[str]:
-    """Return the number of each stall: that of the survey, or counted through where some lack one or share it."""
-    given = [stall.source.number for stall in fitted]
-    if all(given) and len(set(given)) == len(given):
-        return given
-    return [f"{number:02d}" for number in range(1, len(given) + 1)]
-
-
-def _quads(
-    stalls: Iterable[PlacedStall],
-    fitted: Iterable[FittedStall],
-    blocked: Any = None,  # noqa: ANN401 - a mapping of names
-    occupied: Iterable[bool] | None = None,
-) -> Iterator[Stall]:
-    """Yield each stall as a quad that opens onto its lane node, with the facts of a stage's stalls."""
-    stalls = tuple(stalls)
-    taken = [()] * len(stalls) if occupied is None else [(("occupied", int(is_taken)),) for is_taken in occupied]
-    for stall, source, occupancy in zip(stalls, fitted, taken, strict=True):
-        left, right, rear_right, rear_left = stall.corners_m()
-        by = (blocked or {}).get(stall.name)
-        facts: tuple[tuple[str, str | int], ...] = (
-            *([("number", stall.number)] if stall.number else []),
-            ("type", stall.stall_type.value),
-            *([("size", stall.size)] if stall.size != "standard" else []),
-            ("row", stall.square[0]),
-            ("column", stall.square[1]),
-            ("entryEdge", stall.edge.name.lower()),
-            *([("blocked_by", by)] if by else []),
-            *occupancy,
-        )
-        yield Stall(stall.name, (left, right, rear_right, rear_left), stall.use, source.access, facts)
 
 
 def _column_grounds(survey: Survey) -> list[shapely.Polygon]:

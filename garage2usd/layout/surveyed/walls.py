@@ -22,8 +22,8 @@ from garage2usd.survey.survey import PortalKind, SurveyedLane, SurveyedPortal
 
 __all__ = ["gates_of", "surveyed_walls"]
 
-_DOOR_WALL_M = 4.6
-"""Length of the piece of wall around a door."""
+_LEAST_DOOR_WALL_M = 4.2
+"""Least length of the piece of wall around a door."""
 _DOOR_HEAD_M = 0.3
 _LEAST_WALL_M = 0.02
 _KINDS = {
@@ -60,7 +60,12 @@ class _Side(NamedTuple):
 
 
 def gates_of(
-    outline: shapely.Polygon, portals: Sequence[SurveyedPortal], lanes: Sequence[SurveyedLane], *, keeps_left: bool
+    outline: shapely.Polygon,
+    portals: Sequence[SurveyedPortal],
+    lanes: Sequence[SurveyedLane],
+    *,
+    door_wall_m: float,
+    keeps_left: bool,
 ) -> list[Gate]:
     """Place the doors of a surveyed garage on its outline.
 
@@ -73,6 +78,8 @@ def gates_of(
         outline.
     lanes
         Lanes of the survey.
+    door_wall_m
+        Length of the piece of wall around a door; less where the side of the outline is shorter.
     keeps_left
         True if traffic keeps to the left: the side of the entrance beside the exit of the same portal.
 
@@ -85,24 +92,22 @@ def gates_of(
     gates: list[Gate] = []
     for portal in portals or [_natural_portal(outline, lanes)]:
         kinds = _KINDS[portal.kind]
-        needed_m = len(kinds) * _DOOR_WALL_M
-        able = [side for side in sides if side.length_m >= needed_m + 2 * _LEAST_WALL_M]
+        needed_m = len(kinds) * _LEAST_DOOR_WALL_M + 2 * _LEAST_WALL_M
+        able = [side for side in sides if side.length_m >= needed_m]
         if not able:
-            raise ConfigError(
-                "outline",
-                f"sides of at most {max(s.length_m for s in sides):.2f} m",
-                f"a side of {needed_m} m for a portal",
-            )
+            longest_m = max(side.length_m for side in sides)
+            raise ConfigError("outline", f"sides of at most {longest_m:.2f} m", f"a side of {needed_m} m for a portal")
         side = min(able, key=lambda each: round(_distance_m(each, portal.position), _DIGITS))
-        middle = _run_m(side, portal.position)
-        middle = min(max(middle, needed_m / 2 + _LEAST_WALL_M), side.length_m - needed_m / 2 - _LEAST_WALL_M)
+        wall_m = round(min(door_wall_m, (side.length_m - 2 * _LEAST_WALL_M) / len(kinds)), _DIGITS)
+        room_m = len(kinds) * wall_m / 2 + _LEAST_WALL_M
+        middle = min(max(_run_m(side, portal.position), room_m), side.length_m - room_m)
         # those who walk along the side have the inside on their right, so drivers who come in have its start on theirs
         is_start_entrance = not keeps_left
         ordered = kinds if is_start_entrance else kinds[::-1]
         for number, kind in enumerate(ordered):
-            run = middle + (number - (len(kinds) - 1) / 2) * _DOOR_WALL_M
+            run = middle + (number - (len(kinds) - 1) / 2) * wall_m
             x, z = side.at(run)
-            gates.append(Gate(kind, (round(x, _DIGITS), round(z, _DIGITS)), side.outwards))
+            gates.append(Gate(kind, (round(x, _DIGITS), round(z, _DIGITS)), side.outwards, wall_m))
     return gates
 
 
@@ -126,8 +131,8 @@ def surveyed_walls(
             if _distance_m(side, gate.foot) < _LEAST_WALL_M and gate.outwards == side.outwards
         )
         cuts = [0.0]
-        for run, _ in doors:
-            cuts += [run - _DOOR_WALL_M / 2, run + _DOOR_WALL_M / 2]
+        for run, gate in doors:
+            cuts += [run - gate.wall_m / 2, run + gate.wall_m / 2]
         cuts.append(side.length_m + corner_m)
         for piece, (start, end) in enumerate(pairwise(cuts)):
             if end - start < _LEAST_WALL_M:

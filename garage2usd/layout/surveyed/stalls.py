@@ -1,0 +1,82 @@
+"""The stalls of a surveyed garage on the tiles of its floor, and as those of the neutral garage."""
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+
+from garage2usd.garage import Stall
+from garage2usd.layout.placement import PlacedStall
+from garage2usd.layout.surveyed.ground import SurveyedGround
+from garage2usd.structure.lane_graph import StallType
+from garage2usd.structure.stalls import Edge
+from garage2usd.survey.fitted_stalls import FittedStall
+
+__all__ = ["placed_stalls", "surveyed_quads"]
+
+_OUTWARDS = {Edge.UP: (0.0, -1.0), Edge.DOWN: (0.0, 1.0), Edge.LEFT: (-1.0, 0.0), Edge.RIGHT: (1.0, 0.0)}
+
+
+def placed_stalls(
+    fitted: Iterable[FittedStall], ground: SurveyedGround
+) -> tuple[tuple[PlacedStall, ...], tuple[FittedStall, ...]]:
+    """Return the stalls by tile in reading order, each with a number that people read, and the fitted ones likewise."""
+    fitted = list(fitted)
+    square_of = [ground.square_at(stall.centre) for stall in fitted]
+    numbers = _numbers(fitted)
+    order = sorted(range(len(fitted)), key=lambda index: (square_of[index], index))
+    ordinals: Counter[tuple[int, int]] = Counter()
+    stalls = []
+    for index in order:
+        stall, square = fitted[index], square_of[index]
+        ordinals[square] += 1
+        out_x, out_z = stall.outwards
+        stalls.append(
+            PlacedStall(
+                square=square,
+                ordinal=ordinals[square],
+                edge=max(Edge, key=lambda edge: _OUTWARDS[edge][0] * out_x + _OUTWARDS[edge][1] * out_z),
+                stall_type=StallType.TYPE_3,
+                centre_m=stall.centre,
+                width_m=stall.width_m,
+                length_m=stall.length_m,
+                yaw_rad=stall.yaw_rad,
+                use=stall.source.use,
+                number=numbers[index] if stall.source.use.takes_cars else "",
+                angle_deg=stall.angle_deg,
+                turn=stall.turn,
+                size=stall.source.size.value,
+            )
+        )
+    return tuple(stalls), tuple(fitted[index] for index in order)
+
+
+def _numbers(fitted: Iterable[FittedStall]) -> list[str]:
+    """Return the number of each stall: that of the survey, or counted through where some lack one or share it."""
+    given = [stall.source.number for stall in fitted]
+    if all(given) and len(set(given)) == len(given):
+        return given
+    return [f"{number:02d}" for number in range(1, len(given) + 1)]
+
+
+def surveyed_quads(
+    stalls: Iterable[PlacedStall],
+    fitted: Iterable[FittedStall],
+    blocked: Mapping[str, str] | None = None,
+    occupied: Iterable[bool] | None = None,
+) -> Iterator[Stall]:
+    """Yield each stall as a quad that opens onto its lane node, with the facts of a stage's stalls."""
+    stalls = tuple(stalls)
+    taken = [()] * len(stalls) if occupied is None else [(("occupied", int(is_taken)),) for is_taken in occupied]
+    for stall, source, occupancy in zip(stalls, fitted, taken, strict=True):
+        left, right, rear_right, rear_left = stall.corners_m()
+        by = (blocked or {}).get(stall.name)
+        facts: tuple[tuple[str, str | int], ...] = (
+            *([("number", stall.number)] if stall.number else []),
+            ("type", stall.stall_type.value),
+            *([("size", stall.size)] if stall.size != "standard" else []),
+            ("row", stall.square[0]),
+            ("column", stall.square[1]),
+            ("entryEdge", stall.edge.name.lower()),
+            *([("blocked_by", by)] if by else []),
+            *occupancy,
+        )
+        yield Stall(stall.name, (left, right, rear_right, rear_left), stall.use, source.access, facts)
