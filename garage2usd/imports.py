@@ -189,8 +189,8 @@ def _report(
                 "size": stall.size,
                 "corners_m": [[round(x, 4), round(z, 4)] for x, z in stall.corners],
                 "occupied": stall.is_occupied,
-                "blocked_by": stall.blocked_by,
-                "proof": proven[stall.name].outcome.value if stall.name in proven else None,
+                **({} if stall.blocked_by is None else {"blocked_by": stall.blocked_by}),
+                **({"proof": proven[stall.name].outcome.value} if stall.name in proven else {}),
             }
             for stall, source_stall in zip(layout.quads, layout.fitted, strict=True)
         ],

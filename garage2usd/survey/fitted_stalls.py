@@ -96,9 +96,8 @@ def fitted_stalls(
 
     Notes
     -----
-    The mouth is the short side from which the middle of a lane is in reach without another stall between, else the long
-    one, else one before which a lane ends or bends; of two such sides the one nearer to its lane, but that of most
-    adjacent stalls first.
+    The mouth is the short side from which the middle of a lane is in reach, else the long one, else one before which a
+    lane ends or bends; of two such sides the one that most adjacent stalls prefer, else the one nearer to its lane.
     """
     return _Fitting(survey, lanes, keeps_left=keeps_left).result()
 

@@ -3,7 +3,6 @@
 import math
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from itertools import combinations, pairwise
 from typing import NamedTuple
 
@@ -14,11 +13,11 @@ from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, LaneNode, Point
 from garage2usd.survey.centre_lines import SAME_M, CentreLine, joined_lines
 from garage2usd.survey.survey import SurveyedLane
 
-__all__ = ["USUAL_LANE_M", "Gate", "lane_network", "with_clear_widths"]
+__all__ = ["USUAL_LANE_M", "Gate", "lane_network"]
 
 USUAL_LANE_M = 6.0
 """Width in metres of a lane whose width is unknown."""
-_GATE_HALF_M = 2.5
+_GATE_HALF_M, _LEAST_GATE_M = 2.5, 1.0
 """Half the side in metres of the ground of a portal's node, which ends at the wall."""
 _PITCH_M = 6.0
 """Greatest distance in metres between nodes."""
@@ -26,7 +25,6 @@ _STRAIGHT_M = 0.15
 """Deviation in metres up to which a centre line is straight."""
 _TWO_ENDS, _CROSSROADS = 2, 4
 _DIGITS = 4
-_LEAST_CLEAR_M, _MOST_CLEAR_M = 2.0, 12.0
 
 
 class Gate(NamedTuple):
@@ -49,11 +47,14 @@ class Gate(NamedTuple):
     outwards: Point
     wall_m: float
 
-    @property
-    def node_m(self) -> Point:
-        """(x, z) of the node of the lane graph inside the door."""
-        (x, z), (out_x, out_z) = self.foot, self.outwards
-        return round(x - out_x * _GATE_HALF_M, _DIGITS), round(z - out_z * _GATE_HALF_M, _DIGITS)
+
+class _Approach(NamedTuple):
+    """The lane graph's node of a door, the half side of its ground, and the line between it and the lane ahead."""
+
+    gate: Gate
+    node: Point
+    half_m: float
+    line: CentreLine
 
 
 def lane_network(
@@ -76,7 +77,9 @@ def lane_network(
     others remain in the graph: no stall is reached there.
     """
     lines = joined_lines([_line(lane) for lane in lanes], shapely.STRtree(list(grounds)))
-    lines += [_approach(gate, lines) for gate in gates]
+    lines = [_short_of(line, gates) for line in lines]
+    approaches = [_approach(gate, lines) for gate in gates]
+    lines += [approach.line for approach in approaches]
     cuts = _cuts(lines)
     nodes, number_of = _merged([point for points in cuts for _, point in points])
     arcs: dict[tuple[int, int], tuple[float, bool]] = {}
@@ -93,42 +96,7 @@ def lane_network(
         for (start, end), (width_m, one_way) in arcs.items()
         if (start, end) not in both or start < end
     ]
-    return _graph(nodes, edges, gates)
-
-
-def with_clear_widths(network: LaneGraph, standing: shapely.Geometry) -> LaneGraph:
-    """Return a lane graph whose lanes are as wide as the ground between what stands beside them.
-
-    Parameters
-    ----------
-    network
-        The lane graph.
-    standing
-        Stalls, columns and walls, (x, z).
-
-    Notes
-    -----
-    The width is twice the distance of a stretch from what stands nearest to it. The given width stays where that is
-    over twelve metres, on open ground, and where it is less than two, as centre lines of maps may cross stalls.
-    """
-    portals = {number for number, node in enumerate(network.nodes) if node.is_portal}
-    width_m: defaultdict[int, float] = defaultdict(float)
-    edges = []
-    for edge in network.edges:
-        if not portals & {edge.start, edge.end}:
-            ends = [network.nodes[number].position for number in (edge.start, edge.end)]
-            clear_m = round(2 * standing.distance(shapely.LineString(ends)), _DIGITS)
-            if _LEAST_CLEAR_M <= clear_m <= _MOST_CLEAR_M:
-                edge = edge._replace(width_m=clear_m)  # noqa: PLW2901 - the same edge with its width
-            for number in (edge.start, edge.end):
-                width_m[number] = max(width_m[number], edge.width_m)
-        edges.append(edge)
-    nodes = [
-        replace(node, widths_m=(side_m, side_m), sides_m=(side_m, side_m))
-        for number, node in enumerate(network.nodes)
-        for side_m in [width_m[number] or node.widths_m[0]]
-    ]
-    return LaneGraph(tuple(nodes), tuple(edges))
+    return _graph(nodes, edges, approaches)
 
 
 def _line(lane: SurveyedLane) -> CentreLine:
@@ -136,28 +104,42 @@ def _line(lane: SurveyedLane) -> CentreLine:
     return CentreLine(line, lane.width_m or USUAL_LANE_M, lane.one_way)
 
 
-def _approach(gate: Gate, lines: Sequence[CentreLine]) -> CentreLine:
-    """Return the line from a door's node to the lane ahead, or reversed for an exit."""
-    node, (out_x, out_z) = gate.node_m, gate.outwards
-    start = shapely.Point(node)
-    nearest_m = min(each.line.distance(start) for each in lines)
-    reach_m = 2 * nearest_m + SAME_M
-    ray = shapely.LineString([node, (node[0] - out_x * reach_m, node[1] - out_z * reach_m)])
-    crossed = [
-        point
-        for each in lines
-        for point in shapely.get_parts(each.line.intersection(ray))
-        if point.geom_type == "Point"
-    ]
-    if crossed:
-        foot = min(crossed, key=start.distance)
+def _short_of(line: CentreLine, gates: Iterable[Gate]) -> CentreLine:
+    """Return a centre line without the end that lies before a door, where the ground of the door's node is."""
+    for gate in gates:
+        (x, z), (out_x, out_z) = gate.foot, gate.outwards
+        deep_m = 2 * _GATE_HALF_M + line.width_m / 2
+        across = [(x - out_x * deep, z - out_z * deep) for deep in (-deep_m, deep_m)]
+        ground = shapely.LineString(across).buffer(gate.wall_m / 2, cap_style="flat")
+        for place in (0, -1):
+            if not ground.covers(shapely.Point(line.line.coords[place])):
+                continue
+            rest = [part for part in shapely.get_parts(line.line.difference(ground)) if part.length > SAME_M]
+            if rest:
+                line = line._replace(line=rest[-1 if place == 0 else 0])
+    return line
+
+
+def _approach(gate: Gate, lines: Sequence[CentreLine]) -> _Approach:
+    """Find the line from a door's node to the lane ahead, else the nearest one; reversed for an exit."""
+    foot, (out_x, out_z) = shapely.Point(gate.foot), gate.outwards
+    reach_m = 2 * min(each.line.distance(foot) for each in lines) + SAME_M
+    ray = shapely.LineString([gate.foot, (foot.x - out_x * reach_m, foot.y - out_z * reach_m)])
+    met = [(each.line.intersection(ray), each) for each in lines if each.line.intersects(ray)]
+    if met:
+        part, ahead = min(met, key=lambda found: foot.distance(found[0]))
+        end = shapely.Point(shapely.shortest_line(foot, part).coords[-1])
     else:
-        line = min((each.line for each in lines), key=start.distance)
-        foot = line.interpolate(line.project(start))
-    ends = [node, foot.coords[0]]
+        ahead = min(lines, key=lambda each: foot.distance(each.line))
+        end = ahead.line.interpolate(ahead.line.project(foot))
+    # the ground of the node ends where that of the lane begins
+    free_m = max(foot.distance(end) - ahead.width_m / 2, _LEAST_GATE_M)
+    half_m = round(min(_GATE_HALF_M, free_m / 2), _DIGITS)
+    node = round(foot.x - out_x * half_m, _DIGITS), round(foot.y - out_z * half_m, _DIGITS)
+    ends = [node, end.coords[0]]
     if gate.kind is LaneKind.EXIT:
         ends.reverse()
-    return CentreLine(shapely.LineString(ends), 2 * _GATE_HALF_M, one_way=True)
+    return _Approach(gate, node, half_m, CentreLine(shapely.LineString(ends), 2 * half_m, one_way=True))
 
 
 def _cuts(lines: Sequence[CentreLine]) -> list[list[tuple[float, Point]]]:
@@ -225,23 +207,28 @@ def _merged(points: Sequence[Point]) -> tuple[list[Point], list[int]]:
     return kept, [number_of[index] for index in range(len(points))]
 
 
-def _graph(nodes: Sequence[Point], edges: Sequence[tuple[int, int, float, bool]], gates: Sequence[Gate]) -> LaneGraph:
+def _graph(
+    nodes: Sequence[Point], edges: Sequence[tuple[int, int, float, bool]], approaches: Sequence[_Approach]
+) -> LaneGraph:
     """Return the lane graph with the kind and width of each node; portals first, the others as they were found."""
-    gate_of = {min(range(len(nodes)), key=lambda number: math.dist(nodes[number], gate.node_m)): gate for gate in gates}
+    approach_of = {
+        min(range(len(nodes)), key=lambda number: math.dist(nodes[number], each.node)): each for each in approaches
+    }
     beside: nx.Graph[int] = nx.Graph((start, end) for start, end, _, _ in edges)
     width_m: defaultdict[int, float] = defaultdict(float)
     for start, end, width, _ in edges:
-        if start not in gate_of and end not in gate_of:
+        if start not in approach_of and end not in approach_of:
             width_m[start], width_m[end] = max(width_m[start], width), max(width_m[end], width)
-    order = sorted(beside, key=lambda number: (number not in gate_of, number))
+    order = sorted(beside, key=lambda number: (number not in approach_of, number))
     new = {number: index for index, number in enumerate(order)}
     found = []
     for index, number in enumerate(order):
-        gate, side_m = gate_of.get(number), round(width_m[number] or USUAL_LANE_M, _DIGITS)
-        if gate is not None:
-            side_m = 2 * _GATE_HALF_M
-        kind = gate.kind if gate is not None else _kind(beside.degree(number))
-        place = nodes[number] if gate is None else gate.node_m
+        approach = approach_of.get(number)
+        if approach is not None:
+            kind, place, side_m = approach.gate.kind, approach.node, 2 * approach.half_m
+        else:
+            kind, place = _kind(beside.degree(number)), nodes[number]
+            side_m = round(width_m[number] or USUAL_LANE_M, _DIGITS)
         found.append(LaneNode(kind.value, place, (side_m, side_m), f"[0, {index}]", sides_m=(side_m, side_m)))
     return LaneGraph(
         tuple(found),

@@ -40,8 +40,9 @@ from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.column import ColumnSpec
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneSquares, StallType
+from garage2usd.survey.clear_widths import with_clear_widths
 from garage2usd.survey.fitted_stalls import FittedStall, fitted_stalls
-from garage2usd.survey.lane_network import lane_network, with_clear_widths
+from garage2usd.survey.lane_network import lane_network
 from garage2usd.survey.survey import Survey, Unplaced
 
 __all__ = ["SurveyedLayout", "lay_out_survey"]

@@ -1,0 +1,161 @@
+"""Garages of layouts that others made: files, geometry and messages."""
+
+import json
+import math
+import re
+from collections import Counter
+
+import numpy as np
+import pytest
+import shapely
+from click.testing import CliRunner
+from pxr import Usd
+from support.sample_files import REPOSITORY
+
+from garage2usd import GarageConfig
+from garage2usd.checks import read_garage
+from garage2usd.cli import main
+from garage2usd.common.errors import ConfigError
+from garage2usd.imports import import_layout
+from garage2usd.survey.survey import PortalKind, Survey, SurveyedLane, SurveyedPortal, SurveyedStall
+
+LOT = REPOSITORY / "samples/surveys/lot.toml"
+
+
+def corners(left, top, width, depth):
+    return ((left, top), (left + width, top), (left + width, top + depth), (left, top + depth))
+
+
+def l_shaped():
+    """A garage around a corner with two kinds of stall and a portal for both directions."""
+    outline = ((0.0, 0.0), (44.0, 0.0), (44.0, 16.0), (16.0, 16.0), (16.0, 40.0), (0.0, 40.0))
+    stalls = [
+        SurveyedStall(f"n{n}", ((8 + 2.5 * n, 0), (10.5 + 2.5 * n, 0), (10.5 + 2.5 * n, 5), (8 + 2.5 * n, 5)))
+        for n in range(12)
+    ]
+    stalls += [
+        SurveyedStall(f"w{n}", ((0, 10 + 6 * n), (2.4, 10 + 6 * n), (2.4, 16 + 6 * n), (0, 16 + 6 * n)))
+        for n in range(4)
+    ]
+    lanes = (SurveyedLane(((5.4, 36.0), (5.4, 8.0), (40.0, 8.0)), 6.0),)
+    return Survey(tuple(stalls), lanes, portals=(SurveyedPortal((44.0, 8.0), PortalKind.BOTH),), outline=outline)
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    return import_layout(l_shaped(), tmp_path_factory.mktemp("import") / "l.usdc", config=GarageConfig(seed=4))
+
+
+def test_all_stalls_are_where_they_were_drawn(made):
+    assert made.layout.unplaced == ()
+    drawn = {stall.name: shapely.Polygon(stall.corners) for stall in l_shaped().stalls}
+    assert len(made.layout.fitted) == len(drawn) == len(made.layout.quads)
+    for source, stall in zip(made.layout.fitted, made.layout.quads, strict=True):
+        assert stall.polygon.hausdorff_distance(drawn[source.source.name]) < 1e-3
+    assert Counter(stall.kind.value for stall in made.layout.quads) == {"perpendicular": 12, "parallel": 4}
+
+
+def test_walls_and_doors_close_the_outline(made):
+    outline = shapely.Polygon(made.layout.survey.outline)
+    walls = [place for kind in ("wall", "portal") for place in made.layout.of_kind(kind)]
+    solid = shapely.union_all([shapely.Polygon(ground) for wall in walls for ground in wall.outlines()])
+    opened = outline.exterior.difference(solid.buffer(0.01))
+    # what is open is the doors of an entrance and an exit beside each other, and both lead onto ramps
+    assert made.layout.counts()["portal"] == made.layout.counts()["ramp"] == 2
+    assert opened.length == pytest.approx(
+        sum(w.spec.door_width_m - 0.16 for w in walls if hasattr(w.spec, "door_width_m")), abs=0.1
+    )
+    assert solid.intersection(outline).area < 0.2
+    assert all(x == pytest.approx(44) for x, _ in shapely.get_coordinates(opened))
+    entrance, exit_ = (next(w for w in walls if getattr(w.spec, "is_entrance", None) is way) for way in (True, False))
+    # drivers who come in from the east keep to the right, which is north
+    assert entrance.position_m[2] < exit_.position_m[2]
+
+
+def test_the_floor_is_one_sheet_inside_the_outline(made):
+    outline = shapely.Polygon(made.layout.survey.outline)
+    panels = []
+    for place in [*made.layout.of_kind("floor"), *made.layout.of_kind("stall")]:
+        ground = place.spec.ground.difference(
+            shapely.union_all([shapely.Polygon(hole) for hole in place.spec.openings])
+        )
+        panels += [
+            shapely.Polygon([place.to_world(point) for point in part.exterior.coords])
+            for part in shapely.get_parts(ground)
+        ]
+    assert sum(panel.area for panel in panels) == pytest.approx(outline.area, abs=0.3)
+    assert shapely.union_all(panels, grid_size=1e-4).symmetric_difference(outline).area < 0.3
+
+
+def test_every_stall_is_driven(made):
+    assert {proof.stall for proof in made.proofs if proof.is_proven} == {stall.name for stall in made.layout.quads}
+
+
+def test_cars_stand_in_their_stalls(made):
+    quads = {stall.name: stall.polygon for stall in made.layout.quads}
+    cars = made.layout.of_kind("car")
+    assert cars
+    for car in cars:
+        ground = shapely.union_all([shapely.Polygon(outline) for outline in car.outlines()])
+        assert ground.difference(quads[car.stall].buffer(0.15)).area < 0.05
+
+
+def test_the_stage_has_no_s_r_and_c_and_all_of_the_rest(made):
+    stage = Usd.Stage.Open(str(made.stage))
+    assert not {"S", "R", "C", "fireCompartments", "tape"} & {*stage.GetDefaultPrim().GetCustomData()}
+    garage, _ = read_garage(made.stage)
+    assert garage.structure is None
+    assert not garage.faults
+    assert [stall.corners for stall in garage.stalls] == [
+        tuple(pytest.approx(corner, abs=1e-4) for corner in stall.corners) for stall in made.layout.quads
+    ]
+    report = json.loads(made.report.read_text())
+    assert [stall["id"] for stall in report["stalls"]] == [stall.source.name for stall in made.layout.fitted]
+    assert {stall["proof"] for stall in report["stalls"]} == {"reached"}
+
+
+def test_the_same_survey_gives_the_same_bytes(made, tmp_path):
+    again = import_layout(l_shaped(), tmp_path / "l.usdc", config=GarageConfig(seed=4))
+    for one, other in ((made.stage, again.stage), (made.labels, again.labels), (made.plan, again.plan)):
+        assert one.read_bytes() == other.read_bytes()
+    other = import_layout(l_shaped(), tmp_path / "other.usdc", config=GarageConfig(seed=5), proves=False)
+    assert [stall.corners for stall in other.layout.quads] == [stall.corners for stall in made.layout.quads]
+    assert [car.spec for car in other.layout.of_kind("car")] != [car.spec for car in made.layout.of_kind("car")]
+
+
+def test_the_command_tells_what_it_made(tmp_path):
+    run = CliRunner().invoke(main, ["import", str(LOT), "-o", str(tmp_path / "lot.usdz"), "--seed", "2"])
+    assert run.exit_code == 0, run.output
+    assert re.search(r"stalls\s+20 \(11 perpendicular, 9 angled\)", run.output)
+    assert re.search(r"driven\s+20 reached", run.output)
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "lot.usdz",
+        "lot_plan.png",
+        "lot_labels.json",
+        "lot_report.json",
+    }
+
+
+def test_columns_stand_where_they_are_given(tmp_path):
+    made = import_layout(LOT, tmp_path / "lot.usdc", proves=False)
+    assert [place.position_m for place in made.layout.of_kind("column")] == [(3.0, 0.0, 15.0)]
+
+
+@pytest.mark.parametrize(
+    ("settings", "output", "message"),
+    [
+        ({}, "l.obj", "output: got '.*l.obj'; allowed: a path that ends in .usda, .usdc, .usdz"),
+        ({"clutter": {"people": 5}}, "l.usdc", "clutter: got 'people and things'; allowed: none in an imported layout"),
+    ],
+)
+def test_what_cannot_be_imported_is_refused(settings, output, message, tmp_path):
+    with pytest.raises(ConfigError, match=message):
+        import_layout(l_shaped(), tmp_path / output, config=GarageConfig(**settings))
+    assert not [*tmp_path.iterdir()]
+
+
+def test_an_outline_without_room_for_a_door_is_refused(tmp_path):
+    outline = tuple((10 + 5 * math.cos(a), 10 + 5 * math.sin(a)) for a in np.linspace(0, math.tau, 24, endpoint=False))
+    survey = Survey(l_shaped().stalls[:1], (SurveyedLane(((6.0, 8.0), (14.0, 8.0)), 5.0),), outline=outline)
+    with pytest.raises(ConfigError, match=r"outline: got 'sides of at most 1\.31 m'; allowed: a side of"):
+        import_layout(survey, tmp_path / "l.usdc")
