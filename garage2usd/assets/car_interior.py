@@ -109,7 +109,7 @@ def _across(shell: Shell, line: Sequence[tuple[float, float]], half_m: float) ->
 
 
 def _dashboard(shell: Shell, front: _Row) -> Faces:
-    """Dashboard of a car, from below the windscreen to before the front seats, down to the floor, with a centre console."""
+    """Dashboard of a car from below the windscreen down to the floor, with a centre console."""
     first = shell.cowl + _DASH_FROM_COWL_M
     last = max(first + 0.20, front.s_m - 0.92)
     top, floor = shell.shoulder(first) + 0.012, _floor_m(shell)

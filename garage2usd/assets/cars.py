@@ -143,7 +143,7 @@ def _door_lines(shell: Shell) -> list[float]:
 
 
 def _seams(shell: Shell) -> Faces:
-    """Seams of a car: shut lines of doors and bonnet, strips below the side windows, sills, rails of doors and roof, wipers."""
+    """Seams of a car: shut lines of doors and bonnet, strips below side windows, sills, door and roof rails, wipers."""
     up = (4.8, 5.0, 6.0, 7.0, 8.0, 9.0, 9.85)
     faces = [ribbon(shell, [(s, t) for t in up], _SEAM_M) for s in _door_lines(shell)]
     stations = shell.stations
