@@ -109,7 +109,7 @@ def _across(shell: Shell, line: Sequence[tuple[float, float]], half_m: float) ->
 
 
 def _dashboard(shell: Shell, front: _Row) -> Faces:
-    """Dashboard from below the windscreen to before the front seats, down to the floor, with a centre console."""
+    """Dashboard of a car from below the windscreen down to the floor, with a centre console."""
     first = shell.cowl + _DASH_FROM_COWL_M
     last = max(first + 0.20, front.s_m - 0.92)
     top, floor = shell.shoulder(first) + 0.012, _floor_m(shell)
@@ -128,7 +128,7 @@ def _dashboard(shell: Shell, front: _Row) -> Faces:
 
 
 def _driver_x(shell: Shell) -> float:
-    """X of the centre of the driver's seat, on the left."""
+    """X of the centre of a car's driver's seat, on the left."""
     return -min(shell.body.width_m * 0.205, shell.body.width_m / 2 - 0.47)
 
 
@@ -146,7 +146,7 @@ def _steering_wheel(shell: Shell, front: _Row) -> list[NDArray[np.float64]]:
 
 
 def _tub(shell: Shell, rows: Sequence[_Row]) -> Faces:
-    """Floor and door cards up to the last row, and behind it a shelf to the rear window, or a bulkhead."""
+    """Floor and door cards of a car up to the last row, and behind it a shelf to the rear window, or a bulkhead."""
     half_length = shell.body.length_m / 2
     first, floor = shell.cowl + _DASH_FROM_COWL_M, _floor_m(shell)
     last = min(rows[-1].s_m + _BACK_LEAN_M + 0.06, shell.deck - 0.08)
@@ -212,7 +212,7 @@ def _pillow(low: Sequence[float], high: Sequence[float], bevel_m: float) -> Face
 
 
 def _seat(row: _Row, x: tuple[float, float], half_length_m: float) -> list[Faces]:
-    """Cushion and inclined backrest between two positions across the car."""
+    """Cushion and inclined backrest of a car seat between two positions across the car."""
     top, z = row.cushion_m, row.s_m - half_length_m
     low = (x[0], top - _CUSHION_THICK_M, z - _CUSHION_LENGTH_M + 0.06)
     cushion = _pillow(low, (x[1], top, z + 0.06), _BEVEL_M)
@@ -228,7 +228,7 @@ def _leant(faces: Faces, row: _Row, z: float) -> Faces:
 
 
 def _headrest(shell: Shell, row: _Row, x: float) -> Faces:
-    """Headrest above a backrest, limited by the roof."""
+    """Headrest of a car seat above its backrest, limited by the roof."""
     z = row.s_m - shell.body.length_m / 2
     roof = _roof_m(shell, row.s_m + _BACK_LEAN_M + 0.08) - 0.02
     high = min(_BACK_M + 0.05 + _HEADREST_M, roof - row.cushion_m + 0.03)
@@ -245,7 +245,7 @@ def _front_seat(shell: Shell, row: _Row, side: float) -> Faces:
 
 
 def _bench(shell: Shell, row: _Row) -> Faces:
-    """Bench for three, with a headrest for each."""
+    """Rear bench of a car for three, with a headrest for each."""
     top = row.s_m + _BACK_LEAN_M + _BACK_THICK_M / 2, row.cushion_m + _BACK_M
     half = min(_inner_m(shell, row.s_m, row.cushion_m + 0.2) - 0.05, _inner_m(shell, *top))
     seat = _seat(row, (-half, half), shell.body.length_m / 2)

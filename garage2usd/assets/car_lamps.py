@@ -53,7 +53,7 @@ _Design = tuple[list[list[Row]], list[list[Row]], list[tuple[float, float, float
 
 
 def _twin(half: float, top: float, low: float) -> _Design:
-    """Two lenses side by side below a light strip."""
+    """Head lamp design: two lenses side by side below a light strip."""
     del low
     housing = [
         (top - 0.135, at_x(0.60 * half), at_depth(0.17)),
@@ -66,7 +66,7 @@ def _twin(half: float, top: float, low: float) -> _Design:
 
 
 def _slim(half: float, top: float, low: float) -> _Design:
-    """A narrow slit along the wing, with small lenses above a strip at its lower edge."""
+    """Head lamp design: a narrow slit along the wing, with small lenses above a strip at its lower edge."""
     del low
     housing = [
         (top - 0.09, at_x(0.58 * half), at_depth(0.20)),
@@ -78,7 +78,7 @@ def _slim(half: float, top: float, low: float) -> _Design:
 
 
 def _round(half: float, top: float, low: float) -> _Design:
-    """One large round lens in a round housing, with a small lamp below it."""
+    """Head lamp design: one large round lens in a round housing, with a small lamp below it."""
     del low
     x, y, reach = 0.68 * half, top - 0.10, 0.098
     ring = [(y + reach * at, reach * wide) for at, wide in ((-1.0, 0.42), (-0.42, 1.0), (0.42, 1.0), (1.0, 0.42))]
@@ -88,7 +88,7 @@ def _round(half: float, top: float, low: float) -> _Design:
 
 
 def _block(half: float, top: float, low: float) -> _Design:
-    """A tall block with two lenses one above the other, in an angle of light."""
+    """Head lamp design: a tall block with two lenses one above the other, in an angle of light."""
     del low
     housing = [
         (top - 0.195, at_x(0.66 * half), at_depth(0.15)),
@@ -104,7 +104,7 @@ def _block(half: float, top: float, low: float) -> _Design:
 
 
 def _split(half: float, top: float, low: float) -> _Design:
-    """A light strip below the bonnet, with the lenses in the bumper."""
+    """Head lamp design: a light strip below the bonnet, with the lenses in the bumper."""
     slit = [(top - 0.052, at_x(0.52 * half), at_depth(0.28)), (top, at_x(0.50 * half), at_depth(0.37))]
     strip = [(top - 0.040, at_x(0.535 * half), at_depth(0.28)), (top - 0.014, at_x(0.52 * half), at_depth(0.34))]
     pod = [
@@ -128,7 +128,7 @@ def tail_lamps(shell: Shell) -> TailLamps:
 
 
 def _banded(shell: Shell) -> TailLamps:
-    """Red lenses at the corners with a reversing lamp between: tall, or wide below a boot lid."""
+    """Tail lamp design: red lenses at the corners with a reversing lamp between: tall, or wide below a boot lid."""
     half, top = shell.body.width_m / 2, shell.end_top(rear=True) - 0.03
     tall = shell.shape.tail_lamps is TailLamp.TALL
     room = top - shell.bumper_top(rear=True) - 0.02
@@ -164,7 +164,7 @@ def _reverse_in_bumper(shell: Shell) -> Faces:
 
 
 def _bar(shell: Shell) -> TailLamps:
-    """A light band across the whole tail, wider at its ends."""
+    """Tail lamp design: a light band across the whole tail, wider at its ends."""
     half, top = shell.body.width_m / 2, shell.end_top(rear=True) - 0.025
     wrap, border = shell.shape.bow_m[1] + 0.22, 0.64 * half
     housing = [(y, at_left_depth(wrap), at_depth(wrap)) for y in (top - 0.105, top)]
@@ -179,7 +179,7 @@ def _bar(shell: Shell) -> TailLamps:
 
 
 def _round_tail(shell: Shell) -> TailLamps:
-    """Two round lenses on each side."""
+    """Tail lamp design: two round lenses on each side."""
     half, top = shell.body.width_m / 2, shell.end_top(rear=True) - 0.03
     radius = min(0.058, (top - shell.bumper_top(rear=True)) / 2 - 0.02)
     y, places = top - radius - 0.012, (0.80 * half - 2 * radius - 0.022, 0.80 * half)

@@ -88,7 +88,7 @@ def rear_plate_m(shell: Shell) -> float:
 
 
 def _grille(shell: Shell) -> list[Row]:
-    """Black panel of the grille."""
+    """Black panel of a car's grille."""
     half, top = shell.body.width_m / 2, shell.end_top(rear=False)
     match shell.shape.grille:
         case Grille.CLOSED:

@@ -118,7 +118,7 @@ def _sector(near: float, far: float, half_angle: float, *, steps: int, face_m: f
 
 
 def _hub(radius_m: float = 0.066, *, out_m: float = 0.0) -> Faces:
-    """A central cap."""
+    """Hub cap of a wheel."""
     half = _HALF_M + out_m
     profile = [(half - 0.08, radius_m * 1.14), (half - 0.016, radius_m), (half - 0.004, radius_m * 0.6)]
     return np.array(lathe_faces([*profile, (half - 0.004, 0.0)], segments=12))
@@ -163,13 +163,13 @@ def _cover(rim: float) -> list[Faces]:
 
 
 def _aero(rim: float) -> list[Faces]:
-    """A closed disc with five narrow slots."""
+    """Aerodynamic rim: a closed disc with five narrow slots."""
     inner = np.array(lathe_faces([(_FACE_M - 0.001, rim * 0.43), (_FACE_M + 0.006, 0.0)], segments=20))
     return [inner, *_ring(_sector(rim * 0.42, rim - 0.006, 0.52, steps=4), 5)]
 
 
 def _steel(rim: float) -> list[Faces]:
-    """A pressed steel wheel: a ring of holes around a deep bowl and a small cap."""
+    """Steel rim: a ring of holes around a deep bowl and a small cap."""
     deep = _FACE_M - 0.03
     bowl = np.array(
         lathe_faces([(deep - 0.001, rim * 0.63), (deep - 0.012, rim * 0.4), (deep + 0.012, 0.075)], segments=20)

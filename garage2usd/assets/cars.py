@@ -121,7 +121,7 @@ def plate_places(body: CarBody) -> list[tuple[float, float, float]]:
 
 
 def _arch_lips(shell: Shell) -> Faces:
-    """Lips around the four wheel arches, which follow the side."""
+    """Lips around a car's four wheel arches, which follow the side."""
     angles = np.linspace(0.02, np.pi - 0.02, 17).tolist()
     faces: list[Faces] = []
     for axle in shell.axles:
@@ -143,7 +143,7 @@ def _door_lines(shell: Shell) -> list[float]:
 
 
 def _seams(shell: Shell) -> Faces:
-    """Shut lines of doors and bonnet, strips below the side windows, sills, rails of doors and roof, wipers."""
+    """Seams of a car: shut lines of doors and bonnet, strips below side windows, sills, door and roof rails, wipers."""
     up = (4.8, 5.0, 6.0, 7.0, 8.0, 9.0, 9.85)
     faces = [ribbon(shell, [(s, t) for t in up], _SEAM_M) for s in _door_lines(shell)]
     stations = shell.stations
@@ -164,7 +164,7 @@ def _seams(shell: Shell) -> Faces:
 
 
 def _handles(shell: Shell) -> Faces:
-    """A handle at the rear end of each door, which protrudes no farther than the wheel arches."""
+    """Door handles: one at the rear end of each car door, which protrudes no farther than the wheel arches."""
     faces: list[Faces] = []
     outermost = shell.body.width_m / 2 + _ARCH_LIP_OUT_M
     for s in _door_lines(shell)[1:]:
@@ -205,7 +205,7 @@ def _end_z(shell: Shell, x: float, y: float, *, rear: bool) -> float:
 
 
 def _mirrors(shell: Shell) -> Faces:
-    """Two rounded mirrors on short arms."""
+    """Outside mirrors of a car: two rounded ones on short arms."""
     s = shell.body.mirrors_m
     y = shell.shoulder(s) + 0.075
     inner, outer = shell.side_place(s, shell.shoulder(s))[0] - 0.04, shell.body.overall_width_m / 2
@@ -216,7 +216,7 @@ def _mirrors(shell: Shell) -> Faces:
 
 
 def _wipers(shell: Shell) -> list[Faces]:
-    """Two wipers on the windscreen, and one on the rear window if there is no boot lid."""
+    """Wipers of a car: two on the windscreen, and one on the rear window if there is no boot lid."""
     foot = shell.cowl + 0.045
     arm = [(foot, 15.7), (foot + 0.01, 15.0), (foot + 0.03, 14.2), (foot + 0.06, 13.4)]
     found = [ribbon(shell, arm, 0.018, lift_m=0.010)]
@@ -237,7 +237,7 @@ def _door_rail(shell: Shell) -> Faces:
 
 
 def _rails(shell: Shell) -> Faces:
-    """A rail along each edge of the roof."""
+    """Roof rails of a car, one along each edge."""
     span = np.linspace(shell.roof_front + 0.12, shell.roof_rear - 0.06, 6)
     edge = np.array([shell.surface(float(s), 12.2) for s in span])
     rises = np.array([0.0, *[_RAIL_M] * (len(span) - 2), 0.0])[:, None]

@@ -300,7 +300,7 @@ def _pelvis(body: _Body, figure: Figure) -> list[Face]:
 
 
 def _skirt(body: _Body, figure: Figure) -> list[Face]:
-    """Skirt from the waist to below the knees, around the legs."""
+    """Skirt of a person from the waist to below the knees, around the legs."""
     unit = body.unit_m * figure.build
     (_, left, _), (_, right, _) = body.legs
     stride = abs(left[2] - right[2]) / 2
@@ -352,7 +352,7 @@ def _arms(body: _Body, figure: Figure, start: int, end: int, thinner: float = 1.
 
 
 def _hands(body: _Body) -> list[Face]:
-    """Mitten hands with thumbs, palms to the body."""
+    """Hands of a person as mittens with thumbs, palms to the body."""
     unit = body.unit_m
     faces: list[Face] = []
     for _, elbow, wrist in body.arms:
@@ -369,7 +369,7 @@ def _hands(body: _Body) -> list[Face]:
 
 
 def _shoes(body: _Body, pose: Pose) -> list[Face]:
-    """Shoes with flat soles, turned about the ankles."""
+    """Shoes of a person with flat soles, rotated about the ankles."""
     return [
         face
         for (_, _, ankle), foot, side in zip(body.legs, pose.feet, _SIDES, strict=True)
@@ -411,7 +411,7 @@ def _headed(body: _Body, points: Sequence[tuple[float, float, float]]) -> list[_
 
 
 def _head(body: _Body) -> list[Face]:
-    """Neck, skull with chin, nose and ears."""
+    """Neck of a person, and skull with chin, nose and ears."""
     unit = body.unit_m
     neck = [*body.trunk([(0.0, _NECK_Y - 0.03, -0.008), (0.0, _NECK_Y, -0.006)]), *_headed(body, [(0.0, 0.25, -0.2)])]
     faces = limb_faces(neck, _scaled([0.040, 0.0335, 0.032], unit), _scaled([0.036, 0.034, 0.034], unit))
@@ -434,7 +434,7 @@ def _head(body: _Body) -> list[Face]:
 
 
 def _hair(body: _Body, figure: Figure) -> list[Face]:
-    """Hair over the skull from the nape to the hairline, and down the back if it is long."""
+    """Hair of a person over the skull from the nape to the hairline, and down the back if it is long."""
     rows = [
         (0.20, 0.62, 0.45, -0.52), (0.34, 0.88, 0.66, -0.42), (0.50, 1.04, 0.78, -0.34), (0.66, 1.09, 0.92, -0.22),
         (0.80, 1.06, 1.03, -0.07), (0.90, 0.90, 0.95, -0.05), (0.99, 0.56, 0.60, -0.07), (1.035, 0.20, 0.22, -0.07),
@@ -461,7 +461,7 @@ def _hair(body: _Body, figure: Figure) -> list[Face]:
 
 
 def _phone(body: _Body) -> list[Face]:
-    """A phone of 15 cm in the right hand, with its screen towards the face."""
+    """Phone of 15 cm in a person's right hand, with the screen towards the face."""
     _, elbow, wrist = body.arms[1]
     way = (wrist - elbow) / np.linalg.norm(wrist - elbow)
     place = wrist + way * body.unit_m * 0.075
@@ -470,7 +470,7 @@ def _phone(body: _Body) -> list[Face]:
 
 
 def _bag(body: _Body) -> list[Face]:
-    """A carrier bag in the right hand."""
+    """Carrier bag in a person's right hand."""
     _, elbow, wrist = body.arms[1]
     way = (wrist - elbow) / np.linalg.norm(wrist - elbow)
     x, top, z = wrist + way * body.unit_m * 0.085

@@ -29,7 +29,7 @@ def _wall_relief(shape: tuple[int, int]) -> tuple[Field, Field]:
 
 
 def _below_top(rows: int) -> Field:
-    """Metres below the top of a wall."""
+    """Distance in metres of each texture row from the top of a wall."""
     return (np.arange(rows) * (_WALL_REPEAT_UP_M / rows))[:, None]
 
 
