@@ -20,11 +20,10 @@ Floats = NDArray[np.float64]
 _SIDES = 4
 _REACH_M = 9.0
 """Greatest distance in metres from the mouth of a stall to the middle of its lane."""
-_LEAST_WIDTH_M, _LEAST_LENGTH_M = 1.0, 2.0
+_LEAST_WIDTH_M, _LEAST_LENGTH_M, _LEAST_GROUND_M2 = 1.0, 2.0, 0.25
 _MOST_OVERLAP = 0.05
 """Greatest share of a stall's ground that another one covers."""
 _INSIDE_M = 0.1
-_LEAST_GROUND_M2 = 0.25
 _BEHIND_M = 0.5
 
 
@@ -221,9 +220,8 @@ class _Fitting:
         ground = shapely.union_all(shapely.intersection(parts, strip))
         if ground.area < _LEAST_GROUND_M2:
             return None
-        middle = shapely.Point((start + end) / 2)
-        (x, z) = shapely.shortest_line(ground, middle).coords[0]
-        return float(middle.distance(ground)), (x, z)
+        way = shapely.shortest_line(ground, shapely.Point((start + end) / 2))
+        return float(way.length), way.coords[0]
 
     def _is_blocked(self, number: int, start: Floats, foot: Point) -> bool:
         way = shapely.LineString([start, foot])
