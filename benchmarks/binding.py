@@ -213,29 +213,30 @@ def _nanobind() -> list[str]:
 
 
 def cross() -> None:
-    """Print for each candidate the targets that ziglang compiles it for with this machine's Python alone, as JSON."""
+    """Print as JSON for which targets ziglang compiles each candidate in C, with the headers of this Python."""
     made = PLACE / "modules"
     include = ["-I", sysconfig.get_path("include"), "-I", str(NATIVE)]
     loops = [str(NATIVE / "sweep.c"), str(NATIVE / "elementary.c")]
     compiled = {
-        "garage2usd.native": ("cc", [*ARITHMETIC, *loops]),
-        "cffi, API mode": ("cc", [*ARITHMETIC, "-DPy_LIMITED_API", *include, str(made / "sweep_cffi.c"), *loops]),
-        "Cython": ("cc", [*ARITHMETIC, "-DPy_LIMITED_API=0x030B0000", "-DCYTHON_LIMITED_API=1", *include,
-                          str(made / "sweep_cython.c"), *loops]),
-        "nanobind": ("c++", ["-std=c++17", "-Os", *include, *_nanobind(), "-x", "c", *loops]),
+        "garage2usd.native": [*ARITHMETIC, *loops],
+        "cffi, API mode": [*ARITHMETIC, "-DPy_LIMITED_API", *include, str(made / "sweep_cffi.c"), *loops],
+        "Cython": [*ARITHMETIC, "-DPy_LIMITED_API=0x030B0000", "-DCYTHON_LIMITED_API=1", *include,
+                          str(made / "sweep_cython.c"), *loops],
     }  # fmt: skip
     found: dict[str, dict[str, str]] = {}
-    for name, (language, words) in compiled.items():
+    for name, words in compiled.items():
         for target in TARGETS:
             system = ["-undefined", "dynamic_lookup"] if "macos" in target else []
-            system += [] if "windows" in target else ["-fPIC"]
-            command = [sys.executable, "-m", "ziglang", language, "-target", target, "-mcpu=baseline", "-w", "-shared"]
+            system += ["-s"] if "windows" in target else ["-fPIC"]
+            command = [sys.executable, "-m", "ziglang", "cc", "-target", target, "-mcpu=baseline", "-w", "-shared"]
             run = subprocess.run(
-                [*command, *system, *words, "-o", str(made / f"cross-{target}"), *(["-lm"] * (language == "cc"))],
+                [*command, *system, *words, "-o", str(made / f"cross-{target}"), "-lm"],
                 capture_output=True, text=True, check=False, timeout=900,
             )  # fmt: skip
             errors = [line for line in run.stderr.splitlines() if "error" in line.lower()]
-            found.setdefault(name, {})[target] = "" if run.returncode == 0 else (errors or ["failed"])[0].strip()[-160:]
+            found.setdefault(name, {})[target] = (
+                "" if run.returncode == 0 else (errors or ["failed"])[0].rpartition("error:")[2].strip()
+            )
     print(json.dumps(found))
 
 
@@ -311,10 +312,10 @@ def _needs(crossed: dict[str, dict[str, str]]) -> str:
     own = "20 (and 250 of `native/__init__.py` for all 26)"
     for name, (_, wheels) in CANDIDATES.items():
         lines = own if name == "garage2usd.native" else str(sum(map(_lines, LINES[name])))
-        of = crossed.get(name, crossed["garage2usd.native"])
+        of = crossed.get(name, {} if name == "nanobind" else crossed["garage2usd.native"])
         made = [target for target, error in of.items() if not error]
-        failed = "; ".join(f"not {target}: `{error}`" for target, error in of.items() if error)
-        rows.append(f"| {name} | {lines} | {wheels} | {len(made)} of {len(of)} {failed} |")
+        failed = "".join(f", not {target}: `{error}`" for target, error in of.items() if error)
+        rows.append(f"| {name} | {lines} | {wheels} | {f'{len(made)} of {len(of)}{failed}' if of else 'not tried'} |")
     return "\n".join(rows)
 
 

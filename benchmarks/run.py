@@ -1,7 +1,7 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
 Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, optimisers, rules, circulation, scale,
-stages, exports, datasets, workers, looks, lidar, unity and compiled.
+stages, exports, datasets, workers, looks, lidar, unity, compiled and binding.
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.
@@ -18,6 +18,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from binding import binding
 from circulation import circulation
 from datasets import datasets, workers
 from exports import exports
@@ -56,6 +57,7 @@ def main() -> None:
         "lidar": lidar,
         "unity": unity,
         "compiled": _compiled,
+        "binding": binding,
     }
     asked = sys.argv[1:] or list(measures)
     if unknown := set(asked) - set(measures):

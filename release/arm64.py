@@ -4,7 +4,8 @@ Takes the wheel for Arm that ``make wheels`` puts into DIST. FOLDER gets Debian'
 for Arm of the packages of this Python in the same versions. ``qemu-aarch64-static``, of ``qemu-user-static``, runs
 ``benchmarks/digests.py`` there on ten garages. Plan, layout, report, stage, exports, findings, proofs and a drive are
 compared with those of this machine. So are the files and words of the commands ``build``, ``check``, ``drive``,
-``export`` and ``plan`` for one sample, and the digests of ``garage2usd doctor``. Run it with the repository's
+``export`` and ``plan`` for a small garage, and the digests of ``garage2usd doctor``. Names of garages in
+``benchmarks/digests.py`` after FOLDER take the place of the ten. Run it with the repository's
 ``.venv/bin/python``, which must be 3.11; one core takes 20 minutes. The exit code is 1 where something differs.
 """
 # ruff: noqa: S603 - package managers and the emulator are run
@@ -26,12 +27,13 @@ REPOSITORY = Path(__file__).resolve().parent.parent
 GARAGES = ("plain_1", "angled_contour_2", "two_portals_3", "uk_1", "given_loop", "uniform")
 SAMPLES = ("paper_7x9", "hand_drawn", "dimensioned", "looks")
 COMMANDS = (
-    ("build", str(REPOSITORY / "samples/paper_7x9.toml"), "-o", "garage.usdz"),
+    ("build", "small.toml", "-o", "garage.usdz"),
     ("check", "garage.usdz"),
     ("drive", "garage.usdz", "-o", "drive.json"),
     ("export", "garage.usdz", "-o", "garage.xodr", "-o", "garage.osm", "-o", "garage.glb", "-o", "garage.yaml"),
     ("plan", "garage.usdz", "-o", "plan.svg"),
 )
+_SMALL = "seed = 1\n[site]\nwidth_cells = 5\nheight_cells = 5\n"
 _OF_MACHINE = {".usdz"}
 """Suffixes of files that hold .usdc, in which OpenUSD orders tables otherwise on other machines."""
 _DEBIAN = (
@@ -50,6 +52,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("dist", type=Path, help="the folder of the wheels")
     parser.add_argument("folder", type=Path, help="where the Arm Linux goes")
+    parser.add_argument("names", nargs="*", help="garages that are compared; left out, ten")
     asked = parser.parse_args()
     folder = asked.folder.resolve()
     if sys.version_info[:2] != (3, 11) or shutil.which("qemu-aarch64-static") is None:
@@ -66,17 +69,17 @@ def main() -> None:
     root = folder / "root"
     there = {**os.environ, "PYTHONPATH": str(folder / "site"), "PYTHONHOME": str(root / "usr")}
     emulated = ["qemu-aarch64-static", "-L", str(root), str(root / "usr/bin/python3.11")]
-    digests = [str(REPOSITORY / "benchmarks/digests.py"), "--portable", "--file", str(folder / "x86-64.json")]
-    names = [*GARAGES, *(str(REPOSITORY / f"samples/{name}.toml") for name in SAMPLES)]
-    subprocess.run([sys.executable, *digests, "--write", *names], env=here, cwd=folder, check=True)
-    differs = subprocess.run([*emulated, *digests, *names], env=there, cwd=folder, check=False).returncode != 0
     made = [
         commands([sys.executable], here, folder / "commands-x86-64"),
         commands(emulated, there, folder / "commands-arm64"),
     ]
     changed = sorted(name for name in {*made[0], *made[1]} if made[0].get(name) != made[1].get(name))
-    differs |= bool(changed)
+    differs = bool(changed)
     print(f"commands: {len(made[0])} outputs, {', '.join(changed) or 'same'}", flush=True)
+    digests = [str(REPOSITORY / "benchmarks/digests.py"), "--portable", "--file", str(folder / "x86-64.json")]
+    names = asked.names or [*GARAGES, *(str(REPOSITORY / f"samples/{name}.toml") for name in SAMPLES)]
+    subprocess.run([sys.executable, *digests, "--write", *names], env=here, cwd=folder, check=True)
+    differs |= subprocess.run([*emulated, *digests, *names], env=there, cwd=folder, check=False).returncode != 0
     doctor = ["-m", "garage2usd", "doctor"]
     told = [_doctor([sys.executable, *doctor], here, folder), _doctor([*emulated, *doctor], there, folder)]
     differs |= told[0] != told[1] or len(told[0]) < 3  # noqa: PLR2004 - its three garages
@@ -126,6 +129,7 @@ def commands(python: Sequence[str], environment: dict[str, str], folder: Path) -
     """Run `COMMANDS` in a new folder: exit code and output of each, and the digest of each file."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
+    (folder / "small.toml").write_text(_SMALL, encoding="utf-8", newline="\n")
     made = {}
     for command in COMMANDS:
         run = subprocess.run(
