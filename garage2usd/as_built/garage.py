@@ -52,6 +52,8 @@ class BuiltGarage:
         Contradictions in the file's lanes and stalls.
     stage
         The stage, if the file is one.
+    landings
+        Names of the portals that are landings of ramps to other levels, not portals to the street.
     """
 
     source: str
@@ -67,6 +69,13 @@ class BuiltGarage:
     dead_lamps: int = 0
     faults: tuple[Fault, ...] = ()
     stage: Usd.Stage | None = None
+    landings: frozenset[str] = frozenset()
+
+    @property
+    def street_portals(self) -> list[int]:
+        """Numbers of the entrances and exits that lead to the street."""
+        portals = self.lanes.portals("entrance", "exit")
+        return [number for number in portals if self.lanes.nodes[number].name not in self.landings]
 
     @cached_property
     def solids(self) -> Solids:

@@ -67,7 +67,7 @@ def level_stage(stage: Usd.Stage, level: StageLevel) -> Usd.Stage:
         order = Sdf.AttributeSpec(root, "xformOpOrder", Sdf.ValueTypeNames.TokenArray, Sdf.VariabilityUniform)
         order.default = Vt.TokenArray([])
         for kept in _KEPT:
-            Sdf.CreatePrimInLayer(layer, root.path.AppendChild(kept)).SetInfo("active", value=True)
+            Sdf.CreatePrimInLayer(layer, root.path.AppendChild(kept)).SetInfo("active", True)
     return Usd.Stage.Open(layer)
 
 

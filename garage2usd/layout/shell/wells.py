@@ -121,6 +121,13 @@ class Well:
         return frozenset(self.flight.squares)
 
     @property
+    def landings(self) -> frozenset[tuple[int, int]]:
+        """(row, col) of the landings of this level."""
+        ends = [(link.head, not self.is_bottom) for link in self.flight.links]
+        ends += [(link.foot, not self.is_top) for link in self.flight.links]
+        return frozenset(square for square, is_open in ends if is_open)
+
+    @property
     def is_top(self) -> bool:
         """True on the top level, which has a ceiling over the well."""
         return self.level == 0
