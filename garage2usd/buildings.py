@@ -249,7 +249,7 @@ def _generate(
     clock.append(time.perf_counter())
     levels = []
     for number, (plan, of_level) in enumerate(plans):
-        well = Well(flight, number, config.building.levels, config.building)
+        well = Well(flight, number, config.building.levels, config.building, config.fittings.wall_thickness_m)
         static = plan.structure.with_cells(level_cells(site.cells, flight, number, config.building.levels))
         levels.append(laid_out(static, plan, of_level, well=well, progress=progress))
     garage = LevelsGarage(config, building, tuple(levels))
@@ -334,8 +334,8 @@ def _joined(building: Building, levels: tuple[Garage, ...]) -> JoinedLevels:
     ]
     ramps = []
     for lower in range(1, len(levels)):
-        layout, fittings = levels[lower].layout, levels[lower].config.fittings
-        lanes = layout.well.lanes(layout.structure, fittings) if layout.well else ()
+        layout = levels[lower].layout
+        lanes = layout.well.lanes(layout.structure) if layout.well else ()
         for link, lane in zip(building.flight.links, lanes, strict=True):
             head = lower - 1, levels[lower - 1].graph.number_of[link.head]
             foot = lower, levels[lower].graph.number_of[link.foot]
@@ -377,7 +377,7 @@ def _report(
     links = []
     for upper, lower in pairwise(range(len(names))):
         layout = garage.levels[lower].layout
-        lanes = layout.well.lanes(layout.structure, garage.config.fittings) if layout.well else ()
+        lanes = layout.well.lanes(layout.structure) if layout.well else ()
         links += [
             ReportedLink(
                 kind=link.kind,

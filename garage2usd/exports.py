@@ -25,6 +25,7 @@ from garage2usd.maps.road_builder import network_of
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.pipeline import build
 from garage2usd.reading.files import STAGE_SUFFIXES, open_stage
+from garage2usd.reading.levels import refuse_levels
 from garage2usd.reading.objects import PlacedObject
 from garage2usd.reading.remarks import Remarks
 from garage2usd.reading.report import read_report
@@ -45,6 +46,7 @@ class _Source:
 
     def __init__(self, stage: Path, name: str) -> None:
         self.name, self.stage = name, open_stage(stage)
+        refuse_levels(self.stage, name, "export")
 
     def read_for(self, formats: Sequence[str]) -> None:
         """Read all that several files need, so that copies of this process share it."""

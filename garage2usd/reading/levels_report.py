@@ -1,10 +1,15 @@
 """The report of a garage of several levels, in JSON: a report for each level, and the ramps between them."""
 
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from garage2usd.common.documents import MAX_REPORT_BYTES, read_text
 from garage2usd.common.settings import Record
 from garage2usd.config import GarageConfig
 from garage2usd.reading.report import Report
 
-__all__ = ["LevelReport", "LevelsReport", "ReportedLink"]
+__all__ = ["LevelReport", "LevelsReport", "ReportedLink", "read_levels_report"]
 
 
 class ReportedLink(Record):
@@ -47,3 +52,17 @@ class LevelsReport(Record):
     links: tuple[ReportedLink, ...]
     levels: tuple[LevelReport, ...]
     seconds: dict[str, float] | None = None
+
+
+def read_levels_report(path: Path) -> LevelsReport | None:
+    """Read the report of a garage of several levels; None from a file that is none.
+
+    Raises
+    ------
+    ConfigError
+        If the file cannot be read.
+    """
+    try:
+        return LevelsReport.model_validate_json(read_text(path, field="report", max_bytes=MAX_REPORT_BYTES))
+    except ValidationError:
+        return None

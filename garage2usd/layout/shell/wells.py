@@ -22,7 +22,7 @@ from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.wall import WallSpec
 from garage2usd.site.flights import LEVEL_END_M
-from garage2usd.structure.building import Flight
+from garage2usd.structure.building import Flight, level_name
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.stalls import Edge
 
@@ -108,12 +108,29 @@ class Well:
         Number of the level from 0 at the top, and number of levels.
     building
         Storey, slope and transitions.
+    wall_m
+        Thickness of the walls.
     """
 
     flight: Flight
     level: int
     levels: int
     building: BuildingConfig
+    wall_m: float
+
+    @property
+    def name(self) -> str:
+        """Name of the level."""
+        return level_name(self.level)
+
+    def way_in_words(self, *, is_down: bool) -> str:
+        """Tell where the ramp down or up leads to or comes from, as seen from this level: `` to U2``."""
+        above, below = level_name(self.level - 1), level_name(self.level + 1)
+        if self.is_top:
+            return f" to {below}" if is_down else f" from {below}"
+        if self.is_bottom:
+            return f" from {above}" if is_down else f" to {above}"
+        return f" from {above}, to {below}" if is_down else f" from {below}, to {above}"
 
     @property
     def squares(self) -> frozenset[tuple[int, int]]:
@@ -146,10 +163,10 @@ class Well:
             If a ramp is left too narrow for a car.
         """
         frame = _Frame.of(self.flight, structure)
-        first, last = lanes = self._lanes(structure, fittings)
+        first, last = lanes = self._lanes(structure)
         way, right = self.flight.way, self.flight.right
         height = round(fittings.ceiling_height_m if self.is_top else self.building.storey_m, 6)
-        plain = WallSpec(frame.run_m, height, fittings.wall_thickness_m, look.dado_m, look.has_stripe)
+        plain = WallSpec(frame.run_m, height, self.wall_m, look.dado_m, look.has_stripe)
         found: list[Placement] = []
 
         def wall(name: str, spec: WallSpec, place: Point, faces: Edge, low_m: float = 0.0) -> None:
@@ -177,7 +194,7 @@ class Well:
                     wall(f"{name}{lane.name}", spec, (lane.middle_m, along), faces, low)
         return found
 
-    def ramps(self, structure: Structure, fittings: FittingsConfig) -> list[Placement]:
+    def ramps(self, structure: Structure) -> list[Placement]:
         """Place the ramps whose foot is on this level."""
         if self.is_top:
             return []
@@ -185,7 +202,7 @@ class Well:
         profile = flight_profile(frame.run_m, self.building)
         return [
             frame.placed(f"Ramp_{lane.name}", FlightSpec(lane.width_m, profile, SLAB_M), (lane.middle_m, 0.0))
-            for lane in self._lanes(structure, fittings)
+            for lane in self._lanes(structure)
         ]
 
     def ceilings(self, structure: Structure, fittings: FittingsConfig) -> list[Placement]:
@@ -205,7 +222,7 @@ class Well:
         runs, heights = zip(*flight_profile(frame.run_m, self.building), strict=True)
         count = max(1, round(frame.run_m / _LAMP_PITCH_M))
         found = []
-        for lane in self._lanes(structure, fittings):
+        for lane in self._lanes(structure):
             for number in range(count):
                 at = (number + 0.5) * frame.run_m / count
                 over = fittings.ceiling_height_m if self.is_top else float(np.interp(at, runs, heights)) - SLAB_M
@@ -213,33 +230,34 @@ class Well:
                 found.append(frame.placed(name, TUBE, (lane.middle_m, -at), height_m=round(over, 6)))
         return found
 
-    def lanes(self, structure: Structure, fittings: FittingsConfig) -> "list[WellLane]":
+    def lanes(self, structure: Structure) -> list[WellLane]:
         """Return the carriageways of the ramp down and of the ramp up from the level above to this one."""
         frame = _Frame.of(self.flight, structure)
         profile = flight_profile(frame.run_m, self.building)
         found = []
-        for lane in sorted(self._lanes(structure, fittings), key=lambda lane: lane.name != "Down"):
+        for lane in sorted(self._lanes(structure), key=lambda lane: lane.name != "Down"):
             points = [(frame.to_world((lane.middle_m, -run)), height) for run, height in profile]
             along = points[::-1] if lane.name == "Down" else points
             found.append(WellLane(tuple((x, height, z) for (x, z), height in along), lane.width_m))
         return found
 
-    def _lanes(self, structure: Structure, fittings: FittingsConfig) -> tuple[_Lane, _Lane]:
+    def _lanes(self, structure: Structure) -> tuple[_Lane, _Lane]:
         """Return the two ramps across the well, in the order of their local X."""
-        frame, thick = _Frame.of(self.flight, structure), fittings.wall_thickness_m
+        frame, thick = _Frame.of(self.flight, structure), self.wall_m
         links = self.flight.links[::-1] if self.flight.keeps_left else self.flight.links
         low = -frame.half_m
         lanes: list[_Lane] = []
-        for link, walls_m in zip(links, ((thick, thick / 2), (thick / 2, thick)), strict=True):
+        for link in links:
             high = low + self.flight.side_m(structure, link.head)
-            room = round(high - low - sum(walls_m), 6)
+            room = round(high - low - 2 * thick, 6)
             if room < _LEAST_WIDTH_M:
                 wanted = f"1, or squares that leave ramps {_LEAST_WIDTH_M} m between their walls"
                 raise ConfigError("building.levels", self.levels, wanted)
-            width = min(room, _MOST_WIDTH_M)
-            left = low + walls_m[0] if lanes else high - walls_m[1] - width
-            lane = _Lane("Down" if link.is_down else "Up", *(round(x, 6) for x in (low, high, left, left + width)))
-            lanes.append(lane)
+            # in the middle of its squares, as the lanes to its landings are
+            half = min(room, _MOST_WIDTH_M) / 2
+            middle = (low + high) / 2
+            borders = (round(x, 6) for x in (low, high, middle - half, middle + half))
+            lanes.append(_Lane("Down" if link.is_down else "Up", *borders))
             low = high
         return lanes[0], lanes[1]
 
