@@ -26,6 +26,7 @@ from garage2usd.garage.joined_levels import JoinedLevels, LevelLanes, RampLane, 
 from garage2usd.layout.shell.wells import SLAB_M, Well, flight_profile
 from garage2usd.pipeline import Garage, laid_out, planned, stage_metadata
 from garage2usd.planning import Plan, evaluate, tape_of
+from garage2usd.planning.dimensions import aisle_side_mm, lines_with_aisles
 from garage2usd.reading.levels_report import LevelReport, LevelsReport, ReportedLink
 from garage2usd.reading.report import UnmetClause
 from garage2usd.report import make_report
@@ -295,7 +296,10 @@ def _flight_and_tapes(site: Structure, config: GarageConfig, tape: str | None) -
 def _plans(
     site: Structure, config: GarageConfig, flight: Flight, tapes: list[str | None], progress: Progress
 ) -> list[tuple[Plan, GarageConfig]]:
-    """Plan all levels, the lower ones on R and C of the top one; each comes with its settings."""
+    """Plan all levels, the lower ones on R and C of the top one; each comes with its settings.
+
+    Where R and C are chosen, lines along which only a lower level has an aisle are widened for it on all levels.
+    """
     found: list[tuple[Plan, GarageConfig]] = []
     bay = config.bay
     for level, tape in enumerate(tapes):
@@ -306,13 +310,30 @@ def _plans(
         static = sides.with_cells(level_cells(site.cells, flight, level, config.building.levels))
         plan = planned(static, of_level, tape=tape, progress=progress)
         if not found:
-            structure = with_run(plan.structure, flight, config.building)
-            bay = _fixed(bay, structure)
-            of_level = of_level.model_copy(update={"bay": bay})
-            score = evaluate(structure, bay=bay, plan=config.plan)
-            plan = plan if structure is plan.structure else replace(plan, structure=structure, score=score)
+            bay = _fixed(bay, plan.structure)
         found.append((plan, of_level))
-    return found
+    sides = with_run(_with_aisles([plan.structure for plan, _ in found], config.bay), flight, config.building)
+    bay = _fixed(bay, sides)
+    return [(_on_sides(plan, sides, bay, config), of.model_copy(update={"bay": bay})) for plan, of in found]
+
+
+def _with_aisles(levels: list[Structure], bay: BayConfig) -> Structure:
+    """Return the top level with lines of squares wide enough for the aisles of all levels, where sides are chosen."""
+    top = levels[0]
+    sides = [top.row_depths_mm.copy(), top.column_widths_mm.copy()]
+    for level in levels[1:]:
+        for axis, (is_chosen, are_aisles) in enumerate(zip(bay.chosen_sides, lines_with_aisles(level), strict=True)):
+            if is_chosen:
+                sides[axis][are_aisles] = np.maximum(sides[axis][are_aisles], aisle_side_mm(bay))
+    return Structure(top.cells, sides[1], sides[0])
+
+
+def _on_sides(plan: Plan, sides: Structure, bay: BayConfig, config: GarageConfig) -> Plan:
+    """Return a plan with the sides of another structure."""
+    structure = sides.with_cells(plan.structure.cells)
+    if structure == plan.structure:
+        return plan
+    return replace(plan, structure=structure, score=evaluate(structure, bay=bay, plan=config.plan))
 
 
 def _fixed(bay: BayConfig, structure: Structure) -> BayConfig:

@@ -135,6 +135,8 @@ def _about(yaw_rad: float) -> float:
 def _outwards(garage: BuiltGarage, number: int) -> tuple[Door | None, Point, float]:
     """Return a portal's door, its direction along an axis, and the distance to the square's edge there."""
     node = garage.lanes.nodes[number]
+    if node.name in garage.landings:
+        return None, garage.landings[node.name], _half_m(garage, number, garage.landings[node.name])
     ways = [(way, door) for door in garage.doors if (way := _towards(node, door.position)) is not None]
     if ways:
         (_, outwards), door = min(ways, key=lambda found: found[0])

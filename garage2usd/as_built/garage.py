@@ -1,7 +1,8 @@
 """A garage as built: lanes, stalls and objects, as far as a stage, a report or a plan describes them; metres, Y up."""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -53,7 +54,8 @@ class BuiltGarage:
     stage
         The stage, if the file is one.
     landings
-        Names of the portals that are landings of ramps to other levels, not portals to the street.
+        Portals that are landings of ramps to other levels, not portals to the street: the unit vector (x, z) from each
+        towards its ramp, by name.
     """
 
     source: str
@@ -69,7 +71,7 @@ class BuiltGarage:
     dead_lamps: int = 0
     faults: tuple[Fault, ...] = ()
     stage: Usd.Stage | None = None
-    landings: frozenset[str] = frozenset()
+    landings: Mapping[str, Point] = field(default_factory=dict)
 
     @property
     def street_portals(self) -> list[int]:

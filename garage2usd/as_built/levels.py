@@ -1,5 +1,6 @@
 """A garage of several levels as built: each level as a garage of its own, and the lanes of the whole."""
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -102,16 +103,37 @@ def built_levels(stage: Usd.Stage, source: str | Path) -> BuiltLevels | None:
     if not places:
         return None
     whole = read_lanes(stage)
-    nodes = whole.graph.nodes
-    street = {_key(node.position, node.level) for node in nodes if node.is_portal}
+    ahead = _towards_ramps(whole.graph)
     levels = []
     for number, place in enumerate(places):
         garage = garage_of_stage(level_stage(stage, place), source=str(source))
-        landings = frozenset(
-            node.name for node in garage.lanes.nodes if node.is_portal and _key(node.position, number) not in street
-        )
+        landings = {
+            node.name: ahead[key]
+            for node in garage.lanes.nodes
+            if node.is_portal and (key := _key(node.position, number)) in ahead
+        }
         levels.append(BuiltLevel(place, replace(garage, landings=landings)))
     return BuiltLevels(str(source), stage, whole, tuple(levels))
+
+
+def _towards_ramps(lanes: LaneGraph) -> dict[tuple[float, float, int], Point]:
+    """Return the unit vector from each landing towards its ramp, by the place and level of the landing."""
+    nodes = lanes.nodes
+    on_ramps = {
+        number
+        for edge in lanes.edges
+        for number in (edge.start, edge.end)
+        if abs(nodes[edge.start].height_m - nodes[edge.end].height_m) > _RISE_M
+    }
+    level_ends = on_ramps | {number for on in on_ramps for number in lanes.beside[on]}
+    found = {}
+    for end in level_ends:
+        for other in set(lanes.beside[end]) - level_ends:
+            (x, z), (ramp_x, ramp_z) = nodes[other].position, nodes[end].position
+            far = math.dist((x, z), (ramp_x, ramp_z)) or 1.0
+            way = round((ramp_x - x) / far) + 0.0, round((ramp_z - z) / far) + 0.0
+            found[_key(nodes[other].position, nodes[other].level)] = way
+    return found
 
 
 def _key(position: Point, level: int) -> tuple[float, float, int]:

@@ -138,11 +138,12 @@ class Well:
         return frozenset(self.flight.squares)
 
     @property
-    def landings(self) -> frozenset[tuple[int, int]]:
-        """(row, col) of the landings of this level."""
-        ends = [(link.head, not self.is_bottom) for link in self.flight.links]
-        ends += [(link.foot, not self.is_top) for link in self.flight.links]
-        return frozenset(square for square, is_open in ends if is_open)
+    def landings(self) -> dict[tuple[int, int], Point]:
+        """Unit vector (x, z) towards the ramp from each landing of this level, by (row, col)."""
+        down_row, down_col = self.flight.way.beyond((0, 0))
+        heads = {} if self.is_bottom else {link.head: (float(down_col), float(down_row)) for link in self.flight.links}
+        feet = {} if self.is_top else {link.foot: (-float(down_col), -float(down_row)) for link in self.flight.links}
+        return {**heads, **feet}
 
     @property
     def is_top(self) -> bool:
@@ -215,8 +216,8 @@ class Well:
         return [frame.placed("Ceiling_Well", spec, middle, height_m=fittings.ceiling_height_m)]
 
     def tubes(self, structure: Structure, fittings: FittingsConfig) -> list[Placement]:
-        """Place tube lights over the ramps down from this level: on the ceiling, or below the ramps from above."""
-        if self.is_bottom:
+        """Place tube lights over ramps: on the top ceiling, else on the ramps above those with their foot here."""
+        if self.level == 1:
             return []
         frame = _Frame.of(self.flight, structure)
         runs, heights = zip(*flight_profile(frame.run_m, self.building), strict=True)
@@ -225,7 +226,9 @@ class Well:
         for lane in self._lanes(structure):
             for number in range(count):
                 at = (number + 0.5) * frame.run_m / count
-                over = fittings.ceiling_height_m if self.is_top else float(np.interp(at, runs, heights)) - SLAB_M
+                over = fittings.ceiling_height_m
+                if not self.is_top:
+                    over = self.building.storey_m + float(np.interp(at, runs, heights)) - SLAB_M
                 name = f"Tube_Well_{lane.name}_{number + 1}"
                 found.append(frame.placed(name, TUBE, (lane.middle_m, -at), height_m=round(over, 6)))
         return found
