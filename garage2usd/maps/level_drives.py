@@ -134,7 +134,7 @@ class LevelsDrivePlanner:
         for node, number in ((node, number) for number, node in enumerate(lanes.nodes) if node.level == level):
             lower = [other for other in lanes.beside[number] if lanes.nodes[other].level == level + 1]
             if lower and abs(node.height_m - floor_m) < _RISE_M:
-                names.add(node.name.partition("/")[2])
+                names.add(node.name.rpartition("/")[2])
         return frozenset(names)
 
     def _led(self, level: int, portal: Portal, part: _Part, *, is_in: bool) -> tuple[list[_Part], Portal]:
