@@ -20,7 +20,7 @@ from garage2usd.maps.drives import Drive, DrivePlanner
 __all__ = ["LevelsDrivePlanner"]
 
 _NAMED = 6
-_BEYOND_TOP_M = 1.0
+_BEYOND_TOP_M, _BEYOND_FOOT_M = 1.0, 2.0
 _RISE_M = 0.01
 
 
@@ -167,20 +167,35 @@ class LevelsDrivePlanner:
         return parts, end
 
     def _spans(self, parts: Sequence[_Part]) -> tuple[FloorSpan, ...]:
-        """Return the floors along the parts of a path; the level changes in the middle of ramps."""
+        """Return the floors along the parts of a path; the level changes half way on a ramp.
+
+        A path on a level begins and ends at the tops of the ramps from above, and on the landings of those from below.
+        """
         spans: list[FloorSpan] = []
         along = 0.0
         for before, part, after in zip([None, *parts], parts, [*parts[1:], None], strict=False):
             end = along + part.length_m
             ramps = [each for each in (before, after) if each is not None and each.is_ramp]
-            if len(ramps) > 1:
-                # the ramps from above and below lie over one another
-                spans.append(self._span(along + part.length_m / 2, part.level, ramps[0].level))
             if not part.is_ramp:
-                reach_m = after.length_m / 2 if after is not None and after.is_ramp else 0.0
-                spans.append(self._span(end + reach_m, part.level, ramps[-1].level if ramps else None))
+                upper = ramps[-1].level if ramps else None
+                if len(ramps) > 1:
+                    # the ramps from above and below lie over one another: they change at the foot of the upper one
+                    is_down = ramps[1].level == part.level
+                    foot_m = self._ramp_m(part.level) + _BEYOND_FOOT_M
+                    change_m = along + foot_m if is_down else end - foot_m
+                    spans.append(self._span(change_m, part.level, ramps[0].level))
+                reach_m = 0.0
+                if after is not None and after.is_ramp:
+                    is_down = after.level == part.level
+                    half_m = self._ramp_m(after.level + 1) / 2
+                    reach_m = after.length_m + half_m if is_down else -half_m
+                spans.append(self._span(end + reach_m, part.level, upper))
             along = end
         return tuple(spans)
+
+    def _ramp_m(self, lower: int) -> float:
+        """Return the length of the ramps down to a level, as seen from above."""
+        return max(float(ramp.runs_m[-1] - ramp.runs_m[0]) for ramp in self._planner(lower).road.ramps)
 
     def _span(self, end_m: float, level: int, upper: int | None) -> FloorSpan:
         """Return the floors of a level with the ramps down from an upper level, and with those to the street."""
