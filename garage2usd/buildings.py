@@ -3,6 +3,7 @@
 The ramps are drawn first, from a random stream of their own. Each level is then planned by the planner of one level,
 with the landings as its portals; the levels below take over R and C of the top one.
 """
+# Over 300 lines: the whole road of several levels is told in one place, as the pipeline tells that of one.
 
 import time
 from dataclasses import dataclass, replace

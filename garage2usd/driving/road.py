@@ -13,7 +13,7 @@ from garage2usd.driving.garage import DrivenGarage
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.garage import LaneKind
 
-__all__ = ["DrivenRoad", "FloorSpan", "Portal", "RampFloor", "heights_along_m", "heights_m"]
+__all__ = ["DrivenRoad", "FloorSpan", "Portal", "RampFloor", "floor_heights_m", "heights_m"]
 
 Floats = NDArray[np.float64]
 
@@ -112,8 +112,12 @@ class FloorSpan(NamedTuple):
     ramps: tuple[RampFloor, ...]
 
 
-def heights_along_m(spans: Sequence[FloorSpan], plan_m: Floats, x_m: Floats, z_m: Floats) -> Floats:
-    """Return the floor's heights at points at distances along a path over several levels; float64, their shape."""
+def floor_heights_m(
+    ramps: Sequence[RampFloor], spans: Sequence[FloorSpan], plan_m: Floats, x_m: Floats, z_m: Floats
+) -> Floats:
+    """Return the floor's heights at points on one level, or at distances along a path over several levels."""
+    if not spans:
+        return heights_m(ramps, x_m, z_m)
     ends = np.array([span.end_m for span in spans[:-1]])
     number = np.searchsorted(ends, plan_m, side="right")
     heights: Floats = np.zeros(np.broadcast(x_m, z_m).shape)

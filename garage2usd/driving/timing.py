@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from garage2usd.config.maps import DriveConfig
 from garage2usd.driving.car import DesignCar
 from garage2usd.driving.path import Floats, Path, Piece
-from garage2usd.driving.road import FloorSpan, RampFloor, heights_along_m, heights_m
+from garage2usd.driving.road import FloorSpan, RampFloor, floor_heights_m
 from garage2usd.driving.trajectory import Trajectory
 from garage2usd.native import elementary
 
@@ -142,7 +142,7 @@ class Motion:
             turned = np.clip((since - run.seconds) * self.steering_rate_rad_s, 0.0, np.abs(target - steering))
             steering = np.where(stands, steering + np.sign(target - steering) * turned, steering)
         height, nose = (
-            _heights_m(
+            floor_heights_m(
                 self.ramps,
                 self.spans,
                 run.begin_m + plan,
@@ -251,13 +251,6 @@ def _steering_s(one: Path, other: Path, car: DesignCar, rate_rad_s: float) -> fl
     return abs(angles[1] - angles[0]) / rate_rad_s
 
 
-def _heights_m(
-    ramps: Sequence[RampFloor], spans: Sequence[FloorSpan], plan_m: Floats, x_m: Floats, z_m: Floats
-) -> Floats:
-    """Return the floor's heights at points on one level, or at distances along a path over several."""
-    return heights_along_m(spans, plan_m, x_m, z_m) if spans else heights_m(ramps, x_m, z_m)
-
-
 def _run(
     path: Path,
     settings: DriveConfig,
@@ -276,7 +269,7 @@ def _run(
         limits += [_most_m_s(one, other, piece, count, settings, car) for one, other in pairwise(curvatures.tolist())]
     plan_m = np.array(plan)
     points = path.at(plan_m)
-    rise = np.diff(_heights_m(ramps, spans, begin_m + plan_m, points.x_m, points.z_m))
+    rise = np.diff(floor_heights_m(ramps, spans, begin_m + plan_m, points.x_m, points.z_m))
     steps = elementary.hypot(np.diff(plan_m), rise)
     square = np.append(np.array(limits) ** 2, 0.0)
     square[1:-1] = np.minimum(square[:-2], square[1:-1])

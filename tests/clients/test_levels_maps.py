@@ -8,7 +8,7 @@ import pytest
 import shapely
 from support.level_judge import LevelJudge
 from support.map_judges import HAS_JUDGES, HAS_LANELET2, asam_issues, carla_map, lanelet2_map, sumo_spaces
-from support.sample_files import REPOSITORY
+from support.sample_files import LEVELS_SAMPLE
 
 import garage2usd
 from garage2usd.buildings import build_levels
@@ -17,7 +17,7 @@ pytestmark = [
     pytest.mark.client,
     pytest.mark.skipif(not (HAS_JUDGES and HAS_LANELET2), reason="no environment with the programs that judge maps"),
 ]
-SAMPLE = REPOSITORY / "samples/two_levels.toml"
+SAMPLE = LEVELS_SAMPLE
 STOREY_M, NEAR_M = 3.6, 6.0
 
 

@@ -14,11 +14,11 @@ from garage2usd.config import FittingsConfig
 from garage2usd.config.building import BuildingConfig
 from garage2usd.config.look import WallsLook
 from garage2usd.layout.ceiling.lamps import TUBE
-from garage2usd.layout.placement import Placement, edge_yaw_rad, placed, rounded, to_world
+from garage2usd.layout.placement import Placement
+from garage2usd.layout.shell.well_frame import WellFrame
 from garage2usd.layout.tiles import CEILING_THICKNESS_M
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.flight import FlightSpec
-from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.wall import WallSpec
 from garage2usd.site.flights import LEVEL_END_M
@@ -163,7 +163,7 @@ class Well:
         ConfigError
             If a ramp is left too narrow for a car.
         """
-        frame = _Frame.of(self.flight, structure)
+        frame = WellFrame.of(self.flight, structure)
         first, last = lanes = self._lanes(structure)
         way, right = self.flight.way, self.flight.right
         height = round(fittings.ceiling_height_m if self.is_top else self.building.storey_m, 6)
@@ -199,7 +199,7 @@ class Well:
         """Place the ramps whose foot is on this level."""
         if self.is_top:
             return []
-        frame = _Frame.of(self.flight, structure)
+        frame = WellFrame.of(self.flight, structure)
         profile = flight_profile(frame.run_m, self.building)
         return [
             frame.placed(f"Ramp_{lane.name}", FlightSpec(lane.width_m, profile, SLAB_M), (lane.middle_m, 0.0))
@@ -210,7 +210,7 @@ class Well:
         """Place the ceiling over the well on the top level."""
         if not self.is_top:
             return []
-        frame = _Frame.of(self.flight, structure)
+        frame = WellFrame.of(self.flight, structure)
         spec = CeilingSpec(round(2 * frame.half_m, 6), frame.run_m, CEILING_THICKNESS_M)
         middle = (0.0, -frame.run_m / 2)
         return [frame.placed("Ceiling_Well", spec, middle, height_m=fittings.ceiling_height_m)]
@@ -219,7 +219,7 @@ class Well:
         """Place tube lights over ramps: on the top ceiling, else on the ramps above those with their foot here."""
         if self.level == 1:
             return []
-        frame = _Frame.of(self.flight, structure)
+        frame = WellFrame.of(self.flight, structure)
         runs, heights = zip(*flight_profile(frame.run_m, self.building), strict=True)
         count = max(1, round(frame.run_m / _LAMP_PITCH_M))
         found = []
@@ -235,7 +235,7 @@ class Well:
 
     def lanes(self, structure: Structure) -> list[WellLane]:
         """Return the carriageways of the ramp down and of the ramp up from the level above to this one."""
-        frame = _Frame.of(self.flight, structure)
+        frame = WellFrame.of(self.flight, structure)
         profile = flight_profile(frame.run_m, self.building)
         found = []
         for lane in sorted(self._lanes(structure), key=lambda lane: lane.name != "Down"):
@@ -246,7 +246,7 @@ class Well:
 
     def _lanes(self, structure: Structure) -> tuple[_Lane, _Lane]:
         """Return the two ramps across the well, in the order of their local X."""
-        frame, thick = _Frame.of(self.flight, structure), self.wall_m
+        frame, thick = WellFrame.of(self.flight, structure), self.wall_m
         links = self.flight.links[::-1] if self.flight.keeps_left else self.flight.links
         low = -frame.half_m
         lanes: list[_Lane] = []
@@ -263,46 +263,3 @@ class Well:
             lanes.append(_Lane("Down" if link.is_down else "Up", *borders))
             low = high
         return lanes[0], lanes[1]
-
-
-@dataclass(frozen=True)
-class _Frame:
-    """The local coordinates of a well in the garage.
-
-    Attributes
-    ----------
-    way
-        The way down.
-    origin_m
-        (x, z) of the middle of the border at the feet.
-    run_m, half_m
-        Length of the ramps' squares, and half their width together.
-    """
-
-    way: Edge
-    origin_m: Point
-    run_m: float
-    half_m: float
-
-    @classmethod
-    def of(cls, flight: Flight, structure: Structure) -> "_Frame":
-        """Return the frame of a flight."""
-        rows, cols = zip(*flight.squares, strict=True)
-        x, z = structure.column_edges_m, structure.row_edges_m
-        left, right = float(x[min(cols)]), float(x[max(cols) + 1])
-        top, bottom = float(z[min(rows)]), float(z[max(rows) + 1])
-        run = round(flight.run_m(structure), 6)
-        half = sum(flight.side_m(structure, link.head) for link in flight.links) / 2
-        middle = (left + right) / 2, (top + bottom) / 2
-        return cls(flight.way, to_world((0.0, run / 2), middle, edge_yaw_rad(flight.way)), run, half)
-
-    def to_world(self, point: Point) -> Point:
-        """Return the (x, z) in the garage of a local point, to the micrometre."""
-        return rounded(to_world(point, self.origin_m, edge_yaw_rad(self.way)))
-
-    def placed(
-        self, name: str, spec: Spec, point: Point, *, faces: Edge | None = None, height_m: float = 0.0
-    ) -> Placement:
-        """Place an object at a local point, turned so that its +Z looks down the ramps or over an edge of a square."""
-        yaw = edge_yaw_rad(self.way if faces is None else faces)
-        return placed(name, spec, self.to_world(point), height_m=height_m, yaw_rad=yaw)
