@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built.levels import BuiltLevels, built_levels
 from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.extras import require
@@ -17,15 +18,17 @@ from garage2usd.common.progress import Progress, silent, unheard
 from garage2usd.config.maps import MapsConfig, ScenarioConfig
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.glb import write_glb
+from garage2usd.maps.level_networks import LevelNetwork, level_networks
 from garage2usd.maps.network import Network
 from garage2usd.maps.occupancy import grid_files, write_grid
-from garage2usd.maps.opendrive import write_opendrive
+from garage2usd.maps.opendrive import write_opendrive, write_opendrive_levels
 from garage2usd.maps.parked_cars import parked_cars
 from garage2usd.maps.parking_areas import NETWORK_SUFFIX, write_parking_areas
 from garage2usd.maps.road_builder import network_of
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.pipeline import build
 from garage2usd.reading.files import STAGE_SUFFIXES, open_stage
+from garage2usd.reading.levels import refuse_levels
 from garage2usd.reading.objects import PlacedObject
 from garage2usd.reading.remarks import Remarks
 from garage2usd.reading.report import read_report
@@ -38,6 +41,8 @@ _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO, _GRID = ".json", ".glb", ".osm", ".
 _AREAS = ".add.xml"
 _OF_EXTRA = {_LANELET2: ("a Lanelet2 map", "pyproj"), _SCENARIO: ("a scenario", "scenariogeneration")}
 """Formats that need a module of an extra, with their description and that module, by extension."""
+_OF_LEVELS = frozenset({_LANELET2, _MAP})
+"""Formats in which a garage of several levels can be written."""
 Notice = Callable[[str], None]
 """Callback for a line on data that a format cannot represent."""
 
@@ -50,6 +55,11 @@ class _Source:
 
     def read_for(self, formats: Sequence[str]) -> None:
         """Read the data that several files need, so that forks of this process share it."""
+        if self.levels is not None:
+            for suffix in formats:
+                if suffix not in _OF_LEVELS:
+                    refuse_levels(self.stage, self.name, f"export to {suffix}")
+            return
         of_lanes = [suffix for suffix in formats if suffix != _SCENE]
         if len(formats) > 1:
             _ = self.objects
@@ -57,6 +67,16 @@ class _Source:
             _ = self.garage.taken_stalls
         if len({_LANELET2, _MAP, _AREAS} & {*of_lanes}) > 1:
             _ = self.network
+
+    @cached_property
+    def levels(self) -> BuiltLevels | None:
+        """The levels of a garage of several; None of a garage of one level."""
+        return built_levels(self.stage, self.name)
+
+    @cached_property
+    def level_networks(self) -> tuple[LevelNetwork, ...]:
+        """The road networks of all levels of a garage of several."""
+        return () if self.levels is None else level_networks(self.levels)
 
     @cached_property
     def objects(self) -> list[PlacedObject]:
@@ -115,6 +135,10 @@ def _glb(source: _Source, path: Path, _asked: _Asked, remarks: Remarks) -> None:
 
 
 def _opendrive(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
+    if source.levels is not None:
+        levels = [(level.garage, level.network) for level in source.level_networks]
+        write_opendrive_levels(levels, path, asked.settings, stage=source.stage)
+        return
     write_opendrive(source.garage, path, asked.settings, network=source.network)
 
 
@@ -123,8 +147,14 @@ def _grid(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None
 
 
 def _lanelet2(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
-    from garage2usd.maps.lanelet2 import write_lanelet2  # noqa: PLC0415 - other formats do without its extra
+    from garage2usd.maps.lanelet2 import (  # noqa: PLC0415 - other formats do without its extra
+        write_lanelet2,
+        write_lanelet2_levels,
+    )
 
+    if source.levels is not None:
+        write_lanelet2_levels(source.level_networks, path, asked.settings, stage=source.stage)
+        return
     write_lanelet2(source.garage, path, asked.settings, network=source.network)
 
 

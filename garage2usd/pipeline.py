@@ -21,6 +21,7 @@ from garage2usd.driving import DesignCar, with_clutter, with_truth_of_misparked,
 from garage2usd.driving.refusal import refuse_undrivable
 from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.parking.tight import tight_stalls
+from garage2usd.layout.shell.wells import Well
 from garage2usd.planning import (
     Plan,
     completed,
@@ -40,7 +41,7 @@ from garage2usd.view.learning_picture import draw_learning_curve, draw_structure
 from garage2usd.view.plan_picture import draw_plan
 from garage2usd.view.raster import to_image, write_png
 
-__all__ = ["Build", "Garage", "build", "generate", "generate_plan", "stage_metadata"]
+__all__ = ["Build", "Garage", "build", "generate", "generate_plan", "laid_out", "planned", "stage_metadata"]
 
 _MOST_CHECKED_STALLS = 10_000
 _NAMES_BESIDE = ("plan.png", "learning.png", "best.png", "labels.json", "report.json")
@@ -147,7 +148,7 @@ def generate(
 
 def generate_plan(config: GarageConfig, *, progress: Progress = silent) -> Plan:
     """Make a garage as far as its plan, directions and stalls included; raises as `generate`, which goes on from it."""
-    plan = _plan(_site(config), config, tape=None, progress=progress)
+    plan = planned(_site(config), config, tape=None, progress=progress)
     _graph(plan, config)
     return plan
 
@@ -258,19 +259,42 @@ def _generate(
     site = _site(config)
     clock.append(time.perf_counter())
     if plan is None:
-        plan = _plan(site, config, tape=tape, progress=progress)
+        plan = planned(site, config, tape=tape, progress=progress)
     clock.append(time.perf_counter())
+    garage = laid_out(site, plan, config, progress=progress)
+    clock.append(time.perf_counter())
+    steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
+    return garage, {step: end - start for step, (start, end) in steps}
+
+
+def planned(site: Structure, config: GarageConfig, *, tape: str | None, progress: Progress) -> Plan:
+    """Plan the lanes of a site, their directions and the kinds of stalls; parameters and errors as for `generate`.
+
+    Given ones are taken, a tape is replayed, and the others are learnt and drawn.
+    """
+    if tape is not None and (site.cells == Cell.LANE).any():
+        raise ConfigError("tape", tape, "no tape beside a structure that has lanes")
+    if tape is not None and not is_of_lanes_alone(tape):
+        return play_plan(site, tape, config)
+    return completed(_lanes(site, config, tape=tape, progress=progress), config)
+
+
+def laid_out(
+    site: Structure, plan: Plan, config: GarageConfig, *, well: Well | None = None, progress: Progress = silent
+) -> Garage:
+    """Lay out a plan as a garage; `well` has the ramps to other levels. Errors as for `generate`."""
     graph = _graph(plan, config)
-    layout = lay_out(plan.structure, graph, config)
+    layout = lay_out(plan.structure, graph, config, well=well)
     layout = _driven(layout, config, progress)
     if config.clutter.is_any:
         layout = with_clutter(layout, config, cars=(DesignCar(), design_car(config.standard)), progress=progress)
-    clock.append(time.perf_counter())
-    steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
-    return Garage(config, site, plan, graph, layout), {step: end - start for step, (start, end) in steps}
+    return Garage(config, site, plan, graph, layout)
 
 
 def _site(config: GarageConfig) -> Structure:
+    if config.building.levels > 1:
+        wanted = "1 here; garage2usd.build_levels and `garage2usd build` make garages of several levels"
+        raise ConfigError("building.levels", config.building.levels, wanted)
     site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
     check_room(site, config.bay)
     return site
@@ -283,15 +307,6 @@ def _graph(plan: Plan, config: GarageConfig) -> LaneSquares:
             "site.structure", str(plan.structure), "at least one free square beside a lane that takes a stall"
         )
     return graph
-
-
-def _plan(site: Structure, config: GarageConfig, *, tape: str | None, progress: Progress) -> Plan:
-    """Plan lanes, directions and stalls: take the given ones, replay a tape, or learn and draw."""
-    if tape is not None and (site.cells == Cell.LANE).any():
-        raise ConfigError("tape", tape, "no tape beside a structure that has lanes")
-    if tape is not None and not is_of_lanes_alone(tape):
-        return play_plan(site, tape, config)
-    return completed(_lanes(site, config, tape=tape, progress=progress), config)
 
 
 def _lanes(site: Structure, config: GarageConfig, *, tape: str | None, progress: Progress) -> Plan:

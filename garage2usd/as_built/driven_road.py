@@ -22,6 +22,7 @@ _ARM_FROM_M = 0.5
 _UPRIGHT, _LEAST_FACE_M = 0.5, 0.1
 _LEAST_FLAT_M = 0.06
 """Length in metres that separates a ramp's lands (longer) from its grooves (narrower)."""
+_UNDER_FLOOR_M = 0.01
 _LEVEL_SLOPE, _STEEPEST_SLOPE = 0.005, 0.6
 _FROM_END_M = 0.5
 """Distance in metres between a car outside the garage and the end of its ramp."""
@@ -135,6 +136,8 @@ def _about(yaw_rad: float) -> float:
 def _outwards(garage: BuiltGarage, number: int) -> tuple[Door | None, Point, float]:
     """Return a portal's door, its direction along an axis, and the distance to the square's edge there."""
     node = garage.lanes.nodes[number]
+    if node.name in garage.landings:
+        return None, garage.landings[node.name], _half_m(garage, number, garage.landings[node.name])
     ways = [(way, door) for door in garage.doors if (way := _towards(node, door.position)) is not None]
     if ways:
         (_, outwards), door = min(ways, key=lambda found: found[0])
@@ -240,5 +243,7 @@ def _sides(thing: Thing, ramps: Sequence[RampFloor], height_m: float) -> Iterato
         along = np.array([-normal[2], normal[0]])
         ends = flat[[int((flat @ along).argmin()), int((flat @ along).argmax())]]
         floor = heights_m(ramps, flat[:, 0], flat[:, 1])
-        if (corners[:, 1] - floor).min() < height_m:
+        over_m = corners[:, 1] - floor
+        # the ends of a slab that reaches up to the floor are in no car's way
+        if over_m.min() < height_m and over_m.max() > _UNDER_FLOOR_M:
             yield np.round(ends, _DIGITS)

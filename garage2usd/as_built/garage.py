@@ -1,7 +1,8 @@
 """A garage as built: lanes, stalls and objects, as far as a stage, a report or a plan describes them; metres, Y up."""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -52,6 +53,9 @@ class BuiltGarage:
         Contradictions in the file's lanes and stalls.
     stage
         The stage, if the file is one.
+    landings
+        Portals that are landings of ramps to other levels, not portals to the street: the unit vector (x, z) from each
+        towards its ramp, by name.
     """
 
     source: str
@@ -67,6 +71,13 @@ class BuiltGarage:
     dead_lamps: int = 0
     faults: tuple[Fault, ...] = ()
     stage: Usd.Stage | None = None
+    landings: Mapping[str, Point] = field(default_factory=dict)
+
+    @property
+    def street_portals(self) -> list[int]:
+        """Numbers of the entrances and exits that lead to the street."""
+        portals = self.lanes.portals("entrance", "exit")
+        return [number for number in portals if self.lanes.nodes[number].name not in self.landings]
 
     @cached_property
     def solids(self) -> Solids:

@@ -32,6 +32,7 @@ def garage_of_layout(layout: Layout, *, source: str, kind: str, faults: tuple[Fa
         lamps=lux.lamps,
         dead_lamps=lux.dead_lamps,
         faults=faults,
+        landings={f"[{row}, {col}]": way for (row, col), way in (layout.well.landings.items() if layout.well else ())},
     )
 
 

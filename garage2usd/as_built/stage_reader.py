@@ -18,6 +18,7 @@ from garage2usd.layout.placement import of_spec
 from garage2usd.objects.lamp import LampSpec
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.lanes import Lanes, moved_stalls, read_lanes
+from garage2usd.reading.levels import refuse_levels
 from garage2usd.reading.lights import LightSource
 from garage2usd.reading.objects import PlacedObject
 from garage2usd.structure.grid import Structure, cells_from_text
@@ -62,7 +63,13 @@ def garage_of_stage(
         As for `garage2usd.as_built.contents.read_contents`.
     is_judged
         True to read also the data that only rules need: illuminance, and stalls moved without their outlines.
+
+    Raises
+    ------
+    StageError
+        If the garage has several levels, which `garage2usd.as_built.levels` reads.
     """
+    refuse_levels(stage, source, "this command")
     ground, contents = read_lanes(stage), read_contents(stage, objects)
     structure = _structure(stage)
     lamps = [light.source for light in contents.lights if light.source.kind in _LAMPS]

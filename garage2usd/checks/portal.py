@@ -18,7 +18,9 @@ _DOOR_REACH_M = 12.0
 @BOOK.rule("portal-count", "portals", asks="there are enough vehicle entrances and exits for the stalls")
 def _count(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     portals = garage.lanes.portals("entrance", "exit")
-    # none of one kind is found by a rule of its own
+    # a level of several has those of the whole garage, and none of one kind is found by a rule of its own
+    if garage.landings:
+        return
     if profile.portals is None or not garage.lanes.portals("entrance") or not garage.lanes.portals("exit"):
         return
     stalls = len(garage.parking_stalls)
@@ -31,7 +33,7 @@ def _count(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
 def _distance(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     if profile.portal_distance is None:
         return
-    portals = [garage.lanes.nodes[number] for number in garage.lanes.portals("entrance", "exit")]
+    portals = [garage.lanes.nodes[number] for number in garage.street_portals]
     for first, second in combinations(portals, 2):
         doors = [_door_of(node.position, garage) for node in (first, second)]
         measured = math.dist(*doors)
@@ -64,7 +66,7 @@ def _shut(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 def _inside(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
     if garage.kind == "stage":
         return
-    for number in garage.lanes.portals("entrance", "exit"):
+    for number in garage.street_portals:
         node = garage.lanes.nodes[number]
         if garage.is_on_contour(node.position) is False:
             yield Miss(node.name, node.position, f"the {node.kind} lies inside the garage")

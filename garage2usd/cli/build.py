@@ -12,6 +12,10 @@ from garage2usd.cli.parameters import INPUT_FILE, echo_notices, echo_table, prof
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from garage2usd.checks import Finding
+    from garage2usd.config import GarageConfig
     from garage2usd.config.maps import MapsConfig
     from garage2usd.layout import Layout
     from garage2usd.pipeline import Build
@@ -86,6 +90,10 @@ def build(
         settings = load_config(config, profile=profile)
     else:
         settings = GarageConfig(**({} if profile is None else {"profile": profile_setting(profile)}))
+    if settings.building.levels > 1:
+        refused = {"learning-curve": learning_curve, "best-plans": best_plans, "with": formats}
+        _build_levels(settings, output, seed, tape, refused)
+        return
     exports = _exports(output, formats, settings.maps)
     notices: list[str] = []
     with Bars(sys.stderr) as progress:
@@ -110,6 +118,55 @@ def build(
         click.echo(f"not designed to {entry.clause}: {entry.reason}", err=True)
     _describe(made)
     echo_table(("export", str(file)) for file in exports)
+
+
+def _build_levels(
+    settings: "GarageConfig",
+    output: Path,
+    seed: int | None,
+    tape: str | None,
+    refused: "Mapping[str, object]",
+) -> None:
+    """Build a garage of several levels; `refused` has the options that go with one level only."""
+    from garage2usd.buildings import build_levels  # noqa: PLC0415 - keeps --help instant
+
+    for option, value in refused.items():
+        if value:
+            raise ConfigError(option, value, "not with building.levels of 2 or more, for which it is not built yet")
+    with Bars(sys.stderr) as progress:
+        made = build_levels(settings, output, seed=seed, tape=tape, progress=progress)
+    lines: list[tuple[str, str]] = []
+    garage = made.garage
+    for number, (name, level) in enumerate(zip(garage.building.names(), garage.levels, strict=True)):
+        counts, layout = level.layout.counts(), level.layout
+        found = "" if made.findings is None else f"; check: {_counted(made.findings[number])}"
+        text = f"{layout.parking_stalls} stalls, {counts['car']} with a car, {len(layout.cores)} cores{found}"
+        lines.append((name, f"floor at {garage.building.floor_m(number):g} m, {text}"))
+    flight = garage.building.flight
+    lines += [
+        ("stalls", f"{garage.parking_stalls} on {len(garage.levels)} levels"),
+        (
+            "ramps",
+            f"one down and one up from {list(flight.head)} {flight.way.name.lower()}, {flight.length} squares each",
+        ),
+        ("reachable", "every stall, from an entrance on the street and to an exit on it"),
+        ("seed", str(garage.config.seed)),
+        ("stage", str(made.stage)),
+        *(("assets", f"{folder}/") for folder in (made.asset_folder, made.shared_assets) if folder),
+        *(("picture", str(picture)) for picture in made.pictures),
+        ("report", str(made.report)),
+        ("labels", str(made.labels)),
+        ("seconds", ", ".join(f"{step} {value:.2f}" for step, value in made.seconds.items())),
+    ]
+    echo_table(lines)
+
+
+def _counted(findings: "Iterable[Finding]") -> str:
+    """Count the findings of a check in words."""
+    counts = Counter(finding.severity.value for finding in findings)
+    words = (("error", "error"), ("warning", "warning"), ("info", "remark"))
+    parts = [f"{counts[key]} {word}{'' if counts[key] == 1 else 's'}" for key, word in words if counts[key]]
+    return ", ".join(parts) or "nothing found"
 
 
 def _exports(output: Path, formats: str | None, settings: "MapsConfig") -> tuple[Path, ...]:
@@ -208,13 +265,10 @@ def _checked(made: "Build") -> str:
     against = f"against {made.garage.config.standard.name}"
     if made.findings is None:
         return f"not done here for so many stalls: garage2usd check {made.report}"
-    counts = Counter(finding.severity.value for finding in made.findings)
-    words = (("error", "error"), ("warning", "warning"), ("info", "remark"))
-    parts = [f"{counts[key]} {word}{'' if counts[key] == 1 else 's'}" for key, word in words if counts[key]]
-    if not parts:
+    if not made.findings:
         return f"nothing found {against}"
     rules = list(dict.fromkeys(finding.rule for finding in made.findings))[:_RULES_NAMED]
-    return f"{', '.join(parts)} {against} ({', '.join(rules)}): garage2usd check {made.report}"
+    return f"{_counted(made.findings)} {against} ({', '.join(rules)}): garage2usd check {made.report}"
 
 
 def _dropped(made: "Build") -> str:

@@ -10,6 +10,9 @@ from garage2usd.cli.bars import Bars
 from garage2usd.cli.parameters import INPUT_FILE, echo_table, refuse_seed, seed_option
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from garage2usd.buildings import LevelsGarage
     from garage2usd.common.progress import Progress
     from garage2usd.pipeline import Garage
     from garage2usd.view.plan_sheet import Mark
@@ -53,7 +56,8 @@ def plan(
 ) -> None:
     """Draw the plan of a garage with dimensions, stall numbers and lanes.
 
-    PATH is a configuration (.toml), the report of a build (.json), or a stage beside its report.
+    PATH is a configuration (.toml), the report of a build (.json), or a stage beside its report. A garage of several
+    levels has a picture for each of them, as garage_plan_U2.svg.
 
     \b
     Examples:
@@ -69,6 +73,11 @@ def plan(
     from garage2usd.view.route import find_stall  # noqa: PLC0415
     from garage2usd.view.svg import to_svg  # noqa: PLC0415
 
+    several = _levels(path, seed)
+    if several is not None:
+        asked = {"stall": number, "findings": with_findings, "optimum": with_optimum}
+        _draw_levels(several, outputs or (Path(f"{path.stem.removesuffix('_report')}_plan.svg"),), asked)
+        return
     outputs = outputs or (Path(f"{path.stem.removesuffix('_report')}_plan.svg"),)
     for output in outputs:
         if output.suffix.lower() not in _FORMATS or not output.stem:
@@ -91,6 +100,63 @@ def plan(
                     write_png(to_image(drawing), file)
         publish_at(places)
     echo_table([*(("picture", str(output)) for output in outputs), *told])
+
+
+def _levels(path: Path, seed: int | None) -> "LevelsGarage | None":
+    """The garage of several levels of a configuration, a report, or a stage beside its report; None of another."""
+    from garage2usd.buildings import generate_levels  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.common.documents import is_file  # noqa: PLC0415
+    from garage2usd.config import load_config  # noqa: PLC0415
+    from garage2usd.reading.levels_report import read_levels_report  # noqa: PLC0415
+    from garage2usd.stage import StageFormat  # noqa: PLC0415
+
+    suffix = path.suffix.lower()
+    if suffix == ".toml":
+        config = load_config(path)
+        return None if config.building.levels == 1 else generate_levels(config, seed=seed)
+    report = path.with_name(f"{path.stem}_report.json") if suffix in set(StageFormat) else path
+    if report.suffix.lower() != ".json" or not is_file(report):
+        return None
+    found = read_levels_report(report)
+    if found is None:
+        return None
+    refuse_seed(seed)
+    return generate_levels(found.config, seed=found.seed, tape=found.tape)
+
+
+def _draw_levels(garage: "LevelsGarage", outputs: tuple[Path, ...], refused: "Mapping[str, object]") -> None:
+    """Draw a sheet for each level, named after the picture and the level; `refused` goes with one level only."""
+    from garage2usd.common.errors import ConfigError  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.common.output import check_file, publish_at, staging_folder  # noqa: PLC0415
+    from garage2usd.view.plan_picture import draw_plan  # noqa: PLC0415
+    from garage2usd.view.raster import to_image, write_png  # noqa: PLC0415
+    from garage2usd.view.svg import to_svg  # noqa: PLC0415
+
+    for option, value in refused.items():
+        if value:
+            raise ConfigError(option, value, "not with several levels, for which it is not built yet")
+    for output in outputs:
+        if output.suffix.lower() not in _FORMATS or not output.stem:
+            raise ConfigError("output", str(output), f"a path that ends in {', '.join(_FORMATS)}")
+    drawings = {
+        name: draw_plan(level.layout) for name, level in zip(garage.building.names(), garage.levels, strict=True)
+    }
+    sheets = [
+        (output.with_name(f"{output.stem}_{name}{output.suffix}"), drawing)
+        for output in outputs
+        for name, drawing in drawings.items()
+    ]
+    for place, _ in sheets:
+        check_file(place)
+    with staging_folder(outputs[0]) as staging:
+        places = {staging / str(number): place for number, (place, _) in enumerate(sheets)}
+        for file, (place, drawing) in zip(places, sheets, strict=True):
+            if place.suffix.lower() == ".svg":
+                file.write_text(to_svg(drawing), encoding="utf-8", newline="\n")
+            else:
+                write_png(to_image(drawing), file)
+        publish_at(places)
+    echo_table(("picture", str(place)) for place, _ in sheets)
 
 
 def _marks(path: Path) -> "list[Mark]":

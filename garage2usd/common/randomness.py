@@ -29,6 +29,8 @@ class Step(IntEnum):
     CLUTTER = 21
     STALL_KINDS = 22
     DIRECTIONS = 23
+    LINKS = 24
+    LEVELS = 25
     LIDAR = 30
     CAMERA_EFFECTS = 31
     GARAGES = 40

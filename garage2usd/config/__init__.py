@@ -11,6 +11,7 @@ from pydantic import Field, ValidationError, field_validator
 from garage2usd.common.documents import read_toml
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.settings import Settings, config_error
+from garage2usd.config.building import BuildingConfig
 from garage2usd.config.clutter import ClutterConfig
 from garage2usd.config.design import designed_settings
 from garage2usd.config.files import with_files, with_textures, without_files
@@ -26,6 +27,7 @@ from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_pr
 
 __all__ = [
     "BayConfig",
+    "BuildingConfig",
     "ClutterConfig",
     "FittingsConfig",
     "GarageConfig",
@@ -58,6 +60,8 @@ class GarageConfig(Settings):
     """Seed of every random step."""
     site: SiteConfig = SiteConfig()
     """Contour, portals and obstacles."""
+    building: BuildingConfig = Field(BuildingConfig(), exclude_if=lambda building: building == BuildingConfig())
+    """Levels and the ramps between them."""
     bay: BayConfig = BayConfig()
     """Sizes of squares, stalls, columns and aisles."""
     stalls: StallsConfig = StallsConfig()

@@ -12,7 +12,7 @@ from garage2usd.driving.road import Portal
 from garage2usd.driving.roadmap import Grain, Roadmap, Spot
 from garage2usd.garage import Arc
 
-__all__ = ["path_from_entrance", "path_to_exit"]
+__all__ = ["path_between_portals", "path_from_entrance", "path_to_exit"]
 
 _ASIDE_COST_M, _EDGE_COST_M = 2.0, 3.0
 """Cost in metres of a spot off the lane's centre line, and of each further edge, so that paths keep to centre lines."""
@@ -33,6 +33,14 @@ def path_from_entrance(
     """Return the shortest path found from the pose outside one of some entrances to a pose in line with a lane."""
     edges = roadmap.edges_at(end, roadmap.lanes.arriving)
     return _Growth(roadmap, end, entrances, grain, is_back=True).grown(edges)
+
+
+def path_between_portals(
+    roadmap: Roadmap, entrance: Portal, exits: Sequence[Portal], grain: Grain
+) -> tuple[Path, Portal] | None:
+    """Return the shortest path found from the pose outside an entrance to the pose outside one of some exits."""
+    edges = [(entrance.node, other) for other in roadmap.lanes.onward[entrance.node]]
+    return _Growth(roadmap, entrance.pose, exits, grain, is_back=False).grown(edges)
 
 
 @dataclass(order=True, slots=True)

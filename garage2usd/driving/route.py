@@ -8,7 +8,7 @@ from itertools import chain
 from garage2usd.driving.car import DesignCar
 from garage2usd.driving.garage import Find, Nose, StallProof, prove_garage
 from garage2usd.driving.lane_poses import families
-from garage2usd.driving.lane_search import path_from_entrance, path_to_exit
+from garage2usd.driving.lane_search import path_between_portals, path_from_entrance, path_to_exit
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.path import Path
@@ -114,6 +114,15 @@ class Router:
                 proof, way_in=proof.way_in if arrival else None, way_out=proof.way_out if departure else None
             )
         return Route(stall.name, proof.nose, arrival[1], departure[1], arrival[0], departure[0], proof.is_full)
+
+    def through(self, entrance: Portal, exits: Sequence[Portal]) -> tuple[Path, Portal] | None:
+        """Return the shortest path found from an entrance through the garage to one of some exits."""
+        for is_full in (True, False):
+            for grain in GRAINS:
+                found = path_between_portals(self._roadmap(is_full), entrance, exits, grain)
+                if found is not None:
+                    return found
+        return None
 
     def _led(
         self, stall: Stall, proof: StallProof, proven: Manoeuvre, portals: Sequence[Portal], *, is_back: bool

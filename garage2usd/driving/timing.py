@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from garage2usd.config.maps import DriveConfig
 from garage2usd.driving.car import DesignCar
 from garage2usd.driving.path import Floats, Path, Piece
-from garage2usd.driving.road import RampFloor, heights_m
+from garage2usd.driving.road import FloorSpan, RampFloor, floor_heights_m
 from garage2usd.driving.trajectory import Trajectory
 from garage2usd.native import elementary
 
@@ -41,6 +41,8 @@ class _Run:
         Time since the run's start; shape (nodes,).
     acceleration_m_s2
         Acceleration of each interval, negative where the car brakes; shape (nodes - 1,).
+    begin_m
+        Distance along the whole path at its start, as seen from above.
     """
 
     path: Path
@@ -49,6 +51,7 @@ class _Run:
     speed_m_s: Floats
     time_s: Floats
     acceleration_m_s2: Floats
+    begin_m: float = 0.0
 
     @property
     def seconds(self) -> float:
@@ -73,6 +76,8 @@ class Motion:
         Floors that are not at height 0.
     steering_rate_rad_s
         Steering rate of the front wheels at a standstill.
+    spans
+        Floors of a path over several levels, part by part, in place of `ramps`.
     """
 
     runs: tuple[_Run, ...]
@@ -81,6 +86,7 @@ class Motion:
     car: DesignCar
     ramps: tuple[RampFloor, ...]
     steering_rate_rad_s: float
+    spans: tuple[FloorSpan, ...] = ()
 
     @property
     def events_s(self) -> Floats:
@@ -128,15 +134,18 @@ class Motion:
             run.way_m[node] + left * (run.speed_m_s[node] + run.acceleration_m_s2[node] * left / 2), run.way_m[-1]
         )
         speed = np.where(stands, 0.0, np.maximum(run.speed_m_s[node] + pace * left, 0.0))
-        points = run.path.at(np.interp(way, run.way_m, run.plan_m))
+        plan = np.interp(way, run.way_m, run.plan_m)
+        points = run.path.at(plan)
         steering = elementary.arctan(self.car.wheelbase_m * points.curvature_per_m)
         if index + 1 < len(self.runs):
             target = self._angle(self.runs[index + 1].path.pieces[0].start_per_m)
             turned = np.clip((since - run.seconds) * self.steering_rate_rad_s, 0.0, np.abs(target - steering))
             steering = np.where(stands, steering + np.sign(target - steering) * turned, steering)
         height, nose = (
-            heights_m(
+            floor_heights_m(
                 self.ramps,
+                self.spans,
+                run.begin_m + plan,
                 points.x_m - elementary.sin(points.yaw_rad) * ahead,
                 points.z_m - elementary.cos(points.yaw_rad) * ahead,
             )
@@ -173,6 +182,7 @@ def timed(
     car: DesignCar | None = None,
     ramps: Sequence[RampFloor] = (),
     parked_after: int | None = None,
+    spans: Sequence[FloorSpan] = (),
 ) -> Motion:
     """Time the motion of a car along a path that begins and ends at a standstill.
 
@@ -188,6 +198,8 @@ def timed(
         Floors that are not at height 0.
     parked_after
         Number of the piece before which the car stays parked for as long as the settings say.
+    spans
+        Floors of a path over several levels, part by part, in place of `ramps`.
 
     Notes
     -----
@@ -197,11 +209,11 @@ def timed(
     """
     car = car or DesignCar()
     groups, pauses = _groups(path, settings, parked_after)
-    start, runs = path.start, []
+    start, begin_m, runs = path.start, 0.0, []
     for pieces in groups:
         part = Path(start, pieces)
-        runs.append(_run(part, settings, car, ramps))
-        start = part.end
+        runs.append(_run(part, settings, car, ramps, spans, begin_m))
+        start, begin_m = part.end, begin_m + part.length_m
     starts, now = [], 0.0
     for number, run in enumerate(runs):
         starts.append(now)
@@ -209,7 +221,7 @@ def timed(
         if number + 1 < len(runs):
             steering_s = _steering_s(run.path, runs[number + 1].path, car, settings.steering_rate_rad_s)
             now += max(pauses[number], steering_s)
-    return Motion(tuple(runs), tuple(starts), now, car, tuple(ramps), settings.steering_rate_rad_s)
+    return Motion(tuple(runs), tuple(starts), now, car, tuple(ramps), settings.steering_rate_rad_s, tuple(spans))
 
 
 def _groups(path: Path, settings: DriveConfig, parked_after: int | None) -> tuple[list[tuple[Piece, ...]], list[float]]:
@@ -239,7 +251,14 @@ def _steering_s(one: Path, other: Path, car: DesignCar, rate_rad_s: float) -> fl
     return abs(angles[1] - angles[0]) / rate_rad_s
 
 
-def _run(path: Path, settings: DriveConfig, car: DesignCar, ramps: Sequence[RampFloor]) -> _Run:
+def _run(
+    path: Path,
+    settings: DriveConfig,
+    car: DesignCar,
+    ramps: Sequence[RampFloor],
+    spans: Sequence[FloorSpan],
+    begin_m: float,
+) -> _Run:
     """Compute the fastest run over pieces that join smoothly."""
     plan, limits = [0.0], []
     for piece in path.pieces:
@@ -250,7 +269,7 @@ def _run(path: Path, settings: DriveConfig, car: DesignCar, ramps: Sequence[Ramp
         limits += [_most_m_s(one, other, piece, count, settings, car) for one, other in pairwise(curvatures.tolist())]
     plan_m = np.array(plan)
     points = path.at(plan_m)
-    rise = np.diff(heights_m(ramps, points.x_m, points.z_m))
+    rise = np.diff(floor_heights_m(ramps, spans, begin_m + plan_m, points.x_m, points.z_m))
     steps = elementary.hypot(np.diff(plan_m), rise)
     square = np.append(np.array(limits) ** 2, 0.0)
     square[1:-1] = np.minimum(square[:-2], square[1:-1])
@@ -263,7 +282,7 @@ def _run(path: Path, settings: DriveConfig, car: DesignCar, ramps: Sequence[Ramp
     speed = np.sqrt(square)
     times = np.concatenate([[0.0], np.cumsum(2 * steps / (speed[1:] + speed[:-1]))])
     way = np.concatenate([[0.0], np.cumsum(steps)])
-    return _Run(path, plan_m, way, speed, times, np.diff(square) / (2 * steps))
+    return _Run(path, plan_m, way, speed, times, np.diff(square) / (2 * steps), begin_m)
 
 
 def _most_m_s(one: float, other: float, piece: Piece, count: int, settings: DriveConfig, car: DesignCar) -> float:

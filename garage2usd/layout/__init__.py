@@ -50,6 +50,7 @@ from garage2usd.layout.shell.boards import with_boards
 from garage2usd.layout.shell.building import columns, corner_columns, ground_inside, outer_walls
 from garage2usd.layout.shell.mounts import mounted_objects
 from garage2usd.layout.shell.ramps import barriers, ramp_lights, with_ramps
+from garage2usd.layout.shell.wells import Well
 from garage2usd.layout.shell.zone_plates import zone_plates
 from garage2usd.layout.signs import country_of, with_signs_of
 from garage2usd.layout.table import ObjectTable
@@ -105,6 +106,8 @@ class Layout:
         Names of the stalls that are marked or left out.
     undecided
         Those of them for which the search for ways ended at its bound.
+    well
+        The ramps to other levels of the building; None without any.
     reaching
         Name of the stall of each car whose body stands over a line, and of the one beside that it reaches into.
     misparked
@@ -131,6 +134,7 @@ class Layout:
     held_back: frozenset[str] = frozenset()
     blocked: Mapping[str, str] = field(default_factory=dict)
     undecided: frozenset[str] = frozenset()
+    well: Well | None = None
 
     @property
     def matrices(self) -> Structure | None:
@@ -150,7 +154,7 @@ class Layout:
     @property
     def again(self) -> "partial[Layout]":
         """Lay the same plan out again: `lay_out` with its structure and lane squares given."""
-        return partial(lay_out, self.structure, self.lane_squares)
+        return partial(lay_out, self.structure, self.lane_squares, well=self.well)
 
     def node_squares(self) -> NDArray[np.int32]:
         """Return the (row, col) by which files name each lane node; int32, shape (nodes, 2)."""
@@ -256,6 +260,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     held_back: Collection[str] = (),
     kept_clear: shapely.Geometry | None = None,
     open_boots: Collection[str] = (),
+    well: Well | None = None,
 ) -> Layout:
     """Place every object of a garage.
 
@@ -277,6 +282,8 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         ``clutter`` says.
     open_boots
         Names of the stalls whose cars have their boots open.
+    well
+        The ramps to other levels.
 
     Returns
     -------
@@ -291,7 +298,8 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     """
     bay, fittings, seed, look = config.bay, config.fittings, config.seed, drawn_look(config.look, config.seed)
     levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
-    compartments, cores = plan_egress(structure, graph, config, sprinklered=levels.pipe_drop_m is not None)
+    wells = well.squares if well else ()
+    compartments, cores = plan_egress(structure, graph, config, sprinklered=levels.pipe_drop_m is not None, wells=wells)
     grid = TileGrid(structure, graph, bay, left_out=_left_out(cores, config, unreachable))
     if not grid.stall_places:
         raise ConfigError("plan.unreachable_stalls", "drop", "a plan that leaves a stall that cars get into")
@@ -355,8 +363,13 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
 
         yield (walls := with_ramps(shell, ground_inside(structure), fittings, look.walls))
         yield (gates := barriers(walls, fittings))
-        yield ramp_lamps(ramp_lights(walls, fittings), look.lights, illuminance.luminance_nit, seed=seed)
-        yield (blocks := core_placements(structure, cores, ceiling, look.walls))
+        tubes = ramp_lights(walls, fittings)
+        if well:
+            yield (guards := well.walls(structure, fittings, look.walls))
+            yield [*well.ramps(structure), *well.ceilings(structure, fittings)]
+            walls, tubes = [*walls, *guards], [*tubes, *well.tubes(structure, fittings)]
+        yield ramp_lamps(tubes, look.lights, illuminance.luminance_nit, seed=seed)
+        yield (blocks := core_placements(structure, cores, ceiling, look.walls, wells))
         hung = mounted_objects(grid, pillars, walls, blocks, stalls, cores, [*closing, *signs], config)
         yield with_boards(pillars, hung)
         yield zone_plates(pillars, walls, blocks, stalls, zones) if zones else ()
@@ -379,6 +392,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         parked.reaching,
         parked.misparked,
         frozenset(held_back),
+        well=well,
     )
 
 

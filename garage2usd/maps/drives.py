@@ -1,6 +1,6 @@
 """Planning of a drive through a garage: from stall, entrance and exit to the car's motion."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -91,11 +91,24 @@ class DrivePlanner:
         rate, fast_m_s = self._settings.steering_rate_rad_s, self._settings.lane_speed_m_s
         speeds_m_s = (fast_m_s, min(fast_m_s, self._settings.parking_speed_m_s))
         steerings = [Steering(curvature, rate / (wheelbase_m * speed)) for speed in speeds_m_s]
-        self._router = Router(self.road, steerings, car=self._car)
+        self.router = Router(self.road, steerings, car=self._car)
         self._outlines = {stall.name: stall for stall in garage.parking_stalls}
         self._taken = {stall.name for stall in garage.taken_stalls}
         self._driven = {stall.name: stall for stall in self.road.garage.stalls}
         self._others = {stall.name: _names(stall) for stall in garage.stalls if stall.name not in self._outlines}
+
+    def route_of(self, stall: str, *, entrances: Sequence[Portal], exits: Sequence[Portal]) -> Route:
+        """Return the route from one of some entrances into a stall, by its name, and out to one of some exits.
+
+        Raises
+        ------
+        ConfigError
+            If no such route is found.
+        """
+        route = self.router.route(self._driven[stall], entrances=entrances, exits=exits)
+        if not isinstance(route, Route):
+            raise ConfigError("stall", stall, _lack(route))
+        return route
 
     def drive(
         self,
@@ -127,7 +140,7 @@ class DrivePlanner:
         candidates = self._in_order() if stall is None else [self._stall(stall)]
         route: Route | StallProof | None = None
         for candidate in candidates:
-            route = self._router.route(candidate, entrances=entrances, exits=exits)
+            route = self.router.route(candidate, entrances=entrances, exits=exits)
             if isinstance(route, Route):
                 break
         if not isinstance(route, Route):
@@ -157,7 +170,7 @@ class DrivePlanner:
         return sorted((self._driven[name] for name in self._outlines), key=lambda stall: stall.name in self._taken)
 
     def _chosen(self, field: str, number: int | None, use: LaneKind) -> tuple[Portal, ...]:
-        portals = self._router.portals(use)
+        portals = self.router.portals(use)
         if number is None:
             return portals
         if not 1 <= number <= len(portals):

@@ -1,7 +1,9 @@
 """Lanelet2 map of a garage, with Autoware's tags."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+
+from pxr import Usd
 
 from garage2usd.as_built import BuiltGarage
 from garage2usd.config.maps import MapsConfig
@@ -14,7 +16,7 @@ from garage2usd.maps.road_builder import network_of
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.maps.xml_text import number_text
 
-__all__ = ["write_lanelet2"]
+__all__ = ["write_lanelet2", "write_lanelet2_levels"]
 
 _FORMAT = "1"
 _STRAIGHT_RAD = 0.1
@@ -54,8 +56,44 @@ def write_lanelet2(
     Latitude and longitude follow the projection of the OpenDRIVE map. Stalls are those of
     `garage2usd.maps.lanelet2_parking`.
     """
-    lanes = lane_bounds(network or network_of(garage))
+    return write_lanelet2_levels([(garage, network or network_of(garage), 0.0)], path, settings, stage=garage.stage)
+
+
+def write_lanelet2_levels(
+    levels: Sequence[tuple[BuiltGarage, Network, float]], path: Path, settings: MapsConfig, *, stage: Usd.Stage | None
+) -> tuple[LaneBounds, ...]:
+    """Write the levels of a garage as one Lanelet2 map.
+
+    Parameters
+    ----------
+    levels
+        Each level as a garage of its own, its roads, whose numbers differ from those of all other levels, and the
+        height of its floor.
+    path, settings
+        As for `write_lanelet2`.
+    stage
+        Stage of the whole garage, whose provenance the map tells.
+
+    Returns
+    -------
+    tuple of LaneBounds
+        The lanes of the lanelets, their heights over the floor of their level.
+    """
     osm = OsmFile(settings.latitude_deg, settings.longitude_deg)
+    lanes: list[LaneBounds] = []
+    for garage, network, floor_m in levels:
+        osm.floor_m = floor_m
+        lanes += _add_level(osm, garage, network, settings)
+    facts = {name: str(value) for name, value in stage_facts(stage).items()}
+    version = facts.pop("version", "")
+    header = {"format_version": _FORMAT, "map_version": version, "name": Path(levels[0][0].source).stem, **facts}
+    osm.write(path, generator=f"garage2usd {version}".strip(), facts=header)
+    return tuple(lanes)
+
+
+def _add_level(osm: OsmFile, garage: BuiltGarage, network: Network, settings: MapsConfig) -> tuple[LaneBounds, ...]:
+    """Write the lanes, stalls and stops of a level, and return its lanes."""
+    lanes = lane_bounds(network)
     feet = add_stalls(osm, garage, lanes)
     stops = add_stops(osm, garage, lanes)
     ways: dict[Bound, int] = {}
@@ -69,10 +107,6 @@ def write_lanelet2(
         members += [Member("relation", rule, "regulatory_element") for rule in stops.get(lane, ())]
         osm.relation(members, _lanelet_tags(lane, settings))
     add_lots(osm, lanes, feet)
-    facts = {name: str(value) for name, value in stage_facts(garage.stage).items()}
-    version = facts.pop("version", "")
-    header = {"format_version": _FORMAT, "map_version": version, "name": Path(garage.source).stem, **facts}
-    osm.write(path, generator=f"garage2usd {version}".strip(), facts=header)
     return lanes
 
 

@@ -89,13 +89,15 @@ class Road:
     nodes
         Numbers of the lane nodes along the road.
     profile_m
-        Elevation profile as (s, height) at changes of slope; empty for a level road at height 0.
+        Elevation profile as (s, height over the floor of the level) at changes of slope; empty for a level road.
     junction
         Number of the junction, for a connecting road.
     predecessor, successor
         Neighbours at the start and the end.
     lane_before, lane_after
         Lane of the predecessor and of the successor for each lane that has one.
+    floor_m
+        Height of the floor of its level in the map.
     """
 
     number: int
@@ -109,6 +111,7 @@ class Road:
     successor: Neighbour | None = None
     lane_before: dict[int, int] = field(default_factory=dict)
     lane_after: dict[int, int] = field(default_factory=dict)
+    floor_m: float = 0.0
 
     @property
     def lanes(self) -> tuple[int, ...]:
@@ -128,7 +131,7 @@ class Road:
         return self.line.beside_each(s_m, start_m + (end_m - start_m) * share * share * (3 - 2 * share))
 
     def height_m(self, s_m: float) -> float:
-        """Return the height of the road's surface at a distance along it."""
+        """Return the height of the road's surface over the floor of its level at a distance along it."""
         if not self.profile_m:
             return 0.0
         runs, heights = zip(*self.profile_m, strict=True)

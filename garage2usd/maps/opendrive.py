@@ -3,10 +3,12 @@
 import math
 import xml.etree.ElementTree as ET
 from collections import defaultdict
+from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+from pxr import Usd
 
 from garage2usd.as_built import BuiltGarage
 from garage2usd.config.maps import MapsConfig
@@ -26,7 +28,7 @@ from garage2usd.maps.road_places import RoadPlaces
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.maps.xml_text import child, write_xml
 
-__all__ = ["write_opendrive"]
+__all__ = ["write_opendrive", "write_opendrive_levels"]
 
 _CENTRE_LINE_M = 0.12
 _AROUND_M = 10.0
@@ -66,41 +68,69 @@ def write_opendrive(
     stage. The projection is a transverse Mercator around the stage's origin, in which metres are metres.
     """
     network = network or network_of(garage)
-    first_number = 1 + len(network.roads) + len(network.junctions)
-    places = RoadPlaces(network, garage.stalls, first_number=first_number)
+    write_opendrive_levels([(garage, network)], path, settings, stage=garage.stage)
+    return network
+
+
+def write_opendrive_levels(
+    levels: Sequence[tuple[BuiltGarage, Network]], path: Path, settings: MapsConfig, *, stage: Usd.Stage | None
+) -> None:
+    """Write the levels of a garage as one OpenDRIVE 1.8 map.
+
+    Parameters
+    ----------
+    levels
+        Each level as a garage of its own and its roads, whose numbers differ from those of all other levels.
+    path, settings
+        As for `write_opendrive`.
+    stage
+        Stage of the whole garage, whose provenance the header tells.
+    """
+    first_number = 1 + sum(len(network.roads) + len(network.junctions) for _, network in levels)
     objects: dict[Road, list[tuple[int, MapObject]]] = defaultdict(list)
     signals: dict[Road, list[tuple[int, Signal]]] = defaultdict(list)
+    roads: list[Road] = []
     number = 0
-    for thing in (*stalls_of(garage, places, network), *solids_of(garage, places)):
-        number += 1
-        objects[thing.road].append((number, thing))
-    for sign in signals_of(garage, places):
-        number += 1
-        signals[sign.road].append((number, sign))
+    for garage, network in levels:
+        places = RoadPlaces(network, garage.stalls, first_number=first_number)
+        for thing in (*stalls_of(garage, places, network), *solids_of(garage, places)):
+            number += 1
+            objects[thing.road].append((number, thing))
+        for sign in signals_of(garage, places):
+            number += 1
+            signals[sign.road].append((number, sign))
+        for line in places.lines:
+            line.floor_m = network.roads[0].floor_m
+        first_number += len(places.lines)
+        roads += [*network.roads, *places.lines]
     root = ET.Element("OpenDRIVE")
-    _add_header(root, garage, network, settings)
-    for road in (*network.roads, *places.lines):
+    networks = [network for _, network in levels]
+    _add_header(root, levels[0][0].source, stage, networks, settings)
+    for road in roads:
         element = _add_road(root, road, settings)
         if road in objects:
             add_objects(child(element, "objects"), objects[road])
         if road in signals:
             add_signals(child(element, "signals"), signals[road])
-    for junction in network.junctions:
-        _add_junction(root, junction, network)
+    for network in networks:
+        for junction in network.junctions:
+            _add_junction(root, junction, network)
     write_xml(root, path)
-    return network
 
 
-def _add_header(root: ET.Element, garage: BuiltGarage, network: Network, settings: MapsConfig) -> None:
-    facts = stage_facts(garage.stage)
-    ends = np.array([road.line.at(s)[:2] for road in network.roads for s in (0.0, road.line.length_m)])
+def _add_header(
+    root: ET.Element, source: str, stage: Usd.Stage | None, networks: Sequence[Network], settings: MapsConfig
+) -> None:
+    facts = stage_facts(stage)
+    roads = [road for network in networks for road in network.roads]
+    ends = np.array([road.line.at(s)[:2] for road in roads for s in (0.0, road.line.length_m)])
     (west, south), (east, north) = ends.min(axis=0) - _AROUND_M, ends.max(axis=0) + _AROUND_M
     header = child(
         root,
         "header",
         revMajor="1",
         revMinor="8",
-        name=Path(garage.source).stem,
+        name=Path(source).stem,
         version=str(facts.get("version", "")),
         vendor="garage2usd",
         north=north,
@@ -137,7 +167,9 @@ def _add_road(root: ET.Element, road: Road, settings: MapsConfig) -> ET.Element:
     elevation = child(element, "elevationProfile")
     profile = road.profile_m or ((0.0, 0.0), (road.line.length_m, 0.0))
     for (start, height), (end, next_height) in pairwise(profile):
-        child(elevation, "elevation", s=start, a=height, b=(next_height - height) / (end - start), c=0, d=0)
+        child(
+            elevation, "elevation", s=start, a=height + road.floor_m, b=(next_height - height) / (end - start), c=0, d=0
+        )
     _add_lanes(element, road, settings)
     return element
 

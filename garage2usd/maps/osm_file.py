@@ -45,10 +45,16 @@ class OsmFile:
     latitude_deg, longitude_deg
         Coordinates of the frame's origin, around which points are projected by a transverse Mercator of true scale on
         the WGS 84 ellipsoid.
+
+    Attributes
+    ----------
+    floor_m
+        Height of the floor over which the heights of further points are given.
     """
 
     def __init__(self, latitude_deg: float, longitude_deg: float) -> None:
         self._to_degrees = Transformer.from_crs(projection(latitude_deg, longitude_deg), "EPSG:4326", always_xy=True)
+        self.floor_m = 0.0
         self._numbers = itertools.count(1)
         self._places: dict[int, Place] = {}
         self._near: dict[_Cell, list[tuple[_Cell, int, Place]]] = {}
@@ -58,8 +64,8 @@ class OsmFile:
 
     def point(self, place: Place) -> int:
         """Return the id of the OSM point at a position, creating it if needed."""
+        x, y, z = place = (place[0], place[1], place[2] + self.floor_m)
         cell = _cell(place)
-        x, y, z = place
         found = [
             (other, number)
             for group in _groups_around(cell)

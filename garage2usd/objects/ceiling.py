@@ -8,7 +8,7 @@ from garage2usd.objects.kind import Kind, Spec, VariantSet
 
 __all__ = ["KIND", "CeilingSpec"]
 
-KIND = Kind("ceiling", number=3, label="ceiling", cityscapes="building", follows=VariantSet.CEILING)
+KIND = Kind("ceiling", number=3, label="ceiling", cityscapes="building", group="Ceilings", follows=VariantSet.CEILING)
 
 
 @dataclass(frozen=True)

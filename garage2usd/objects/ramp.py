@@ -13,7 +13,7 @@ from garage2usd.objects.kind import Kind, Spec
 from garage2usd.objects.outline import Point, Polygon, rectangle
 from garage2usd.objects.wall import DADO_M, DADO_STRIPE_M
 
-__all__ = ["KIND", "RampSpec"]
+__all__ = ["KIND", "RampSpec", "grooved", "kerb", "strip"]
 
 KIND = Kind("ramp", number=17, label="ramp", cityscapes="road", group="Ramps")
 
@@ -66,12 +66,12 @@ class RampSpec(Spec, kind=KIND):
         """Make the meshes of a ramp: grooved floor, kerbs, side walls, a slab over its foot and a drain."""
         half, (start, _), (end, _) = self.width_m / 2, self.profile[0], self.profile[-1]
         cover_end, cover_low, cover_high = self.cover_end_m, self.cover_height_m, self.profile[-1][1]
-        threshold = _strip(self.threshold_width_m / 2, [(0.0, 0.0), (start, 0.0)])
+        threshold = strip(self.threshold_width_m / 2, [(0.0, 0.0), (start, 0.0)])
         slab = box_faces((-half, cover_low, -cover_end + _HEADER_M), (half, cover_high, -start))
         header = box_faces((-half, cover_low, -cover_end), (half, self.wall_top_m, -cover_end + _HEADER_M))
         parts = [
             make_part("Threshold", threshold, "floor_concrete", collider=Collider.MESH),
-            make_part("Floor", _strip(half, _grooved(self.profile)), "floor_concrete", collider=Collider.MESH),
+            make_part("Floor", strip(half, grooved(self.profile)), "floor_concrete", collider=Collider.MESH),
             make_part("Cover", slab, "ceiling_concrete", collider=Collider.BOX),
             make_part("Header", header, "wall_concrete", collider=Collider.BOX),
             make_part("Drain", _drain(half - _KERB_WIDTH_M, start), "steel_dark"),
@@ -83,7 +83,7 @@ class RampSpec(Spec, kind=KIND):
             parts += [
                 make_part(f"{name}Wall", wall, "wall_concrete", collider=Collider.BOX),
                 *self._dado(name, face),
-                _kerb(f"{name}Kerb", half, side, self.profile),
+                kerb(f"{name}Kerb", half, side, self.profile),
             ]
         return Asset(tuple(parts))
 
@@ -104,7 +104,7 @@ class RampSpec(Spec, kind=KIND):
         return rectangle(-outer, far, -inner, near), rectangle(inner, far, outer, near)
 
 
-def _strip(half_m: float, profile: Profile) -> list[Face]:
+def strip(half_m: float, profile: Profile) -> list[Face]:
     """Return the faces of a ramp's floor along a profile, facing up."""
     return [
         np.array([(-half_m, y0, -r0), (half_m, y0, -r0), (half_m, y1, -r1), (-half_m, y1, -r1)])
@@ -121,14 +121,17 @@ def _ribbon(x: float, profile: Profile, low_m: float, high_m: float) -> list[Fac
     return faces if x > 0 else [face[::-1] for face in faces]
 
 
-def _kerb(name: str, half_m: float, side: float, profile: Profile) -> Part:
+def kerb(name: str, half_m: float, side: float, profile: Profile, *, is_open_at_top: bool = False) -> Part:
     """Make the kerb at the foot of a ramp's side wall, with chevrons along its inner edge."""
     outer, inner = side * half_m, side * (half_m - _KERB_WIDTH_M)
     faces = _ribbon(inner, profile, 0.0, _KERB_HEIGHT_M)
     low, high = sorted((inner, outer))
-    faces += moved(_strip((high - low) / 2, profile), ((low + high) / 2, _KERB_HEIGHT_M, 0.0))
+    faces += moved(strip((high - low) / 2, profile), ((low + high) / 2, _KERB_HEIGHT_M, 0.0))
     start, y = profile[0]
     faces += box_faces((low, y, -start - 1), (high, y + _KERB_HEIGHT_M, -start), without="lrbtn")
+    if is_open_at_top:
+        end, y = profile[-1]
+        faces += box_faces((low, y, -end), (high, y + _KERB_HEIGHT_M, -end + 1), without="lrbtf")
 
     runs, heights = zip(*profile, strict=True)
 
@@ -136,13 +139,13 @@ def _kerb(name: str, half_m: float, side: float, profile: Profile) -> Part:
         x, y, z = corners.T
         outwards = side * (x - inner)
         down = np.interp(-z, runs, heights) + _KERB_HEIGHT_M - y
-        is_end = normals[:, 2] > 1 - _FLAT
+        is_end = np.abs(normals[:, 2]) > 1 - _FLAT
         return np.stack([np.where(is_end, outwards, -z), np.where(is_end, -down, np.maximum(outwards, down))], axis=1)
 
     return make_part(name, faces, "hazard", collider=Collider.MESH, project=from_edge)
 
 
-def _grooved(profile: Profile) -> list[tuple[float, float]]:
+def grooved(profile: Profile) -> list[tuple[float, float]]:
     """Return a ramp's profile with transverse grooves for grip in its slopes."""
     runs, heights = zip(*profile, strict=True)
     grooved = [profile[0]]

@@ -1,6 +1,7 @@
 """The report of a build, in JSON: the model shared by its writer and its readers."""
 
 import math
+import re
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -28,6 +29,10 @@ __all__ = [
     "read_report",
     "report_of",
 ]
+
+
+_LEVELS = re.compile(r'"levels":\s*\[')
+"""Of a report of a garage of several levels; as a setting ``levels`` is a number."""
 
 
 class PlanFigures(Record):
@@ -215,7 +220,7 @@ def read_report(path: Path) -> Report:
     try:
         return Report.model_validate_json(text)
     except ValidationError as error:
-        raise _refusal(error, path) from None
+        raise _refusal(error, path, of_levels=_LEVELS.search(text) is not None) from None
 
 
 def report_of(document: Any, path: Path) -> Report:  # noqa: ANN401 - whatever JSON holds
@@ -223,11 +228,14 @@ def report_of(document: Any, path: Path) -> Report:  # noqa: ANN401 - whatever J
     try:
         return Report.model_validate(document)
     except ValidationError as error:
-        raise _refusal(error, path) from None
+        of_levels = isinstance(document, dict) and "levels" in document
+        raise _refusal(error, path, of_levels=of_levels) from None
 
 
-def _refusal(error: ValidationError, path: Path) -> ConfigError | ReportError:
+def _refusal(error: ValidationError, path: Path, *, of_levels: bool) -> ConfigError | ReportError:
     """Return the error of a setting, else of the first invalid key."""
+    if of_levels:
+        return ReportError(path, "the report of a garage of several levels, which is read by `garage2usd plan` alone")
     for fault in error.errors(include_url=False):
         cause = fault.get("ctx", {}).get("error")
         if isinstance(cause, ConfigError):

@@ -1,20 +1,21 @@
 """Lane graph and stalls of the stage as guide curves, from which a program can drive without other files."""
 
 import math
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Kind, Sdf, UsdGeom, Vt
 
-from garage2usd.garage import LaneGraph
-from garage2usd.layout import Layout
+from garage2usd.garage import LaneGraph, Stall
 from garage2usd.reading.lanes import GUIDE_LIFT_M
 from garage2usd.stage.authoring import attribute, define, new_layer, numbers, words
 from garage2usd.stage.curves import author_curves
 from garage2usd.stage.variants import BLOCKED_BY, OCCUPIED
 
-__all__ = ["LANE_GRAPH_FILE", "STALL_OUTLINES", "write_lane_graph"]
+__all__ = ["LANE_GRAPH_FILE", "STALL_OUTLINES", "Drivable", "write_lane_graph"]
 
 LANE_GRAPH_FILE = "LaneGraph.usdc"
 """Layer of the lane graph, beside the assets."""
@@ -28,7 +29,32 @@ _LINE_WIDTH_M = 0.1
 _TYPES = Sdf.ValueTypeNames
 
 
-def write_lane_graph(path: Path, layout: Layout) -> None:
+class Drivable(Protocol):
+    """Lanes and stalls in metres: of a layout, or of all levels of a building.
+
+    Attributes
+    ----------
+    lane_graph, quads
+        Lane graph and stalls.
+    blocked
+        Id of each stall that a misparked car blocks, and of the stall of that car.
+    """
+
+    @property
+    def lane_graph(self) -> LaneGraph: ...  # noqa: D102 - an attribute
+
+    @property
+    def quads(self) -> tuple[Stall, ...]: ...  # noqa: D102 - an attribute
+
+    @property
+    def blocked(self) -> Mapping[str, str]: ...  # noqa: D102 - an attribute
+
+    def node_squares(self) -> NDArray[np.int32]:
+        """Return the (row, col) by which files name each lane node; int32, shape (nodes, 2)."""
+        ...
+
+
+def write_lane_graph(path: Path, layout: Drivable) -> None:
     """Write a layer with the lane graph and stalls as the curves ``Nodes``, ``Edges`` and ``Stalls``.
 
     Notes
@@ -55,7 +81,7 @@ def write_lane_graph(path: Path, layout: Layout) -> None:
         _author_stalls(layer, root.AppendChild(STALL_OUTLINES[-1]), layout)
 
 
-def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, layout: Layout) -> None:
+def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, layout: Drivable) -> None:
     angles = np.arange(_NODE_CORNERS) * math.tau / _NODE_CORNERS
     ring = _NODE_RADIUS_M * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     lanes, squares = layout.lane_graph, layout.node_squares()
@@ -79,7 +105,7 @@ def _author_edges(layer: Sdf.Layer, path: Sdf.Path, lanes: LaneGraph) -> None:
     numbers(prim, "garage:lane:width", np.array([edge.width_m for edge in lanes.edges]))
 
 
-def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Layout) -> None:
+def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Drivable) -> None:
     stalls = layout.quads
     corners = np.array([stall.corners for stall in stalls], dtype=np.float64).reshape(-1, 4, 2)
     access = np.array([stall.access for stall in stalls], dtype=np.int32)

@@ -16,6 +16,7 @@ from garage2usd.view.drawing import Colour, Disc, Drawing, Line, Point, Region, 
 from garage2usd.view.plan_access import RAMP, portals, ramps
 from garage2usd.view.plan_lanes import FREE, LINE_M, arrows, lane_legend, ribbons, squares
 from garage2usd.view.plan_sheet import INK, PAPER, Mark, Sheet
+from garage2usd.view.plan_wells import level_title, wells
 from garage2usd.view.route import route_of
 
 __all__ = ["SOLID", "STALL_COLOUR", "Mark", "draw_plan"]
@@ -71,12 +72,13 @@ def draw_plan(layout: Layout, *, stall: Stall | None = None, marks: Sequence[Mar
         yield from _stalls(layout)
         yield from arrows(layout.lane_graph)
         yield from ramps(layout, sheet)
+        yield from wells(layout, sheet)
         yield from _building(layout)
         yield from _clutter(layout)
         yield from portals(layout, sheet)
         if stall is not None:
             yield from _route(layout.lane_graph, stall)
-        yield sheet.title(_figures(layout, found))
+        yield sheet.title(level_title(layout) + _figures(layout, found))
         yield from sheet.dimensions()
         yield from sheet.legend(layout)
         yield from sheet.marks()
@@ -113,7 +115,7 @@ def _legend(layout: Layout, found: MeasuredCirculation | None, *, with_route: bo
     motorbikes = len(layout.parked_motorbikes())
     entries += [(_CAR, "parked motorcycle")] if motorbikes and not counts["car"] else []
     entries += [(FREE, "free")]
-    entries += [(RAMP, "ramp")] if counts["ramp"] else []
+    entries += [(RAMP, "ramp")] if counts["ramp"] or layout.well else []
     entries += [(SOLID, "obstacle")] if counts["obstacle"] else []
     entries += [(_ON_FOOT, "door of a stair core")] if layout.cores else []
     standing = sum(counts[kind.name] for kind in _CLUTTER) - motorbikes

@@ -79,7 +79,8 @@ def sumo_spaces(path, folder):
     spaces = {}
     for polygon in ET.parse(polygons).getroot().iter("poly"):
         if polygon.get("type") == "parkingSpace":
-            degrees = np.array([pair.split(",") for pair in polygon.get("shape").split()], dtype=float)
+            # with a height where the map has any
+            degrees = np.array([place.split(",")[:2] for place in polygon.get("shape").split()], dtype=float)
             x, y = to_metres.transform(*degrees.T)
             spaces[int(polygon.get("id"))] = np.stack([x, -np.asarray(y)], axis=1)[:4]
     return spaces

@@ -21,6 +21,7 @@ from garage2usd.objects.drain import DrainSpec
 from garage2usd.objects.duct import DuctSpec
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
 from garage2usd.objects.fire_extinguisher import FireExtinguisherSpec
+from garage2usd.objects.flight import FlightSpec
 from garage2usd.objects.floor import FloorSpec
 from garage2usd.objects.floor_stain import DirtSpec, PuddleSpec, StainMark, StainSpec, TyreMarkSpec
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
@@ -78,6 +79,9 @@ SPECS = {
         cover_end_m=9.3,
         cover_height_m=3.2,
         wall_top_m=4.8,
+    ),
+    "flight": FlightSpec(
+        6.0, ((0.0, 0.0), (0.3, 0.0), (3.9, 0.27), (24.3, 3.33), (27.9, 3.6), (28.2, 3.6)), slab_m=0.25
     ),
     "ramp_plain": RampSpec(6.2, 0.3, 5.84, RISE, 9.3, 3.2, 4.8, dado_m=0.0, has_stripe=False),
     "sky": SkySpec(width_m=6.8, start_m=9.3, end_m=30.21, ground_m=3.45, low_m=4.8, high_m=7.8),

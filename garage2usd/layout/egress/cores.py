@@ -2,7 +2,7 @@
 # Over 300 lines: candidates among perpendicular, angled and parallel stalls share their geometry.
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -111,13 +111,13 @@ class Core:
         return to_world((0.0, self.depth_m / 2), self.centre_m, edge_yaw_rad(self.edge))
 
 
-def obstacle_cores(structure: Structure) -> list[Core]:
-    """Make a core of each obstacle that fills a square beside a lane."""
+def obstacle_cores(structure: Structure, wells: Collection[Square] = ()) -> list[Core]:
+    """Make a core of each obstacle that fills a square beside a lane, except on the squares of ramps' wells."""
     cells = structure.cells
     lane = np.pad(cells == Cell.LANE, 1)
     x, z = structure.column_edges_m, structure.row_edges_m
     cores = []
-    for row, col in np.argwhere((cells == Cell.OBSTACLE) & ~outside_squares(cells)).tolist():
+    for row, col in _blocks(structure, wells):
         for edge in _DOOR_SIDES:
             other = edge.beyond((row, col))
             if lane[other[0] + 1, other[1] + 1]:
@@ -129,13 +129,24 @@ def obstacle_cores(structure: Structure) -> list[Core]:
     return cores
 
 
-def core_placements(structure: Structure, cores: list[Core], height_m: float, look: WallsLook) -> list[Placement]:
-    """Place a concrete block on every obstacle inside the contour, with a door if it is a core, and all other cores."""
+def _blocks(structure: Structure, wells: Collection[Square]) -> list[Square]:
+    """Return the obstacles inside the contour, except the squares of wells."""
+    inside = (structure.cells == Cell.OBSTACLE) & ~outside_squares(structure.cells)
+    return [(row, col) for row, col in np.argwhere(inside).tolist() if (row, col) not in wells]
+
+
+def core_placements(
+    structure: Structure, cores: list[Core], height_m: float, look: WallsLook, wells: Collection[Square] = ()
+) -> list[Placement]:
+    """Place a concrete block on every obstacle inside the contour, with a door if it is a core, and all other cores.
+
+    The squares of ramps' wells have none.
+    """
     dado_m = None if look.dado == NATURAL else look.dado_m
     x, z = structure.column_edges_m, structure.row_edges_m
     by_square = {core.square: core for core in cores}
     placements = []
-    for row, col in np.argwhere((structure.cells == Cell.OBSTACLE) & ~outside_squares(structure.cells)).tolist():
+    for row, col in _blocks(structure, wells):
         if (row, col) not in by_square:
             width, depth = round(float(x[col + 1] - x[col]), 6), round(float(z[row + 1] - z[row]), 6)
             spec = ObstacleSpec(width, depth, height_m, has_door=False, dado_m=dado_m)

@@ -1,6 +1,7 @@
 """Choice of stair cores: enough exits on foot in each fire compartment, within reach of every stall."""
 
 from collections import defaultdict
+from collections.abc import Collection
 from typing import NamedTuple
 
 import numpy as np
@@ -55,7 +56,14 @@ class _Places(NamedTuple):
     price_m: NDArray[np.float64]
 
 
-def plan_egress(structure: Structure, graph: LaneSquares, config: GarageConfig, *, sprinklered: bool) -> Egress:
+def plan_egress(
+    structure: Structure,
+    graph: LaneSquares,
+    config: GarageConfig,
+    *,
+    sprinklered: bool,
+    wells: Collection[Square] = (),
+) -> Egress:
     """Divide the floor into fire compartments, and choose the stair cores of each.
 
     Parameters
@@ -66,6 +74,8 @@ def plan_egress(structure: Structure, graph: LaneSquares, config: GarageConfig, 
         Settings with the profile and the switch of stair cores.
     sprinklered
         Whether the clauses for sprinklered garages apply.
+    wells
+        (row, col) of the squares of ramps between levels: obstacles that are no cores.
 
     Notes
     -----
@@ -76,7 +86,7 @@ def plan_egress(structure: Structure, graph: LaneSquares, config: GarageConfig, 
     """
     profile = config.standard
     compartments = compartments_of(structure, profile.compartment_area(sprinklered=sprinklered))
-    cores = obstacle_cores(structure)
+    cores = obstacle_cores(structure, wells)
     if not config.fittings.stair_cores:
         return Egress(compartments, cores)
     exits = profile.personnel_exits.amount if profile.personnel_exits else _EXITS

@@ -1,0 +1,443 @@
+"""Garages of several levels: every level a garage of its own, linked by ramps; generated, and written as one stage.
+
+The ramps are drawn first, from a random stream of their own. Each level is then planned by the planner of one level,
+with the landings as its portals; the levels below take over R and C of the top one.
+"""
+# Over 300 lines: the whole road of several levels is told in one place, as the pipeline tells that of one.
+
+import time
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from garage2usd.checks import Finding, judged_layout
+from garage2usd.common.errors import ConfigError, UnreachableStallError
+from garage2usd.common.json_text import json_text
+from garage2usd.common.output import check_file, check_name, check_writable, publish_at, staging_folder
+from garage2usd.common.processes import without_collector
+from garage2usd.common.progress import Progress, silent
+from garage2usd.common.randomness import Step, derived_seed
+from garage2usd.common.version import VERSION
+from garage2usd.config import BayConfig, GarageConfig
+from garage2usd.config.building import BuildingConfig
+from garage2usd.garage.joined_levels import JoinedLevels, LevelLanes, RampLane, join_levels, unreached_stalls
+from garage2usd.layout.shell.wells import SLAB_M, Well, flight_profile
+from garage2usd.pipeline import Garage, laid_out, planned, stage_metadata
+from garage2usd.planning import Plan, evaluate, tape_of
+from garage2usd.planning.dimensions import aisle_side_mm, lines_with_aisles
+from garage2usd.reading.levels_report import LevelReport, LevelsReport, ReportedLink
+from garage2usd.reading.report import UnmetClause
+from garage2usd.report import make_report
+from garage2usd.site import make_site
+from garage2usd.site.flights import draw_flight, flight_is_free, with_run
+from garage2usd.site.room import check_room
+from garage2usd.stage import StageFormat, shared_folder
+from garage2usd.stage.levels import LevelLayout, write_level_labels, write_levels_stage
+from garage2usd.structure.building import Building, Flight, level_cells, level_name
+from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.stalls import Edge
+from garage2usd.view.plan_picture import draw_plan
+from garage2usd.view.raster import to_image, write_png
+
+__all__ = ["LevelsBuild", "LevelsGarage", "build_levels", "generate_levels"]
+
+_CEILING_TO_FLOOR_M = 0.25
+"""Least height between a ceiling's underside and the floor above: the ceiling's slab."""
+_TAPE_JOINT = "/"
+_MOST_CHECKED_STALLS = 10_000
+
+
+@dataclass(frozen=True, eq=False)
+class LevelsGarage:
+    """A garage of several levels.
+
+    Attributes
+    ----------
+    config
+        The settings of the whole.
+    building
+        S of each level, R and C of all, and the ramps.
+    levels
+        Each level as a garage of its own whose landings are portals, the top one first.
+    """
+
+    config: GarageConfig
+    building: Building
+    levels: tuple[Garage, ...]
+
+    @cached_property
+    def joined(self) -> JoinedLevels:
+        """Lanes and stalls of the whole garage."""
+        return _joined(self.building, self.levels)
+
+    @property
+    def tape(self) -> str:
+        """Canonical random process of the garage: the ramps, then the tape of each level, with slashes between."""
+        flight = self.building.flight
+        links = f"{flight.head[0]},{flight.head[1]},{flight.way.name},{flight.length}"
+        return _TAPE_JOINT.join([links, *(tape_of(structure) for structure in self.building.levels)])
+
+    @property
+    def parking_stalls(self) -> int:
+        """Number of stalls that cars park in, on all levels."""
+        return sum(level.layout.parking_stalls for level in self.levels)
+
+
+@dataclass(frozen=True, eq=False)
+class LevelsBuild:
+    """A garage of several levels written to files.
+
+    Attributes
+    ----------
+    garage
+        The garage.
+    stage, report, labels
+        The stage, the JSON report, and the JSON table of all objects with their classes.
+    pictures
+        The picture of each level's plan, the top one first.
+    asset_folder
+        Folder of the levels' layers and assets; None where the stage holds them itself.
+    shared_assets
+        Folder of the assets that it shares with other stages; None where it has its own.
+    seconds
+        Seconds that each step took.
+    findings
+        Findings of the quick rules on each level, errors first; None for more than 10,000 stalls.
+    """
+
+    garage: LevelsGarage
+    stage: Path
+    report: Path
+    labels: Path
+    pictures: tuple[Path, ...]
+    asset_folder: Path | None
+    shared_assets: Path | None
+    seconds: dict[str, float]
+    findings: tuple[tuple[Finding, ...], ...] | None
+
+
+def generate_levels(
+    config: GarageConfig, *, seed: int | None = None, tape: str | None = None, progress: Progress = silent
+) -> LevelsGarage:
+    """Make a garage of several levels.
+
+    Parameters
+    ----------
+    config
+        Its settings, with ``building.levels`` of 2 or more.
+    seed
+        Takes the place of the configuration's seed.
+    tape
+        The tape of such a garage, as its report has it: ramps and lanes are made again instead of drawn and learnt.
+    progress
+        Told how far long steps are.
+
+    Raises
+    ------
+    ConfigError
+        If a setting cannot be used, or not together with several levels.
+    GenerationError
+        If a random step found no valid result, such as a place for the ramps; names the step and the seed.
+    UnreachableStallError
+        If a stall has no way from an entrance on the street and to an exit on it.
+    """
+    return _generate(config, seed=seed, tape=tape, progress=progress)[0]
+
+
+@without_collector()
+def build_levels(
+    config: GarageConfig,
+    output: str | Path = "garage.usdz",
+    *,
+    seed: int | None = None,
+    tape: str | None = None,
+    progress: Progress = silent,
+) -> LevelsBuild:
+    """Make a garage of several levels and write its stage, a picture of each level's plan, its labels and its report.
+
+    Parameters
+    ----------
+    config, seed, tape, progress
+        As for `generate_levels`.
+    output
+        The stage's path; ``.usda``, ``.usdc`` or ``.usdz``. Pictures, report, labels and assets go beside it, under its
+        name.
+
+    Raises
+    ------
+    ConfigError, GenerationError, UnreachableStallError
+        As `generate_levels`, and if the extension is unknown.
+    OutputError
+        If the files cannot be written. They appear whole or not at all.
+    """
+    path = Path(output)
+    if path.suffix.lower() not in set(StageFormat) or not path.stem:
+        raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
+    check_name(path, of_layer=True)
+    names = [level_name(level) for level in range(config.building.levels)]
+    beside = [*(f"{name}_plan.png" for name in names), "labels.json", "report.json"]
+    check_file(path, with_it=(path.with_name(f"{path.stem}_{name}") for name in beside))
+    if shared := shared_folder(path, config.stage):
+        check_writable(shared)
+    garage, seconds = _generate(config, seed=seed, tape=tape, progress=progress)
+    with staging_folder(path) as staging:
+        start = time.perf_counter()
+        folder = staging / "stage"
+        folder.mkdir()
+        levels = [
+            LevelLayout(name, garage.building.floor_m(number), level.layout, stage_metadata(level))
+            for number, (name, level) in enumerate(zip(names, garage.levels, strict=True))
+        ]
+        made = write_levels_stage(
+            levels,
+            garage.joined,
+            folder / f"{path.stem}{path.suffix.lower()}",
+            metadata=_metadata(garage),
+            config=garage.config.stage,
+            shared=shared,
+            progress=progress,
+        )
+        labels = staging / f"{path.stem}_labels.json"
+        write_level_labels(levels, labels, garage.config.stage)
+        drawn = [staging / f"{path.stem}_{name}_plan.png" for name in names]
+        for picture, level in zip(drawn, garage.levels, strict=True):
+            write_png(to_image(draw_plan(level.layout)), picture)
+        seconds["stage"] = time.perf_counter() - start
+        start = time.perf_counter()
+        judged = None
+        if garage.parking_stalls <= _MOST_CHECKED_STALLS:
+            judged = [judged_layout(level.layout, level.config) for level in garage.levels]
+        seconds["check"] = time.perf_counter() - start
+        report = staging / f"{path.stem}_report.json"
+        unmet = None if judged is None else [clauses for _, clauses in judged]
+        report.write_text(
+            json_text(_report(garage, seconds, unmet).model_dump(mode="json")), encoding="utf-8", newline="\n"
+        )
+        progress("files", 0, 1)
+        files = [*filter(None, [made.assets]), *drawn, labels, report]
+        place_of = {file: path.with_name(file.name) for file in files} | {made.stage: path}
+        publish_at(place_of)
+    return LevelsBuild(
+        garage=garage,
+        stage=place_of[made.stage],
+        report=place_of[report],
+        labels=place_of[labels],
+        pictures=tuple(place_of[picture] for picture in drawn),
+        asset_folder=place_of[made.assets] if made.assets else None,
+        shared_assets=shared,
+        seconds=seconds,
+        findings=None if judged is None else tuple(tuple(findings) for findings, _ in judged),
+    )
+
+
+def _generate(
+    config: GarageConfig, *, seed: int | None, tape: str | None, progress: Progress
+) -> tuple[LevelsGarage, dict[str, float]]:
+    if seed is not None:
+        config = config.with_seed(seed)
+    _refuse(config)
+    clock = [time.perf_counter()]
+    site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
+    check_room(site, config.bay)
+    if (site.cells == Cell.LANE).any():
+        raise ConfigError("site.structure", str(site), "no lanes with building.levels of 2 or more: they are planned")
+    flight, tapes = _flight_and_tapes(site, config, tape)
+    clock.append(time.perf_counter())
+    plans = _plans(site, config, flight, tapes, progress)
+    building = Building(tuple(plan.structure for plan, _ in plans), flight, config.building.storey_m)
+    clock.append(time.perf_counter())
+    levels = []
+    for number, (plan, of_level) in enumerate(plans):
+        well = Well(flight, number, config.building.levels, config.building, config.fittings.wall_thickness_m)
+        static = plan.structure.with_cells(level_cells(site.cells, flight, number, config.building.levels))
+        levels.append(laid_out(static, plan, of_level, well=well, progress=progress))
+    garage = LevelsGarage(config, building, tuple(levels))
+    unreached = unreached_stalls(garage.joined)
+    if unreached:
+        raise UnreachableStallError([], f"stalls without a way from the street and to it: {', '.join(unreached)}")
+    clock.append(time.perf_counter())
+    steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
+    return garage, {step: end - start for step, (start, end) in steps}
+
+
+def _refuse(config: GarageConfig) -> None:
+    """Refuse settings that several levels do not go with."""
+    building, ceiling_m = config.building, config.fittings.ceiling_height_m
+    if building.levels < 2:  # noqa: PLR2004
+        raise ConfigError("building.levels", building.levels, "2 or more here; garage2usd.build makes one level")
+    if building.storey_m < ceiling_m + _CEILING_TO_FLOOR_M:
+        least = f"at least {_CEILING_TO_FLOOR_M} m over fittings.ceiling_height_m, which is {ceiling_m}"
+        raise ConfigError("building.storey_m", building.storey_m, least)
+    for field, given in (("plan.one_way", config.plan.one_way), ("stalls.runs", config.stalls.runs)):
+        if given:
+            raise ConfigError(field, list(given), "nothing with building.levels of 2 or more: it names no level")
+
+
+def _flight_and_tapes(site: Structure, config: GarageConfig, tape: str | None) -> tuple[Flight, list[str | None]]:
+    """Draw the ramps, or read them and the tapes of the levels from the tape of the whole garage."""
+    keeps_left, levels = config.standard.drives_on_left, config.building.levels
+    if tape is None:
+        flight = draw_flight(site, building=config.building, bay=config.bay, seed=config.seed, keeps_left=keeps_left)
+        return flight, [None] * levels
+    links, *tapes = tape.split(_TAPE_JOINT)
+    wanted = f"the ramps as row,column,direction,squares and the tapes of {levels} levels, joined by {_TAPE_JOINT}"
+    try:
+        row, col, way, length = links.split(",")
+        flight = Flight((int(row), int(col)), Edge[way], int(length), keeps_left)
+    except (ValueError, KeyError):
+        raise ConfigError("tape", tape, wanted) from None
+    if len(tapes) != levels or not flight_is_free(site.cells, flight, levels):
+        raise ConfigError("tape", tape, f"{wanted}, on free squares of the site")
+    return flight, list(tapes)
+
+
+def _plans(
+    site: Structure, config: GarageConfig, flight: Flight, tapes: list[str | None], progress: Progress
+) -> list[tuple[Plan, GarageConfig]]:
+    """Plan all levels, the lower ones on R and C of the top one; each comes with its settings.
+
+    Where R and C are chosen, lines along which only a lower level has an aisle are widened for it on all levels.
+    """
+    found: list[tuple[Plan, GarageConfig]] = []
+    bay = config.bay
+    for level, tape in enumerate(tapes):
+        seed = derived_seed(config.seed, Step.LEVELS, level) if level else config.seed
+        changes = {"seed": seed, "building": BuildingConfig(), "bay": bay}
+        of_level = config.model_copy(update=changes)
+        sides = found[0][0].structure if found else site
+        static = sides.with_cells(level_cells(site.cells, flight, level, config.building.levels))
+        plan = planned(static, of_level, tape=tape, progress=progress)
+        if not found:
+            bay = _fixed(bay, plan.structure)
+        found.append((plan, of_level))
+    sides = with_run(_with_aisles([plan.structure for plan, _ in found], config.bay), flight, config.building)
+    bay = _fixed(bay, sides)
+    return [(_on_sides(plan, sides, bay, config), of.model_copy(update={"bay": bay})) for plan, of in found]
+
+
+def _with_aisles(levels: list[Structure], bay: BayConfig) -> Structure:
+    """Return the top level with lines of squares wide enough for the aisles of all levels, where sides are chosen."""
+    top = levels[0]
+    sides = [top.row_depths_mm.copy(), top.column_widths_mm.copy()]
+    for level in levels[1:]:
+        for axis, (is_chosen, are_aisles) in enumerate(zip(bay.chosen_sides, lines_with_aisles(level), strict=True)):
+            if is_chosen:
+                sides[axis][are_aisles] = np.maximum(sides[axis][are_aisles], aisle_side_mm(bay))
+    return Structure(top.cells, sides[1], sides[0])
+
+
+def _on_sides(plan: Plan, sides: Structure, bay: BayConfig, config: GarageConfig) -> Plan:
+    """Return a plan with the sides of another structure."""
+    structure = sides.with_cells(plan.structure.cells)
+    if structure == plan.structure:
+        return plan
+    return replace(plan, structure=structure, score=evaluate(structure, bay=bay, plan=config.plan))
+
+
+def _fixed(bay: BayConfig, structure: Structure) -> BayConfig:
+    """Return the sizes with R and C given."""
+    sides = {
+        "column_widths_m": tuple((structure.column_widths_mm / 1000).tolist()),
+        "row_depths_m": tuple((structure.row_depths_mm / 1000).tolist()),
+    }
+    return bay.model_copy(update=sides)
+
+
+def _joined(building: Building, levels: tuple[Garage, ...]) -> JoinedLevels:
+    """Join the lanes of all levels by the ramps."""
+    of_levels = [
+        LevelLanes(
+            name, building.floor_m(number), level.layout.lane_graph, level.layout.quads, level.layout.node_squares()
+        )
+        for number, (name, level) in enumerate(zip(building.names(), levels, strict=True))
+    ]
+    ramps = []
+    for lower in range(1, len(levels)):
+        layout = levels[lower].layout
+        lanes = layout.well.lanes(layout.structure) if layout.well else ()
+        for link, lane in zip(building.flight.links, lanes, strict=True):
+            head = lower - 1, levels[lower - 1].graph.number_of[link.head]
+            foot = lower, levels[lower].graph.number_of[link.foot]
+            start, end = (head, foot) if link.is_down else (foot, head)
+            floor_m = building.floor_m(lower)
+            points = tuple((x, round(floor_m + height, 6), z) for x, height, z in lane.points)
+            squares = tuple(_square_of(layout.structure, link.squares, x, z) for x, _, z in points)
+            ramps.append(RampLane(start, end, points, squares, lower, lane.width_m))
+    return join_levels(of_levels, ramps)
+
+
+def _square_of(structure: Structure, squares: tuple[tuple[int, int], ...], x: float, z: float) -> tuple[int, int]:
+    """Return the square of a ramp that a point lies on, the nearest one at an end."""
+    edges_x, edges_z = structure.column_edges_m, structure.row_edges_m
+    middles = [((edges_x[col] + edges_x[col + 1]) / 2, (edges_z[row] + edges_z[row + 1]) / 2) for row, col in squares]
+    far = [abs(mid_x - x) + abs(mid_z - z) for mid_x, mid_z in middles]
+    return squares[int(np.argmin(far))]
+
+
+def _metadata(garage: LevelsGarage) -> dict[str, str | int]:
+    """Describe how the garage was made, for its stage."""
+    return {
+        "generator": "garage2usd",
+        "version": VERSION,
+        "seed": garage.config.seed,
+        "configDigest": garage.config.digest(),
+        "profile": garage.config.standard.name,
+    }
+
+
+def _report(
+    garage: LevelsGarage, seconds: dict[str, float], unmet: list[tuple[UnmetClause, ...]] | None
+) -> LevelsReport:
+    """Make the report; it is reproducible, except for ``seconds``."""
+    building, names = garage.building, garage.building.names()
+    profile = flight_profile(building.flight.run_m(building.levels[0]), garage.config.building)
+    slopes = [(high - low) / (end - start) for (start, low), (end, high) in pairwise(profile)]
+    clear_m = min(garage.config.fittings.ceiling_height_m, building.storey_m - SLAB_M)
+    links = []
+    for upper, lower in pairwise(range(len(names))):
+        layout = garage.levels[lower].layout
+        lanes = layout.well.lanes(layout.structure) if layout.well else ()
+        links += [
+            ReportedLink(
+                kind=link.kind,
+                upper=names[upper],
+                lower=names[lower],
+                direction="down" if link.is_down else "up",
+                squares=link.squares,
+                head=link.head,
+                foot=link.foot,
+                rise_m=building.storey_m,
+                run_m=profile[-1][0],
+                steepest_percent=round(100 * max(slopes), 3),
+                clear_width_m=lane.width_m,
+                clear_height_m=round(clear_m, 6),
+            )
+            for link, lane in zip(building.flight.links, lanes, strict=True)
+        ]
+    return LevelsReport(
+        version=VERSION,
+        seed=garage.config.seed,
+        config_digest=garage.config.digest(),
+        config=garage.config,
+        tape=garage.tape,
+        parking_stalls=garage.parking_stalls,
+        links=tuple(links),
+        levels=tuple(
+            LevelReport(
+                name=name,
+                floor_m=building.floor_m(number),
+                report=make_report(
+                    config=level.config,
+                    plan=level.plan,
+                    layout=level.layout,
+                    seconds={},
+                    unmet=None if unmet is None else unmet[number],
+                ),
+            )
+            for number, (name, level) in enumerate(zip(names, garage.levels, strict=True))
+        ),
+        seconds={step: round(value, 4) for step, value in seconds.items()},
+    )

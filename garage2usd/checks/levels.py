@@ -1,0 +1,182 @@
+"""Check of a garage of several levels: each level by the rules of one level, ramps and routes by rules of the whole."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.as_built.levels import BuiltLevels, built_levels
+from garage2usd.as_built.stage_reader import profile_name
+from garage2usd.checks.finding import Finding, Severity
+from garage2usd.checks.rule import ROUNDING_M, Rule
+from garage2usd.garage import LaneKind
+from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
+from garage2usd.reading.files import open_stage
+from garage2usd.reading.polygons import triangulated
+from garage2usd.sensors.rays.ray_caster import BoxTree
+
+__all__ = ["check_levels", "read_levels"]
+
+_SIDE_ROOM_M = 0.5
+"""Least distance in metres between the design car and the walls beside a ramp."""
+_STEP_M = 0.5
+_EYE_M, _AXLE_M = 0.05, 0.6
+"""Heights over the ramp's floor of the rays upwards and sideways."""
+_FAR_M = 12.0
+
+
+def read_levels(path: str | Path, *, profile: Profile | None = None) -> tuple[BuiltLevels, Profile] | None:
+    """Read a garage of several levels and the profile to check it against; None from a garage of one level."""
+    stage = open_stage(Path(path))
+    garage = built_levels(stage, path)
+    if garage is None:
+        return None
+    name = profile_name(stage)
+    return garage, profile or load_profile(name if name in PROFILE_NAMES else DEFAULT_PROFILE)
+
+
+def check_levels(garage: BuiltLevels, profile: Profile, rules: tuple[Rule, ...]) -> list[Finding]:
+    """Return the findings of all levels and of the whole, errors first.
+
+    Parameters
+    ----------
+    garage
+        The garage.
+    profile
+        What it is checked against.
+    rules
+        Rules of one level, which each level is checked by with its landings as portals.
+    """
+    found = [
+        replace(finding, place=level.path_in_whole(finding.place))
+        for level in garage.levels
+        for rule in rules
+        for finding in rule.findings(level.garage, profile)
+    ]
+    found += [*_routes(garage), *_portals(garage, profile), *_ramp_clearances(garage, profile)]
+    return sorted(found, key=Finding.sort_key)
+
+
+def _routes(garage: BuiltLevels) -> Iterator[Finding]:
+    """Yield stalls without a route from an entrance on the street, or to an exit on it."""
+    lanes = garage.lanes
+    graph = lanes.graph
+    for kind, ways, words in (
+        (LaneKind.ENTRANCE, graph, "no route from an entrance on the street"),
+        (LaneKind.EXIT, graph.reverse(copy=False), "no route to an exit on the street"),
+    ):
+        portals = lanes.portals(kind)
+        reached = set(portals).union(*(nx.descendants(ways, portal) for portal in portals))
+        for stall in garage.stalls:
+            if stall.access not in reached:
+                yield Finding("level-route", Severity.ERROR, stall.name, words, stall.centre)
+
+
+def _portals(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
+    """Yield a finding if there are too few entrances and exits on the street for the stalls of all levels."""
+    if profile.portals is None:
+        return
+    count = len(garage.lanes.portals(LaneKind.ENTRANCE, LaneKind.EXIT))
+    stalls = sum(stall.takes_cars for stall in garage.stalls)
+    required = profile.portals.required(stalls)
+    if count < required:
+        yield Finding(
+            "portal-count",
+            profile.portals.severity,
+            "",
+            f"too few entrances and exits for {stalls} stalls on {len(garage.levels)} levels",
+            measured=count,
+            required=required,
+            source=f"{profile.portals.source} ({profile.portals.confidence})",
+            clause="portals",
+        )
+
+
+def _ramp_clearances(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
+    """Yield the lowest place and the narrowest place of each ramp between levels that misses the requirement."""
+    for name, line in _ramp_lines(garage):
+        points = _sampled(line)
+        caster, corners = _caster(garage, points)
+        ahead = np.diff(points, axis=0, append=points[-1:] * 2 - points[-2:-1])[:, [0, 2]]
+        ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
+        up = np.tile([0.0, 1.0, 0.0], (len(points), 1))
+        aside = np.stack([ahead[:, 1], np.zeros(len(points)), -ahead[:, 0]], axis=1)
+        clear = profile.clear_height
+        if clear is not None:
+            heights = _distances(caster, corners, points + np.array([0.0, _EYE_M, 0.0]), up) + _EYE_M
+            lowest = int(np.argmin(heights))
+            if heights[lowest] < clear.amount - ROUNDING_M:
+                yield Finding(
+                    "ramp-headroom",
+                    clear.severity,
+                    name,
+                    "something hangs too low over the ramp between levels",
+                    (float(points[lowest, 0]), float(points[lowest, 2])),
+                    round(float(heights[lowest]), 4),
+                    clear.amount,
+                    "m",
+                    f"{clear.source} ({clear.confidence})",
+                    "clear_height",
+                )
+        axle = points + np.array([0.0, _AXLE_M, 0.0])
+        widths = _distances(caster, corners, axle, aside) + _distances(caster, corners, axle, -aside)
+        narrowest, required = int(np.argmin(widths)), profile.car_width_m + 2 * _SIDE_ROOM_M
+        if widths[narrowest] < required - ROUNDING_M:
+            yield Finding(
+                "ramp-width",
+                Severity.ERROR,
+                name,
+                "the ramp between levels is too narrow",
+                (float(points[narrowest, 0]), float(points[narrowest, 2])),
+                round(float(widths[narrowest]), 4),
+                required,
+                "m",
+            )
+
+
+def _ramp_lines(garage: BuiltLevels) -> Iterator[tuple[str, NDArray[np.float64]]]:
+    """Yield the name of each ramp's first node and the (x, height, z) of its nodes in the direction of driving."""
+    lanes = garage.lanes
+    numbers = set(garage.ramp_nodes)
+    graph = nx.DiGraph((edge.start, edge.end) for edge in lanes.edges if {edge.start, edge.end} <= numbers)
+    for part in sorted(map(sorted, nx.weakly_connected_components(graph))):
+        order = list(nx.topological_sort(graph.subgraph(part))) if nx.is_directed_acyclic_graph(graph) else part
+        nodes = [lanes.nodes[number] for number in order]
+        yield nodes[0].name, np.array([(node.position[0], node.height_m, node.position[1]) for node in nodes])
+
+
+def _sampled(line: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return points along a line about every half metre; float64, shape (n, 3)."""
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    places = np.linspace(0.0, along[-1], max(2, int(along[-1] / _STEP_M) + 1))
+    return np.stack([np.interp(places, along, line[:, axis]) for axis in range(3)], axis=1)
+
+
+def _caster(garage: BuiltLevels, points: NDArray[np.float64]) -> tuple[BoxTree, NDArray[np.float64]]:
+    """Return a ray caster on the triangles around some points, and the corners of these; shape (triangles, 3, 3)."""
+    low, high = points.min(axis=0) - _FAR_M, points.max(axis=0) + _FAR_M
+    parts = []
+    for body in (body for thing in garage.things for body in thing.bodies):
+        at = body.matrix[3, :3]
+        if np.any(at + body.shape.reach * 2 < low) or np.any(at - body.shape.reach * 2 > high):
+            continue
+        corners, _ = triangulated(body.shape.points, body.shape.indices, body.shape.counts)
+        parts.append(body.world_points()[body.shape.indices[corners]])
+    triangles = np.concatenate(parts)
+    return BoxTree(triangles.reshape(-1, 3), np.arange(len(triangles) * 3, dtype=np.int32).reshape(-1, 3)), triangles
+
+
+def _distances(
+    caster: BoxTree, triangles: NDArray[np.float64], origins: NDArray[np.float64], directions: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the distance to what each ray hits first, infinite for nothing; shape (n,)."""
+    hit = caster.first(origins, directions)
+    first, second, third = triangles[hit].transpose(1, 0, 2)
+    normals = np.cross(second - first, third - first)
+    share = (normals * directions).sum(axis=1)
+    far = ((first - origins) * normals).sum(axis=1) / np.where(share == 0.0, np.inf, share)
+    distances: NDArray[np.float64] = np.where(hit >= 0, far, np.inf)
+    return distances

@@ -1,0 +1,214 @@
+"""Drives through a garage of several levels: from the street over ramps into a stall, and back to the street."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from garage2usd.as_built.levels import BuiltLevels
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.spelling import find_named
+from garage2usd.config.maps import DriveConfig, Leg
+from garage2usd.driving import DesignCar, Portal, RampFloor
+from garage2usd.driving.manoeuvre import Gear
+from garage2usd.driving.path import Path, Piece
+from garage2usd.driving.road import FloorSpan
+from garage2usd.driving.route import Route
+from garage2usd.driving.timing import timed
+from garage2usd.garage import LaneKind, Stall
+from garage2usd.maps.drives import Drive, DrivePlanner
+
+__all__ = ["LevelsDrivePlanner"]
+
+_NAMED = 6
+_BEYOND_TOP_M, _BEYOND_FOOT_M = 1.0, 2.0
+_RISE_M = 0.01
+
+
+@dataclass(frozen=True)
+class _Part:
+    """A path on one level, or the straight way over a ramp between two.
+
+    Attributes
+    ----------
+    pieces
+        Pieces of the path.
+    level
+        Number of the level, the upper one of a ramp.
+    is_ramp
+        True on a ramp.
+    """
+
+    pieces: tuple[Piece, ...]
+    level: int
+    is_ramp: bool = False
+
+    @property
+    def length_m(self) -> float:
+        return sum(piece.length_m for piece in self.pieces)
+
+
+class LevelsDrivePlanner:
+    """Planner of drives through a garage of several levels.
+
+    Parameters
+    ----------
+    garage
+        The garage.
+    settings, car
+        Limits of the car's motion, and the car.
+
+    Notes
+    -----
+    Each level is driven by the planner of one level between its portals and landings, among the obstacles of this
+    level only. Ramps are driven straight, along the line through their landings.
+    """
+
+    def __init__(
+        self, garage: BuiltLevels, settings: DriveConfig | None = None, *, car: DesignCar | None = None
+    ) -> None:
+        self._garage, self._settings, self._car = garage, settings or DriveConfig(), car or DesignCar()
+        self._planners: dict[int, DrivePlanner] = {}
+
+    def drive(self, stall: str, *, leg: Leg = Leg.BOTH) -> Drive:
+        """Plan the drive to a stall and away from it.
+
+        Parameters
+        ----------
+        stall
+            Name of the stall, or its number with its level, ``U2/B2-07``; case-insensitive.
+        leg
+            Leg to drive: to the stall, away from it, or both.
+
+        Raises
+        ------
+        ConfigError
+            If there is no such stall, or no drive to it and away is found.
+        """
+        found = self._stall(stall)
+        level = found.level
+        planner = self._planner(level)
+        route = planner.route_of(
+            found.name.partition("/")[2],
+            entrances=self._ends(level, LaneKind.ENTRANCE, from_above=True),
+            exits=self._ends(level, LaneKind.EXIT, from_above=True),
+        )
+        into, entrance = self._led(level, route.entrance, _Part(route.arrival.pieces, level), is_in=True)
+        out, exit_ = self._led(level, route.exit, _Part(route.departure.pieces, level), is_in=False)
+        arrival = Path(entrance.pose, tuple(piece for part in into for piece in part.pieces))
+        departure = Path(route.departure.start, tuple(piece for part in out for piece in part.pieces))
+        whole = Route(found.name, route.nose, entrance, exit_, arrival, departure, route.is_full)
+        parts = {Leg.IN: into, Leg.OUT: out, Leg.BOTH: [*into, *out]}[leg]
+        path = {Leg.IN: arrival, Leg.OUT: departure, Leg.BOTH: arrival.then(departure.pieces)}[leg]
+        parked_after = len(arrival.pieces) if leg is Leg.BOTH else None
+        motion = timed(path, self._settings, car=self._car, parked_after=parked_after, spans=self._spans(parts))
+        return Drive(whole, leg, motion, self._car, self._settings)
+
+    def _stall(self, asked: str) -> Stall:
+        stalls = {stall.name: stall for stall in self._garage.stalls if stall.takes_cars}
+        names = find_named(asked, {name: [name, str(stall.number or "")] for name, stall in stalls.items()})
+        if len(names) != 1:
+            known = ", ".join(str(stall.number or name) for name, stall in [*stalls.items()][:_NAMED])
+            raise ConfigError("stall", asked, f"one of the garage's {len(stalls)} stalls with its level: {known}, ...")
+        return stalls[names[0]]
+
+    def _planner(self, level: int) -> DrivePlanner:
+        if level not in self._planners:
+            garage = self._garage.levels[level].garage
+            self._planners[level] = DrivePlanner(garage, self._settings, car=self._car)
+        return self._planners[level]
+
+    def _ends(self, level: int, kind: LaneKind, *, from_above: bool) -> tuple[Portal, ...]:
+        """Return the portals of a level that lead to the level above or the street, or else to the level below."""
+        garage = self._garage.levels[level].garage
+        portals = self._planner(level).router.portals(kind)
+        names = self._below(level)
+        return tuple(
+            portal for portal in portals if (portal.name in garage.landings and portal.name in names) is not from_above
+        )
+
+    def _below(self, level: int) -> frozenset[str]:
+        """Return the names of the landings of a level at the heads of ramps from and to the level below."""
+        lanes = self._garage.lanes
+        floor_m = self._garage.levels[level].place.floor_m
+        names = set()
+        for node, number in ((node, number) for number, node in enumerate(lanes.nodes) if node.level == level):
+            lower = [other for other in lanes.beside[number] if lanes.nodes[other].level == level + 1]
+            if lower and abs(node.height_m - floor_m) < _RISE_M:
+                names.add(node.name.rpartition("/")[2])
+        return frozenset(names)
+
+    def _led(self, level: int, portal: Portal, part: _Part, *, is_in: bool) -> tuple[list[_Part], Portal]:
+        """Lead a path on from a level's landing to the street, or from the street to it."""
+        parts, end = [part], portal
+        for upper in range(level - 1, -1, -1):
+            planner = self._planner(upper)
+            pose = end.pose
+            if is_in:
+                exits = self._ends(upper, LaneKind.EXIT, from_above=False)
+                entrances = self._ends(upper, LaneKind.ENTRANCE, from_above=True)
+            else:
+                exits = self._ends(upper, LaneKind.EXIT, from_above=True)
+                entrances = self._ends(upper, LaneKind.ENTRANCE, from_above=False)
+            found = [
+                (path, entrance, exit_)
+                for entrance in entrances
+                if (led := planner.router.through(entrance, exits)) is not None
+                for path, exit_ in [led]
+            ]
+            if not found:
+                raise ConfigError("stall", portal.name, f"a garage whose level {upper + 1} is driven through")
+            path, entrance, exit_ = min(found, key=lambda each: each[0].length_m)
+            one, other = (path.end, pose) if is_in else (pose, path.start)
+            run_m = math.hypot(other.x_m - one.x_m, other.z_m - one.z_m)
+            between = _Part((Piece(Gear.FORWARD, run_m),), upper, is_ramp=True)
+            own = _Part(path.pieces, upper)
+            parts = [own, between, *parts] if is_in else [*parts, between, own]
+            end = entrance if is_in else exit_
+        return parts, end
+
+    def _spans(self, parts: Sequence[_Part]) -> tuple[FloorSpan, ...]:
+        """Return the floors along the parts of a path; the level changes half way on a ramp.
+
+        A path on a level begins and ends at the tops of the ramps from above, and on the landings of those from below.
+        """
+        spans: list[FloorSpan] = []
+        along = 0.0
+        for before, part, after in zip([None, *parts], parts, [*parts[1:], None], strict=False):
+            end = along + part.length_m
+            ramps = [each for each in (before, after) if each is not None and each.is_ramp]
+            if not part.is_ramp:
+                upper = ramps[-1].level if ramps else None
+                if len(ramps) > 1:
+                    # the ramps from above and below lie over one another: they change at the foot of the upper one
+                    is_down = ramps[1].level == part.level
+                    foot_m = self._ramp_m(part.level) + _BEYOND_FOOT_M
+                    change_m = along + foot_m if is_down else end - foot_m
+                    spans.append(self._span(change_m, part.level, ramps[0].level))
+                reach_m = 0.0
+                if after is not None and after.is_ramp:
+                    is_down = after.level == part.level
+                    half_m = self._ramp_m(after.level + 1) / 2
+                    reach_m = after.length_m + half_m if is_down else -half_m
+                spans.append(self._span(end + reach_m, part.level, upper))
+            along = end
+        return tuple(spans)
+
+    def _ramp_m(self, lower: int) -> float:
+        """Return the length of the ramps down to a level, as seen from above."""
+        return max(float(ramp.runs_m[-1] - ramp.runs_m[0]) for ramp in self._planner(lower).road.ramps)
+
+    def _span(self, end_m: float, level: int, upper: int | None) -> FloorSpan:
+        """Return the floors of a level with the ramps down from an upper level, and with those to the street."""
+        own_m = self._garage.levels[level].place.floor_m
+        ramps = [] if level else [_lifted(ramp, own_m, math.inf) for ramp in self._planner(0).road.ramps]
+        if upper is not None:
+            foot_m = self._garage.levels[upper + 1].place.floor_m
+            ramps += [
+                _lifted(ramp, foot_m, float(ramp.runs_m[-1]) + _BEYOND_TOP_M)
+                for ramp in self._planner(upper + 1).road.ramps
+            ]
+        return FloorSpan(end_m, own_m, tuple(ramps))
+
+
+def _lifted(ramp: RampFloor, floor_m: float, end_m: float) -> RampFloor:
+    return replace(ramp, heights_m=ramp.heights_m + floor_m, end_m=end_m)

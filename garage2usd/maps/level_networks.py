@@ -1,0 +1,138 @@
+"""Road networks of a garage of several levels: those of each level, joined over the ramps between levels."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built.levels import BuiltLevels
+from garage2usd.common.errors import StageError
+from garage2usd.maps.network import Neighbour, Network, Road
+from garage2usd.maps.reference_line import Point, ReferenceLine
+from garage2usd.maps.road_builder import network_of
+
+__all__ = ["LevelNetwork", "level_networks"]
+
+_GAP_M = 2.0
+"""Greatest gap between the profile of a ramp and the road of the landing at its head."""
+_LEVEL_M = 0.01
+
+
+class LevelNetwork(NamedTuple):
+    """The roads of one level.
+
+    Attributes
+    ----------
+    garage
+        The level as a garage of its own; ids and numbers of its stalls begin with the name of the level.
+    network
+        Its roads, with numbers that no other level has.
+    floor_m
+        Height of its floor.
+    """
+
+    garage: BuiltGarage
+    network: Network
+    floor_m: float
+
+
+class _End(NamedTuple):
+    """An end of a road that no other road meets yet."""
+
+    road: Road
+    at_start: bool
+
+    @property
+    def place(self) -> Point:
+        return self.road.line.at(0.0 if self.at_start else self.road.line.length_m)[:2]
+
+    @property
+    def height_m(self) -> float:
+        return self.road.height_m(0.0 if self.at_start else self.road.line.length_m)
+
+
+def level_networks(garage: BuiltLevels) -> tuple[LevelNetwork, ...]:
+    """Build the road networks of all levels and join them over the ramps.
+
+    Raises
+    ------
+    StageError
+        If a level has no complete lane graph, or a ramp leads to no landing.
+    """
+    found: list[LevelNetwork] = []
+    first = 0
+    for number, level in enumerate(garage.levels):
+        stalls = tuple(stall for stall in garage.stalls if stall.level == number)
+        own = {stall.name: stall.access for stall in level.garage.stalls}
+        here = tuple(replace(stall, access=own[stall.name.partition("/")[2]]) for stall in stalls)
+        one = replace(level.garage, stalls=here)
+        network = _numbered(network_of(one), first, level.place.floor_m)
+        first += len(network.roads) + len(network.junctions)
+        found.append(LevelNetwork(one, network, level.place.floor_m))
+    for upper, lower in pairwise(found):
+        rise_m = upper.floor_m - lower.floor_m
+        tops = [end for end in _open_ends(lower.network) if abs(end.height_m - rise_m) < _LEVEL_M]
+        landings = [end for end in _open_ends(upper.network) if abs(end.height_m) < _LEVEL_M]
+        for top in tops:
+            near = min(landings, key=lambda end: math.dist(end.place, top.place), default=None)
+            if near is None or math.dist(near.place, top.place) > _GAP_M:
+                raise StageError(garage.source, f"the ramp at {top.place} leads to no landing of the level above")
+            _join(top, near, rise_m)
+    return tuple(found)
+
+
+def _numbered(network: Network, first: int, floor_m: float) -> Network:
+    """Return a network with all numbers of roads and junctions raised, and its floor set."""
+    for road in network.roads:
+        road.number += first
+        road.floor_m = floor_m
+        road.junction = None if road.junction is None else road.junction + first
+        road.predecessor, road.successor = (
+            None if end is None else end._replace(number=end.number + first)
+            for end in (road.predecessor, road.successor)
+        )
+    junctions = tuple(
+        replace(
+            junction,
+            number=junction.number + first,
+            links=tuple(
+                link._replace(incoming=link.incoming + first, connecting=link.connecting + first)
+                for link in junction.links
+            ),
+        )
+        for junction in network.junctions
+    )
+    return Network(network.roads, junctions, network.nodes)
+
+
+def _open_ends(network: Network) -> Iterator[_End]:
+    for road in network.roads:
+        if road.predecessor is None:
+            yield _End(road, at_start=True)
+        if road.successor is None:
+            yield _End(road, at_start=False)
+
+
+def _join(top: _End, landing: _End, rise_m: float) -> None:
+    """Lead a ramp's road on to the end of the landing's road, and make the two neighbours."""
+    road, gap_m = top.road, math.dist(top.place, landing.place)
+    (arc,) = road.line.arcs
+    longer_m = arc.length_m + gap_m
+    shift_m = gap_m if top.at_start else 0.0
+    heights = [(run + shift_m, rise_m if abs(height - rise_m) < _LEVEL_M else height) for run, height in road.profile_m]
+    ends = [(0.0, rise_m)] if top.at_start else [(longer_m, rise_m)]
+    profile = [*ends, *heights] if top.at_start else [*heights, *ends]
+    if gap_m:
+        start = landing.place if top.at_start else arc.start
+        road.line = ReferenceLine((arc._replace(start=start, length_m=longer_m),))
+        road.profile_m = tuple(profile)
+    for one, other in ((top, landing), (landing, top)):
+        sign = 1 if one.at_start != other.at_start else -1
+        lanes = {lane: sign * lane for lane in one.road.lanes if sign * lane in other.road.lanes}
+        neighbour = Neighbour(other.road.number, at_start=other.at_start)
+        if one.at_start:
+            one.road.predecessor, one.road.lane_before = neighbour, lanes
+        else:
+            one.road.successor, one.road.lane_after = neighbour, lanes

@@ -1,0 +1,68 @@
+"""The report of a garage of several levels, in JSON: a report for each level, and the ramps between them."""
+
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from garage2usd.common.documents import MAX_REPORT_BYTES, read_text
+from garage2usd.common.settings import Record
+from garage2usd.config import GarageConfig
+from garage2usd.reading.report import Report
+
+__all__ = ["LevelReport", "LevelsReport", "ReportedLink", "read_levels_report"]
+
+
+class ReportedLink(Record):
+    """A one-way ramp between two levels; squares are (row, col), from its head to its foot."""
+
+    kind: str
+    upper: str
+    lower: str
+    direction: str
+    squares: tuple[tuple[int, int], ...]
+    head: tuple[int, int]
+    foot: tuple[int, int]
+    rise_m: float
+    run_m: float
+    steepest_percent: float
+    clear_width_m: float
+    clear_height_m: float
+
+
+class LevelReport(Record):
+    """One level: its name, the height of its floor, and its report as a garage of its own."""
+
+    name: str
+    floor_m: float
+    report: Report
+
+
+class LevelsReport(Record):
+    """The report of a garage of several levels, key by key in the order of the file.
+
+    ``tape`` is the random process of the ramps and of all levels. In the report of a level landings are portals of S.
+    """
+
+    version: str = ""
+    seed: int
+    config_digest: str = ""
+    config: GarageConfig
+    tape: str | None = None
+    parking_stalls: int
+    links: tuple[ReportedLink, ...]
+    levels: tuple[LevelReport, ...]
+    seconds: dict[str, float] | None = None
+
+
+def read_levels_report(path: Path) -> LevelsReport | None:
+    """Read the report of a garage of several levels; None from a file that is none.
+
+    Raises
+    ------
+    ConfigError
+        If the file cannot be read.
+    """
+    try:
+        return LevelsReport.model_validate_json(read_text(path, field="report", max_bytes=MAX_REPORT_BYTES))
+    except ValidationError:
+        return None

@@ -1,0 +1,205 @@
+"""A building of several levels: one structure a level, and the ramps that link them.
+
+Every level has the same R and C, so that columns stand above one another. S keeps its five values on each level: the
+squares of a ramp are obstacles on all levels, a landing is an exit (3) of the level that cars leave over it, and an
+entrance (2) of the level that they reach.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from garage2usd.common.errors import ConfigError
+from garage2usd.structure.grid import Cell, CellArray, Structure
+from garage2usd.structure.stalls import Edge
+
+__all__ = ["Building", "Flight", "Link", "LinkKind", "level_cells", "level_name"]
+
+Square = tuple[int, int]
+
+
+class LinkKind(StrEnum):
+    """Kinds of links between two levels."""
+
+    STRAIGHT = "straight"
+    """A straight ramp."""
+
+
+class Link(NamedTuple):
+    """A one-way ramp from one level to the next.
+
+    Attributes
+    ----------
+    kind
+        Its kind.
+    squares
+        (row, col) of its squares from its head to its foot.
+    head, foot
+        (row, col) of the landing at the top, on the upper level, and of the one at the bottom, on the lower level.
+    is_down
+        True if cars drive down.
+    """
+
+    kind: LinkKind
+    squares: tuple[Square, ...]
+    head: Square
+    foot: Square
+    is_down: bool
+
+
+@dataclass(frozen=True)
+class Flight:
+    """A pair of straight one-way ramps side by side, in the same squares between each two levels.
+
+    Attributes
+    ----------
+    head
+        (row, col) of the landing at the head of the ramp down.
+    way
+        Direction of the way down.
+    length
+        Number of squares of each ramp.
+    keeps_left
+        True if traffic keeps to the left: then the ramp up is on the right of the ramp down.
+    """
+
+    head: Square
+    way: Edge
+    length: int
+    keeps_left: bool = False
+
+    @property
+    def right(self) -> Edge:
+        """Direction across the ramps, to the right of somebody who looks up them."""
+        return {Edge.DOWN: Edge.RIGHT, Edge.UP: Edge.LEFT, Edge.RIGHT: Edge.UP, Edge.LEFT: Edge.DOWN}[self.way]
+
+    @property
+    def aside(self) -> Edge:
+        """Direction from the ramp down to the ramp up, which is on the right of somebody who drives up it."""
+        return self.right.opposite if self.keeps_left else self.right
+
+    @cached_property
+    def links(self) -> tuple[Link, Link]:
+        """The ramp down and the ramp up."""
+        return self._link(self.head, is_down=True), self._link(self.aside.beyond(self.head), is_down=False)
+
+    @property
+    def squares(self) -> tuple[Square, ...]:
+        """(row, col) of the squares of both ramps."""
+        return tuple(square for link in self.links for square in link.squares)
+
+    @property
+    def landings(self) -> tuple[Square, ...]:
+        """(row, col) of the four landings."""
+        return tuple(square for link in self.links for square in (link.head, link.foot))
+
+    @property
+    def approaches(self) -> tuple[Square, ...]:
+        """(row, col) of the squares ahead of the landings, which link them with the lanes."""
+        ahead = ((self.way.opposite.beyond(link.head), self.way.beyond(link.foot)) for link in self.links)
+        return tuple(square for pair in ahead for square in pair)
+
+    def run_m(self, structure: Structure) -> float:
+        """Length of the ramps' squares in metres."""
+        sides = structure.row_depths_mm if self.way.along_x else structure.column_widths_mm
+        axis = 0 if self.way.along_x else 1
+        return float(sum(int(sides[square[axis]]) for square in self.links[0].squares)) / 1000
+
+    def side_m(self, structure: Structure, square: Square) -> float:
+        """Extent in metres of a square across the ramps."""
+        row, col = square
+        sides = structure.column_widths_mm[col] if self.way.along_x else structure.row_depths_mm[row]
+        return float(sides) / 1000
+
+    def _link(self, head: Square, *, is_down: bool) -> Link:
+        squares, square = [], head
+        for _ in range(self.length):
+            square = self.way.beyond(square)
+            squares.append(square)
+        return Link(LinkKind.STRAIGHT, tuple(squares), head, self.way.beyond(square), is_down)
+
+
+def level_name(level: int) -> str:
+    """Name of a level by its number from 0: ``U1`` is the first one below the street."""
+    return f"U{level + 1}"
+
+
+def level_cells(cells: CellArray, flight: Flight, level: int, levels: int) -> CellArray:
+    """Write the ramps on the static squares of a level.
+
+    Parameters
+    ----------
+    cells
+        int8, shape (rows, cols): static squares of the top level with the portals to the street.
+    flight
+        The ramps.
+    level, levels
+        Number of the level from 0, and the number of levels.
+
+    Returns
+    -------
+    CellArray
+        A new matrix: below the top level the portals to the street are free squares.
+    """
+    result = cells.copy()
+    if level:
+        result[result >= Cell.ENTRANCE] = Cell.FREE
+    for square in flight.squares:
+        result[square] = Cell.OBSTACLE
+    for link in flight.links:
+        if level < levels - 1:
+            result[link.head] = Cell.EXIT if link.is_down else Cell.ENTRANCE
+        if level:
+            result[link.foot] = Cell.ENTRANCE if link.is_down else Cell.EXIT
+    return result
+
+
+@dataclass(frozen=True, eq=False)
+class Building:
+    """The complete structures of all levels and the ramps between them.
+
+    Attributes
+    ----------
+    levels
+        Structure of each level, the top one first.
+    flight
+        The ramps between each two levels.
+    storey_m
+        Height from floor to floor in metres.
+
+    Raises
+    ------
+    ConfigError
+        If the levels differ in R or C, or a square of a ramp is no obstacle on a level.
+    """
+
+    levels: tuple[Structure, ...]
+    flight: Flight
+    storey_m: float
+
+    def __post_init__(self) -> None:
+        """Refuse levels that do not stand above one another."""
+        first, *others = self.levels
+        for level, structure in enumerate(others, start=1):
+            for name, one, other in (
+                ("R", first.column_widths_mm, structure.column_widths_mm),
+                ("C", first.row_depths_mm, structure.row_depths_mm),
+            ):
+                if not np.array_equal(one, other):
+                    raise ConfigError(f"levels[{level}].{name}", (other / 1000).tolist(), "the sides of the top level")
+        for level, structure in enumerate(self.levels):
+            for square in self.flight.squares:
+                if structure.cells[square] != Cell.OBSTACLE:
+                    raise ConfigError(f"levels[{level}].S", list(square), "-1 on each square of a ramp")
+
+    def floor_m(self, level: int) -> float:
+        """Height of the floor of a level; the top one lies at 0."""
+        return round(-level * self.storey_m, 6) + 0.0
+
+    def names(self) -> Sequence[str]:
+        """Names of the levels, the top one first."""
+        return [level_name(level) for level in range(len(self.levels))]

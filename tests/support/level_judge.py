@@ -1,0 +1,133 @@
+"""Judge of garages of several levels by their written stages: pxr, networkx and trimesh, not garage2usd's readers."""
+
+import networkx as nx
+import numpy as np
+import trimesh
+from pxr import Usd, UsdGeom
+
+from support.rays import fans
+
+WHEELBASE_M, CLEARANCE_M, CAR_LENGTH_M, REAR_OVERHANG_M = 2.9, 0.12, 5.0, 0.95
+"""Of a large car."""
+
+
+def label_of(prim):
+    while prim and not prim.IsPseudoRoot():
+        labels = prim.GetAttribute("semantics:labels:class") if prim else None
+        if labels and labels.Get():
+            return labels.Get()[0]
+        prim = prim.GetParent()
+    return ""
+
+
+class LevelJudge:
+    """One stage: lanes, stalls, columns and triangles by class and by level."""
+
+    def __init__(self, path):
+        self.stage = Usd.Stage.Open(str(path))
+        root = self.stage.GetDefaultPrim().GetPath()
+        self.names = [prim.GetName() for prim in self.stage.GetPrimAtPath(f"{root}/Levels").GetChildren()]
+        graph = f"{root}/LaneGraph"
+        nodes, edges, stalls = (self.stage.GetPrimAtPath(f"{graph}/{name}") for name in ("Nodes", "Edges", "Stalls"))
+
+        def value(prim, name):
+            return list(prim.GetAttribute(name).Get())
+
+        counts = value(nodes, "curveVertexCounts")
+        points = np.array(value(nodes, "points"))
+        self.places = np.array([part.mean(axis=0) for part in np.split(points, np.cumsum(counts)[:-1])]) - [0, 0.05, 0]
+        self.kinds, self.levels = value(nodes, "garage:lane:kind"), value(nodes, "garage:lane:level")
+        self.lanes = nx.DiGraph()
+        self.lanes.add_nodes_from(range(len(counts)))
+        for start, end, direction in zip(
+            *(value(edges, f"garage:lane:{name}") for name in ("from", "to", "direction")), strict=True
+        ):
+            self.lanes.add_edge(start, end)
+            if direction == "both":
+                self.lanes.add_edge(end, start)
+        self.stall_ids, self.numbers = value(stalls, "garage:stall:id"), value(stalls, "garage:stall:number")
+        self.access, self.stall_levels = value(stalls, "garage:stall:accessNode"), value(stalls, "garage:stall:level")
+        self.outlines = np.array(value(stalls, "points")).reshape(-1, 4, 3) - [0, 0.05, 0]
+        self._read()
+
+    def _read(self):
+        cache = UsdGeom.XformCache()
+        self.triangles, self.columns = {}, {name: [] for name in self.names}
+        for prim in self.stage.Traverse(Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)):
+            level = str(prim.GetPath()).split("/")[3] if "/Levels/" in str(prim.GetPath()) else ""
+            if prim.GetName().startswith("Column_") and prim.GetTypeName() == "Xform" and level:
+                self.columns[level].append(np.array(cache.GetLocalToWorldTransform(prim))[3, :3])
+            if not prim.IsA(UsdGeom.Mesh):
+                continue
+            mesh = UsdGeom.Mesh(prim)
+            place = np.array(cache.GetLocalToWorldTransform(prim))
+            points = np.array(mesh.GetPointsAttr().Get()) @ place[:3, :3] + place[3, :3]
+            self.triangles.setdefault((level, label_of(prim)), []).append(points[fans(mesh)])
+
+    def mesh(self, *labels, level=None):
+        """The triangles of some classes, or of all."""
+        parts = [
+            part
+            for (own, label), triangles in self.triangles.items()
+            if (not labels or label in labels) and level in {None, own}
+            for part in triangles
+        ]
+        corners = np.concatenate(parts).reshape(-1, 3)
+        return trimesh.Trimesh(corners, np.arange(len(corners)).reshape(-1, 3), process=False, validate=False)
+
+    def unreached(self):
+        """Ids of stalls without a route from a street entrance and to a street exit."""
+        arriving, leaving = set(), set()
+        for node, kind in enumerate(self.kinds):
+            if kind == "entrance":
+                arriving |= {node} | nx.descendants(self.lanes, node)
+            if kind == "exit":
+                leaving |= {node} | nx.ancestors(self.lanes, node)
+        return [
+            name
+            for name, node in zip(self.stall_ids, self.access, strict=True)
+            if node not in arriving or node not in leaving
+        ]
+
+    def ramps(self):
+        """Places along each ramp, from landing to landing in the direction of driving; arrays of shape (n, 3)."""
+        sloped = [edge for edge in self.lanes.edges if abs(self.places[edge[0]][1] - self.places[edge[1]][1]) > 1e-3]
+        found = []
+        for part in nx.weakly_connected_components(self.lanes.edge_subgraph(sloped)):
+            way = list(nx.topological_sort(self.lanes.subgraph(part)))
+            for _ in range(2):  # the level part at the end, and the landing
+                way = [*self.lanes.predecessors(way[0])][:1] + way + [*self.lanes.successors(way[-1])][:1]
+            found.append(self.places[way])
+        return found
+
+
+def above(places, height_m):
+    """Places some metres higher; shape (n, 3)."""
+    return np.asarray(places) + np.array([0.0, height_m, 0.0])
+
+
+def first_hits(mesh, origins, directions):
+    """Distance to the first surface on each ray; infinite for none."""
+    places, rays, _ = mesh.ray.intersects_location(origins, directions, multiple_hits=False)
+    far = np.full(len(origins), np.inf)
+    far[rays] = np.linalg.norm(places - np.asarray(origins)[rays], axis=1)
+    return far
+
+
+def floors_under(mesh, place, *, reach_m=3.0):
+    """Heights of the distinct floors that a ray down from 2 m over a place meets within a reach of it."""
+    origin = above(np.array([place]), 2.0)
+    hits, _, _ = mesh.ray.intersects_location(origin, [[0.0, -1.0, 0.0]])
+    heights = sorted(float(height) for height in hits[:, 1] if abs(height - place[1]) <= reach_m)
+    return [height for index, height in enumerate(heights) if not index or height - heights[index - 1] > 0.05]
+
+
+def belly_m(runs, heights):
+    """Least distance of a large car's underside from the surface, and of its ends, over all places on a profile."""
+    least = np.inf
+    for rear in np.arange(runs[0] + REAR_OVERHANG_M, runs[-1] - CAR_LENGTH_M, 0.05):
+        axles = np.interp([rear, rear + WHEELBASE_M], runs, heights)
+        under = rear + np.linspace(-REAR_OVERHANG_M, CAR_LENGTH_M - REAR_OVERHANG_M, 101)
+        line = axles[0] + (under - rear) * (axles[1] - axles[0]) / WHEELBASE_M + CLEARANCE_M
+        least = min(least, float((line - np.interp(under, runs, heights)).min()))
+    return least

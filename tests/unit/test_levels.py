@@ -1,0 +1,218 @@
+"""Garages of several levels: settings, their random process, files, and what refuses them."""
+
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from pxr import Usd
+
+import garage2usd
+from garage2usd import ConfigError, GarageConfig, GenerationError
+from garage2usd.as_built.levels import built_levels
+from garage2usd.checks import RULES
+from garage2usd.checks.levels import check_levels, read_levels
+from garage2usd.cli import main
+from garage2usd.maps.level_drives import LevelsDrivePlanner
+from garage2usd.reading.files import open_stage
+from garage2usd.reading.levels_report import read_levels_report
+from garage2usd.structure.building import Building, Flight, level_cells
+from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.stalls import Edge
+
+SMALL = {
+    "seed": 5,
+    "site": {"width_cells": 9, "height_cells": 9},
+    "bay": {"square_side_m": 8.1},
+    "plan": {"episodes": 60, "starts": 1},
+    "parking": {"occupancy": 0.1},
+}
+
+
+def config(levels=2, **changes):
+    return GarageConfig(**{**SMALL, "building": {"levels": levels}, **changes})
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    return garage2usd.build_levels(config(), tmp_path_factory.mktemp("levels") / "garage.usdz")
+
+
+def test_one_level_is_what_it_was_before_there_were_several():
+    plain = GarageConfig(**SMALL)
+    assert "building" not in plain.model_dump(mode="json")
+    assert GarageConfig(**SMALL, building={}).digest() == plain.digest() != config().digest()
+
+
+@pytest.mark.parametrize("way", Edge)
+def test_ramps_are_a_road_of_two_lanes_beside_one_another(way):
+    right, left = Flight((5, 5), way, 3), Flight((5, 5), way, 3, keeps_left=True)
+    down, up = right.links
+    assert down.is_down
+    assert not up.is_down
+    assert up.squares == tuple(right.aside.beyond(square) for square in down.squares)
+    step = np.subtract(down.foot, down.head) / 4
+    aside = np.subtract(up.head, down.head)
+    # facing down, with rows downwards, the oncoming lane is on the left
+    assert step[0] * aside[1] - step[1] * aside[0] == 1
+    assert left.aside is right.aside.opposite
+
+
+def test_landings_are_portals_and_ramps_obstacles_of_the_levels_that_they_join():
+    cells = np.zeros((9, 9), dtype=np.int8)
+    cells[0, 0] = Cell.ENTRANCE
+    flight = Flight((1, 3), Edge.DOWN, 4)
+    down, up = flight.links
+    top, middle, bottom = (level_cells(cells, flight, level, 3) for level in range(3))
+    for level in (top, middle, bottom):
+        assert all(level[square] == Cell.OBSTACLE for square in flight.squares)
+    assert (top[down.head], top[up.head], top[down.foot], top[0, 0]) == (3, 2, 0, 2)
+    assert (middle[down.head], middle[up.head], middle[down.foot], middle[up.foot], middle[0, 0]) == (3, 2, 2, 3, 0)
+    assert (bottom[down.head], bottom[up.head], bottom[down.foot], bottom[up.foot]) == (0, 0, 2, 3)
+
+
+def test_levels_that_do_not_stand_above_one_another_are_refused():
+    flight = Flight((1, 3), Edge.DOWN, 4)
+    cells = level_cells(np.zeros((9, 9), dtype=np.int8), flight, 0, 2)
+    with pytest.raises(ConfigError, match=r"levels\[1\]\.R.*the sides of the top level"):
+        Building((Structure.from_arrays(cells, 8.1, 8.1), Structure.from_arrays(cells, 8.2, 8.1)), flight, 3.6)
+    with pytest.raises(ConfigError, match=r"levels\[0\]\.S.*on each square of a ramp"):
+        Building((Structure.from_arrays(np.zeros((9, 9), dtype=int), 8.1, 8.1),), flight, 3.6)
+
+
+def test_the_tape_makes_the_same_garage_and_seeds_other_ramps(built):
+    again = garage2usd.generate_levels(config(), tape=built.garage.tape)
+    assert again.building.levels == built.garage.building.levels
+    assert again.building.flight == built.garage.building.flight
+    assert again.tape == built.garage.tape
+    flights = {garage2usd.generate_levels(config(), seed=seed).building.flight for seed in (1, 2, 3)}
+    assert len(flights) > 1
+    with pytest.raises(ConfigError, match=r"tape: .*the tapes of 2 levels"):
+        garage2usd.generate_levels(config(), tape="S")
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"building": {"levels": 2, "storey_m": 3.3}}, r"building.storey_m: got 3.3; allowed: at least 0.25 m over"),
+        ({"plan": {"one_way": [[[0, 0], [0, 1]]]}}, r"plan.one_way: .* it names no level"),
+        ({"site": {"structure": "....\nE==X\n...."}, "bay": {}}, r"no lanes with building.levels of 2 or more"),
+        ({"building": {"levels": 7}}, r"building.levels: got 7"),
+    ],
+)
+def test_settings_that_do_not_go_together_are_named(changes, said):
+    with pytest.raises(ConfigError, match=said):
+        garage2usd.generate_levels(GarageConfig(**{**SMALL, "building": {"levels": 2}, **changes}))
+
+
+def test_a_site_without_room_for_ramps_says_so():
+    small = {"width_cells": 6, "height_cells": 6}
+    with pytest.raises(GenerationError, match=r"ramps of 28.2 m, two squares wide.*find no place on 6 x 6"):
+        garage2usd.generate_levels(config(site=small))
+
+
+def test_files_are_the_same_every_time_but_for_seconds(built, tmp_path):
+    again = garage2usd.build_levels(config(), tmp_path / "garage.usdz")
+    assert again.stage.read_bytes() == built.stage.read_bytes()
+    assert again.labels.read_bytes() == built.labels.read_bytes()
+    first, second = (json.loads(made.report.read_text()) for made in (built, again))
+    assert first.pop("seconds").keys() == second.pop("seconds").keys()
+    assert first == second
+
+
+def test_the_report_and_labels_name_each_level(built):
+    report = read_levels_report(built.report)
+    assert [(level.name, level.floor_m) for level in report.levels] == [("U1", 0.0), ("U2", -3.6)]
+    assert report.parking_stalls == sum(level.report.parking_stalls for level in report.levels)
+    assert [(link.upper, link.lower, link.direction) for link in report.links] == [
+        ("U1", "U2", "down"),
+        ("U1", "U2", "up"),
+    ]
+    assert all(link.steepest_percent <= 15 and link.rise_m == 3.6 for link in report.links)
+    table = json.loads(built.labels.read_text())
+    stage = Usd.Stage.Open(str(built.stage))
+    paths = [f"{parent}/{row[0]}" for parent, rows in table["objects"].items() for row in rows]
+    ids = [row[1] for rows in table["objects"].values() for row in rows]
+    assert sorted(ids) == list(range(1, len(ids) + 1))
+    assert {path.split("/")[3] for path in paths} == {"U1", "U2"}
+    assert all(stage.GetPrimAtPath(path) for path in paths if "[" not in path)
+
+
+def test_variants_reach_all_levels(built):
+    stage = Usd.Stage.Open(str(built.stage))
+    root = stage.GetDefaultPrim()
+    cars = [prim.GetPath() for prim in stage.Traverse() if prim.GetName().startswith("Car_")]
+    assert {str(path).split("/")[3] for path in cars} == {"U1", "U2"}
+    root.GetVariantSet("occupancy").SetVariantSelection("empty")
+    assert not any(stage.GetPrimAtPath(path) for path in cars)
+    root.GetVariantSet("level").SetVariantSelection("U2")
+    shown = {
+        name: stage.GetPrimAtPath(f"/Garage/Levels/{name}").GetAttribute("visibility").Get() for name in ("U1", "U2")
+    }
+    assert shown["U1"] == "invisible"
+    assert shown["U2"] != "invisible"
+
+
+def test_check_finds_nothing_and_a_lost_ramp_is_found(built):
+    garage, profile = read_levels(built.stage)
+    assert [finding.rule for finding in check_levels(garage, profile, RULES) if finding.severity.value == "error"] == []
+    stage = open_stage(built.stage)
+    stage.SetEditTarget(stage.GetSessionLayer())
+    edges = stage.GetPrimAtPath("/Garage/LaneGraph/Edges")
+    levels = stage.GetPrimAtPath("/Garage/LaneGraph/Nodes").GetAttribute("garage:lane:level").Get()
+    starts, ends = (list(edges.GetAttribute(f"garage:lane:{name}").Get()) for name in ("from", "to"))
+    up = [number for number, (one, other) in enumerate(zip(starts, ends, strict=True)) if levels[one] > levels[other]]
+    for number in up:
+        ends[number] = starts[number]
+    edges.GetAttribute("garage:lane:to").Set(ends)
+    found = check_levels(built_levels(stage, built.stage), profile, ())
+    lost = {finding.place for finding in found if finding.rule == "level-route"}
+    assert lost == {stall.name for stall in garage.stalls if stall.level == 1}
+
+
+def test_a_drive_goes_down_the_ramp_into_a_stall_and_back_to_the_street(built):
+    garage = built_levels(open_stage(built.stage), built.stage)
+    planner = LevelsDrivePlanner(garage)
+    for stall in (stall for stall in garage.stalls if stall.level == 1 and stall.takes_cars):
+        try:
+            states = planner.drive(str(stall.number)).trajectory
+        except ConfigError:
+            continue
+        break
+    assert states.y_m.min() == pytest.approx(-3.6, abs=1e-3)
+    assert states.y_m[[0, -1]].min() > 3.0
+    assert np.abs(np.degrees(states.pitch_rad)).max() == pytest.approx(np.degrees(np.arctan(0.15)), abs=1.6)
+    moved = np.sqrt(np.diff(states.x_m) ** 2 + np.diff(states.y_m) ** 2 + np.diff(states.z_m) ** 2)
+    assert np.abs(moved - np.diff(states.arc_m)).max() < 1e-3
+    with pytest.raises(ConfigError, match="with its level"):
+        planner.drive("B2-07")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("view", "{stage}", "--no-browser"),
+        ("drive", "{stage}"),
+        ("export", "{stage}", "-o", "a.glb"),
+        ("export", "{stage}", "-o", "a.yaml"),
+        ("export", "{stage}", "-o", "a.xosc"),
+        ("plan", "{stage}", "--stall", "U2/A1-01"),
+        ("check", "{report}"),
+        ("export", "{report}", "-o", "a.xodr"),
+    ],
+)
+def test_what_is_not_built_for_levels_refuses_them_and_writes_nothing(arguments, built, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    places = {"stage": str(built.stage), "report": str(built.report)}
+    ran = CliRunner().invoke(main, [argument.format(**places) for argument in arguments])
+    assert ran.exit_code != 0
+    said = " ".join(f"{ran.output} {ran.exception or ''}".split())
+    assert "several levels" in said
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_one_level_alone_is_refused_where_several_are_asked_for_and_the_other_way_round():
+    with pytest.raises(ConfigError, match=r"garage2usd\.build_levels"):
+        garage2usd.generate(config())
+    with pytest.raises(ConfigError, match="2 or more here"):
+        garage2usd.generate_levels(GarageConfig(**SMALL))
