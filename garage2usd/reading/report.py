@@ -228,14 +228,17 @@ def report_of(document: Any, path: Path) -> Report:  # noqa: ANN401 - whatever J
     try:
         return Report.model_validate(document)
     except ValidationError as error:
-        of_levels = isinstance(document, dict) and "levels" in document
-        raise _refusal(error, path, of_levels=of_levels) from None
+        raise _refusal(error, path, document) from None
 
 
-def _refusal(error: ValidationError, path: Path, *, of_levels: bool) -> ConfigError | ReportError:
-    """Return the error of a setting, else of the first invalid key."""
-    if of_levels:
+def _refusal(error: ValidationError, path: Path, document: object) -> ConfigError | ReportError:
+    """Return the error of a report of another kind or of a setting, else of the first invalid key."""
+    keys = document.keys() if isinstance(document, dict) else ()
+    if "levels" in keys:
         return ReportError(path, "the report of a garage of several levels, which is read by `garage2usd plan` alone")
+    if "unplaced" in keys:
+        plan = f"{path.stem.removesuffix('_report')}_plan.png"
+        return ReportError(path, f"the report of an import, whose garage has no squares: its plan is {plan}")
     for fault in error.errors(include_url=False):
         cause = fault.get("ctx", {}).get("error")
         if isinstance(cause, ConfigError):

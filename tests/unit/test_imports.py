@@ -136,6 +136,12 @@ def test_the_command_tells_what_it_made(tmp_path):
     }
 
 
+def test_commands_that_need_squares_say_so(made):
+    run = CliRunner().invoke(main, ["plan", str(made.stage), "-o", str(made.stage.with_name("plan.svg"))])
+    assert run.exit_code == 1
+    assert "the report of an import, whose garage has no squares: its plan is l_plan.png" in run.output
+
+
 def test_columns_stand_where_they_are_given(tmp_path):
     made = import_layout(LOT, tmp_path / "lot.usdc", proves=False)
     assert [place.position_m for place in made.layout.of_kind("column")] == [(3.0, 0.0, 15.0)]
