@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections.abc import Collection
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -31,8 +32,8 @@ __all__ = [
 ]
 
 
-_LEVELS = re.compile(r'"levels":\s*\[')
-"""Of a report of a garage of several levels; as a setting ``levels`` is a number."""
+_OTHER_REPORTS = re.compile(r'"(?P<key>levels|unplaced)":\s*\[')
+"""Lists in the reports of a garage of several levels and of an import; as a setting ``levels`` is a number."""
 
 
 class PlanFigures(Record):
@@ -220,7 +221,7 @@ def read_report(path: Path) -> Report:
     try:
         return Report.model_validate_json(text)
     except ValidationError as error:
-        raise _refusal(error, path, of_levels=_LEVELS.search(text) is not None) from None
+        raise _refusal(error, path, {match["key"] for match in _OTHER_REPORTS.finditer(text)}) from None
 
 
 def report_of(document: Any, path: Path) -> Report:  # noqa: ANN401 - whatever JSON holds
@@ -228,12 +229,12 @@ def report_of(document: Any, path: Path) -> Report:  # noqa: ANN401 - whatever J
     try:
         return Report.model_validate(document)
     except ValidationError as error:
-        raise _refusal(error, path, document) from None
+        keys = {*document} if isinstance(document, dict) else set()
+        raise _refusal(error, path, keys) from None
 
 
-def _refusal(error: ValidationError, path: Path, document: object) -> ConfigError | ReportError:
+def _refusal(error: ValidationError, path: Path, keys: Collection[str]) -> ConfigError | ReportError:
     """Return the error of a report of another kind or of a setting, else of the first invalid key."""
-    keys = document.keys() if isinstance(document, dict) else ()
     if "levels" in keys:
         return ReportError(path, "the report of a garage of several levels, which is read by `garage2usd plan` alone")
     if "unplaced" in keys:
