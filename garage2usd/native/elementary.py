@@ -4,6 +4,7 @@ NumPy and the C library round these functions differently from processor to proc
 that decides a plan, a layout or a drive, or that is written to a file unrounded. `elementary.c` names the methods.
 """
 
+from functools import lru_cache
 from typing import TypeVar
 
 import numpy as np
@@ -107,7 +108,8 @@ def power(base: F, exponent: F) -> F:
 def _of(function: int, first: F, second: F | None = None) -> F:
     """Evaluate a function of `elementary.c`; arrays are broadcast."""
     if isinstance(first, int | float) and (second is None or isinstance(second, int | float)):
-        return _elementary(function, first, 0.0 if second is None else second)
+        # the two zeros are equal keys, and their sines differ in the sign
+        return (_remembered if first else _elementary)(function, first, 0.0 if second is None else second)
     given = (first,) if second is None else np.broadcast_arrays(first, second)
     copies = [np.array(values, np.float64, order="C") for values in given]
     results = np.empty_like(copies[0])
@@ -119,6 +121,12 @@ def _of(function: int, first: F, second: F | None = None) -> F:
 def _elementary(function: int, first: float, second: float) -> float:
     """Evaluate a function of one pair of numbers."""
     raise NotImplementedError
+
+
+@lru_cache(maxsize=8192)
+def _remembered(function: int, first: float, second: float) -> float:
+    """Evaluate a function of numbers that come again: a garage has few angles and many objects."""
+    return _elementary(function, first, second)
 
 
 @in_c

@@ -1,5 +1,6 @@
 """Elementary functions written anew: their error, their corners, and that the library takes none of the system's."""
 
+import math
 import re
 import subprocess
 import sys
@@ -109,3 +110,10 @@ def test_the_loops_call_no_rounded_function_of_the_system():
     for path in sorted((REPOSITORY / "garage2usd/native").glob("*.[ch]")):
         code = re.sub(r"/\*.*?\*/", "", path.read_text(), flags=re.DOTALL)
         assert re.findall(rounded, code) == [], path.name
+
+
+def test_zeros_of_either_sign_are_told_apart_though_numbers_are_remembered():
+    for _ in range(2):
+        assert [math.copysign(1, elementary.sin(zero)) for zero in (0.0, -0.0)] == [1, -1]
+        assert [elementary.arctan2(zero, -1.0) for zero in (0.0, -0.0)] == [math.pi, -math.pi]
+        assert elementary.arctan2(1.0, -0.0) == elementary.arctan2(1.0, 0.0)
