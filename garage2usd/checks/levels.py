@@ -173,7 +173,8 @@ def _distances(
     caster: BoxTree, triangles: NDArray[np.float64], origins: NDArray[np.float64], directions: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Return the distance to what each ray hits first, infinite for nothing; shape (n,)."""
-    hit = caster.first(origins, directions)
+    with np.errstate(invalid="ignore"):  # of triangles beside a ray, which it misses
+        hit = caster.first(origins, directions)
     first, second, third = triangles[hit].transpose(1, 0, 2)
     normals = np.cross(second - first, third - first)
     share = (normals * directions).sum(axis=1)

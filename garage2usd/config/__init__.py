@@ -60,10 +60,10 @@ class GarageConfig(Settings):
     """Seed of every random step."""
     site: SiteConfig = SiteConfig()
     """Contour, portals and obstacles."""
-    building: BuildingConfig = Field(BuildingConfig(), exclude_if=lambda building: building == BuildingConfig())
-    """Levels and the ramps between them."""
     bay: BayConfig = BayConfig()
     """Sizes of squares, stalls, columns and aisles."""
+    building: BuildingConfig = Field(BuildingConfig(), exclude_if=lambda building: building == BuildingConfig())
+    """Levels and the ramps between them."""
     stalls: StallsConfig = StallsConfig()
     """Kinds and sizes of stalls."""
     plan: PlanConfig = PlanConfig()

@@ -367,7 +367,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         if well:
             yield (guards := well.walls(structure, fittings, look.walls))
             yield [*well.ramps(structure), *well.ceilings(structure, fittings)]
-            walls, tubes = [*walls, *guards], [*tubes, *well.tubes(structure, fittings)]
+            walls, tubes = [*walls, *well.beside_floors(guards)], [*tubes, *well.tubes(structure, fittings)]
         yield ramp_lamps(tubes, look.lights, illuminance.luminance_nit, seed=seed)
         yield (blocks := core_placements(structure, cores, ceiling, look.walls, wells))
         hung = mounted_objects(grid, pillars, walls, blocks, stalls, cores, [*closing, *signs], config)

@@ -7,7 +7,7 @@ import numpy as np
 from garage2usd.assets.faces import moved
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
 from garage2usd.objects.kind import Spec
-from garage2usd.objects.outline import Point
+from garage2usd.objects.outline import Point, Polygon, rectangle
 from garage2usd.objects.ramp import RampSpec, grooved, kerb, strip
 
 __all__ = ["FlightSpec"]
@@ -46,6 +46,11 @@ class FlightSpec(Spec, kind=RampSpec.kind):
                 kerb("RightKerb", half, 1.0, self.profile, is_open_at_top=True),
             )
         )
+
+    def outlines(self) -> tuple[Polygon, ...]:
+        """Return the outline of the ramp, below which no car drives."""
+        half, run = self.width_m / 2, self.profile[-1][0]
+        return (rectangle(-half, -run, half, 0.0),)
 
     def _end(self, index: int, side: float) -> Face:
         """Return the upright face at one end of the slab; `side` is 1 at the head."""

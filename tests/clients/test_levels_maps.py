@@ -68,7 +68,8 @@ def test_asam_s_checker_has_no_issue_and_sumo_places_every_space(exported, tmp_p
     assert spaces.keys() == names.keys()
     outlines = dict(zip(judge.stall_ids, judge.outlines, strict=True))
     for number, name in names.items():
-        assert np.abs(spaces[number] - outlines[name][:, [0, 2]]).max() < 1e-3
+        placed, stall = shapely.Polygon(spaces[number]), shapely.Polygon(outlines[name][:, [0, 2]])
+        assert placed.hausdorff_distance(stall) < 1e-3
 
 
 def test_lanelet2_routes_from_every_stall_of_the_lowest_level_to_the_street(exported, tmp_path):

@@ -18,6 +18,7 @@ from garage2usd.objects.drain import DrainSpec
 from garage2usd.objects.duct import DuctSpec
 from garage2usd.objects.exit_sign import ExitSignSpec
 from garage2usd.objects.fire_extinguisher import FireExtinguisherSpec
+from garage2usd.objects.flight import FlightSpec
 from garage2usd.objects.floor_stain import PuddleSpec, StainSpec, TyreMarkSpec
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.lamp import LampSpec
@@ -60,6 +61,8 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(spec.width_m, spec.depth_m)
         case WallSpec() | PortalSpec():
             return shapely.box(-spec.length_m / 2, -spec.thickness_m, spec.length_m / 2, 0)
+        case FlightSpec():
+            return shapely.box(-spec.width_m / 2, -spec.profile[-1][0], spec.width_m / 2, 0.0)
         case RampSpec():
             half = spec.width_m / 2 + spec.wall_m
             return shapely.box(-half, -spec.profile[-1][0], half, -spec.profile[0][0])

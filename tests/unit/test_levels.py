@@ -144,7 +144,7 @@ def test_variants_reach_all_levels(built):
     cars = [prim.GetPath() for prim in stage.Traverse() if prim.GetName().startswith("Car_")]
     assert {str(path).split("/")[3] for path in cars} == {"U1", "U2"}
     root.GetVariantSet("occupancy").SetVariantSelection("empty")
-    assert not any(stage.GetPrimAtPath(path) for path in cars)
+    assert not any(stage.GetPrimAtPath(path).IsActive() for path in cars)
     root.GetVariantSet("level").SetVariantSelection("U2")
     shown = {
         name: stage.GetPrimAtPath(f"/Garage/Levels/{name}").GetAttribute("visibility").Get() for name in ("U1", "U2")

@@ -32,6 +32,7 @@ SLAB_M = 0.25
 """Thickness of a ramp's slab."""
 _LEAST_WIDTH_M, _MOST_WIDTH_M = 3.0, 6.0
 _LAMP_PITCH_M = 6.0
+_MIDDLE = "Middle"
 
 
 def flight_profile(run_m: float, building: BuildingConfig) -> tuple[Point, ...]:
@@ -175,12 +176,15 @@ class Well:
 
         for name, spans, faces in (
             ("Left", (first.low_m, first.left_m), right.opposite),
-            ("MiddleLeft", (first.right_m, first.high_m), right.opposite),
-            ("MiddleRight", (last.left_m, last.low_m), right),
+            (f"{_MIDDLE}Left", (first.right_m, first.high_m), right.opposite),
+            (f"{_MIDDLE}Right", (last.left_m, last.low_m), right),
             ("Right", (last.high_m, last.right_m), right),
         ):
             face, back = spans
-            wall(name, replace(plain, thickness_m=round(abs(back - face), 6)), (face, -frame.run_m / 2), faces)
+            spec = replace(plain, thickness_m=round(abs(back - face), 6))
+            if name.startswith(_MIDDLE):  # the floor beside it slopes
+                spec = replace(spec, dado_m=0.0, has_stripe=False)
+            wall(name, spec, (face, -frame.run_m / 2), faces)
         for name, along, faces, is_open in (
             ("Foot", 0.0, way, not self.is_top),
             ("Head", -frame.run_m, way.opposite, not self.is_bottom),
@@ -194,6 +198,10 @@ class Well:
                 if spec.height_m > 0:
                     wall(f"{name}{lane.name}", spec, (lane.middle_m, along), faces, low)
         return found
+
+    def beside_floors(self, walls: list[Placement]) -> list[Placement]:
+        """Return those of its walls that stand beside a floor, on which things can hang: not between the ramps."""
+        return [wall for wall in walls if _MIDDLE not in wall.name and not wall.position_m[1]]
 
     def ramps(self, structure: Structure) -> list[Placement]:
         """Place the ramps whose foot is on this level."""
