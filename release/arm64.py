@@ -43,7 +43,7 @@ _DEBIAN = (
 _NEEDED = ("distributed", "jinja2", "matplotlib", "pyarrow", "pyproj", "trimesh")
 """Of extras, the packages of which there is a wheel for Arm."""
 _PLATFORMS = ("manylinux2014_aarch64", *(f"manylinux_2_{minor}_aarch64" for minor in (17, 24, 26, 27, 28, 31, 34)))
-_TIMES = re.compile(r"\d+(\.\d+)? s\b")
+_TIMES = re.compile(r"^ *seconds .*$", re.MULTILINE)
 _DIGESTS = re.compile(r"plan \w+, stage \w+, ways \w+, \d+ of \d+ stalls driven")
 
 
