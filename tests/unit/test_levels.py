@@ -11,7 +11,7 @@ import garage2usd
 from garage2usd import ConfigError, GarageConfig, GenerationError
 from garage2usd.as_built.levels import built_levels
 from garage2usd.checks import RULES
-from garage2usd.checks.levels import check_levels, read_levels
+from garage2usd.checks.levels import check_levels, read_stage
 from garage2usd.cli import main
 from garage2usd.maps.level_drives import LevelsDrivePlanner
 from garage2usd.reading.files import open_stage
@@ -154,7 +154,7 @@ def test_variants_reach_all_levels(built):
 
 
 def test_check_finds_nothing_and_a_lost_ramp_is_found(built):
-    garage, profile = read_levels(built.stage)
+    garage, profile = read_stage(built.stage)
     assert [finding.rule for finding in check_levels(garage, profile, RULES) if finding.severity.value == "error"] == []
     stage = open_stage(built.stage)
     stage.SetEditTarget(stage.GetSessionLayer())
