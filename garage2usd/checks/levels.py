@@ -13,6 +13,8 @@ from garage2usd.as_built.levels import BuiltLevels, built_levels
 from garage2usd.as_built.stage_reader import garage_of_opened, profile_name
 from garage2usd.checks.finding import Finding, Severity
 from garage2usd.checks.rule import ROUNDING_M, Rule
+from garage2usd.common.documents import is_file
+from garage2usd.common.errors import ConfigError
 from garage2usd.garage import LaneKind
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
 from garage2usd.reading.files import open_stage
@@ -30,8 +32,18 @@ _FAR_M = 12.0
 
 
 def read_stage(path: str | Path, *, profile: Profile | None = None) -> tuple[BuiltLevels | BuiltGarage, Profile]:
-    """Read a garage of one level or of several from a stage, and the profile to check it against."""
+    """Read a garage of one level or of several from a stage, and the profile to check it against.
+
+    Raises
+    ------
+    ConfigError
+        If there is no such file.
+    StageError
+        If it cannot be read.
+    """
     path = Path(path)
+    if not is_file(path):
+        raise ConfigError("PATH", str(path), "an existing file")
     stage = open_stage(path)
     garage = built_levels(stage, path) or garage_of_opened(stage, path)
     name = profile_name(stage)
