@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from garage2usd.common.extras import of_extra
 from garage2usd.config import GarageConfig
+from garage2usd.config.building import check_one_level
 from garage2usd.planning.decision import (
     Action,
     DecisionProcess,
@@ -86,6 +87,7 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
 
     def __init__(self, config: GarageConfig | None = None, *, render_mode: str | None = None) -> None:
         config = config or GarageConfig()
+        check_one_level(config.building)
         site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
         check_room(site, config.bay)
         self.process = DecisionProcess(site, config.bay, config.plan.resolved())

@@ -16,6 +16,7 @@ from garage2usd.common.processes import without_collector
 from garage2usd.common.progress import Progress, silent
 from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
+from garage2usd.config.building import check_one_level
 from garage2usd.config.plan import UnreachableStalls
 from garage2usd.driving import DesignCar, with_clutter, with_truth_of_misparked, without_unreachable
 from garage2usd.driving.refusal import refuse_undrivable
@@ -292,9 +293,7 @@ def laid_out(
 
 
 def _site(config: GarageConfig) -> Structure:
-    if config.building.levels > 1:
-        wanted = "1 here; garage2usd.build_levels and `garage2usd build` make garages of several levels"
-        raise ConfigError("building.levels", config.building.levels, wanted)
+    check_one_level(config.building)
     site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
     check_room(site, config.bay)
     return site

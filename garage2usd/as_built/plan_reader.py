@@ -9,6 +9,7 @@ from garage2usd.as_built.layout_reader import garage_of_layout, garage_without_l
 from garage2usd.common.documents import MAX_REPORT_BYTES, read_json, read_text
 from garage2usd.common.errors import ConfigError, ReportError, UnreachableStallError
 from garage2usd.config import GarageConfig, config_from_mapping, load_config
+from garage2usd.config.building import check_one_level
 from garage2usd.config.files import is_array_file, matrices_of
 from garage2usd.driving import without_unreachable
 from garage2usd.garage import Fault, Stall
@@ -90,6 +91,7 @@ def _drawing(rows: Any, path: Path) -> str:  # noqa: ANN401
 
 
 def _of_config(config: GarageConfig, path: Path, *, kind: str) -> BuiltGarage:
+    check_one_level(config.building)
     if config.site.structure is None:
         raise ConfigError(_FIELD, str(path), "a plan with lanes; build this configuration first and check what is made")
     structure = with_sides(cells_from_text(config.site.structure, field="site.structure"), config.bay)

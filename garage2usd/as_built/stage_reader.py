@@ -23,7 +23,7 @@ from garage2usd.reading.lights import LightSource
 from garage2usd.reading.objects import PlacedObject
 from garage2usd.structure.grid import Structure, cells_from_text
 
-__all__ = ["garage_of_file", "garage_of_stage", "profile_name"]
+__all__ = ["garage_of_file", "garage_of_opened", "garage_of_stage", "profile_name"]
 
 _DISK = "DiskLight"
 _PANELS = frozenset({"RectLight", _DISK})
@@ -41,7 +41,17 @@ def garage_of_file(path: Path) -> BuiltGarage:
     StageError
         If the stage cannot be opened.
     """
-    stage = open_stage(path)
+    return garage_of_opened(open_stage(path), path)
+
+
+def garage_of_opened(stage: Usd.Stage, path: Path) -> BuiltGarage:
+    """Read a garage from an open stage of a file.
+
+    Raises
+    ------
+    StageError
+        If its prims are nested too deeply.
+    """
     try:
         return garage_of_stage(stage, source=str(path))
     except RecursionError:

@@ -8,17 +8,20 @@ import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.levels import BuiltLevels, built_levels
-from garage2usd.as_built.stage_reader import profile_name
+from garage2usd.as_built.stage_reader import garage_of_opened, profile_name
 from garage2usd.checks.finding import Finding, Severity
 from garage2usd.checks.rule import ROUNDING_M, Rule
+from garage2usd.common.documents import is_file
+from garage2usd.common.errors import ConfigError
 from garage2usd.garage import LaneKind
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.polygons import triangulated
 from garage2usd.sensors.rays.ray_caster import BoxTree
 
-__all__ = ["check_levels", "read_levels"]
+__all__ = ["check_levels", "read_stage"]
 
 _SIDE_ROOM_M = 0.5
 """Least distance in metres between the design car and the walls beside a ramp."""
@@ -28,12 +31,21 @@ _EYE_M, _AXLE_M = 0.05, 0.6
 _FAR_M = 12.0
 
 
-def read_levels(path: str | Path, *, profile: Profile | None = None) -> tuple[BuiltLevels, Profile] | None:
-    """Read a garage of several levels and the profile to check it against; None from a garage of one level."""
-    stage = open_stage(Path(path))
-    garage = built_levels(stage, path)
-    if garage is None:
-        return None
+def read_stage(path: str | Path, *, profile: Profile | None = None) -> tuple[BuiltLevels | BuiltGarage, Profile]:
+    """Read a garage of one level or of several from a stage, and the profile to check it against.
+
+    Raises
+    ------
+    ConfigError
+        If there is no such file.
+    StageError
+        If it cannot be read.
+    """
+    path = Path(path)
+    if not is_file(path):
+        raise ConfigError("PATH", str(path), "an existing file")
+    stage = open_stage(path)
+    garage = built_levels(stage, path) or garage_of_opened(stage, path)
     name = profile_name(stage)
     return garage, profile or load_profile(name if name in PROFILE_NAMES else DEFAULT_PROFILE)
 

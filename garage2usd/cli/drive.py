@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from garage2usd.as_built import BuiltGarage
-    from garage2usd.as_built.levels import BuiltLevels
     from garage2usd.common.progress import Progress
     from garage2usd.config.maps import DriveConfig
     from garage2usd.config.vehicles import CarBody
@@ -118,22 +117,28 @@ def _drive_to(
     rig: str | None,
 ) -> None:
     """Drive to one stall and print the result."""
-    from garage2usd.config.maps import Leg  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.as_built.levels import BuiltLevels  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.checks.levels import read_stage  # noqa: PLC0415
+    from garage2usd.config.maps import DriveConfig, Leg  # noqa: PLC0415
     from garage2usd.maps.drives import DrivePlanner  # noqa: PLC0415
     from garage2usd.maps.level_drives import LevelsDrivePlanner  # noqa: PLC0415
+    from garage2usd.reading.files import STAGE_SUFFIXES  # noqa: PLC0415
     from garage2usd.sensors.rig.rig import read_rig  # noqa: PLC0415
 
+    garage: BuiltGarage | BuiltLevels
     car = None if rig is None else read_rig(rig).body
-    several = _levels_of(path)
     with Bars(sys.stderr) as progress:
-        if several is not None:
+        if path is not None and path.suffix.lower() in STAGE_SUFFIXES:
             refuse_seed(seed)
+            garage, settings = read_stage(path)[0], DriveConfig()
+        else:
+            garage, settings = _garage_of(path, seed, progress)
+        if isinstance(garage, BuiltLevels):
             for option, value in (("entrance", entrance), ("exit", exit_), ("rig", rig)):
                 if value is not None:
                     raise ConfigError(option, value, "not with several levels, for which it is not built yet")
-            driven = LevelsDrivePlanner(several).drive(stall, leg=Leg(leg))
+            driven = LevelsDrivePlanner(garage, settings).drive(stall, leg=Leg(leg))
         else:
-            garage, settings = _garage_of(path, seed, progress)
             driven = DrivePlanner(garage, settings).drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
     if output is not None:
         _write_drive(output, driven, car)
@@ -148,16 +153,6 @@ def _drive_to(
     click.echo(f"{'fastest':>12}  {abs(states.speed_m_s).max():.2f} m/s")
     if not route.is_full:
         click.echo(f"{route.stall}: only while the stalls that are empty now stay empty")
-
-
-def _levels_of(path: Path | None) -> "BuiltLevels | None":
-    """The garage of a stage of several levels; None of another file."""
-    from garage2usd.as_built.levels import built_levels  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.reading.files import STAGE_SUFFIXES, open_stage  # noqa: PLC0415
-
-    if path is None or path.suffix.lower() not in STAGE_SUFFIXES:
-        return None
-    return built_levels(open_stage(path), path)
 
 
 def _garage_of(path: Path | None, seed: int | None, progress: "Progress") -> "tuple[BuiltGarage, DriveConfig]":

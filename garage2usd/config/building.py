@@ -2,9 +2,10 @@
 
 from pydantic import Field
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.common.settings import Settings
 
-__all__ = ["BuildingConfig"]
+__all__ = ["BuildingConfig", "check_one_level"]
 
 
 class BuildingConfig(Settings):
@@ -19,3 +20,16 @@ class BuildingConfig(Settings):
     """Steepest slope of the ramps between levels. They fill their squares, and are gentler where these are longer."""
     ramp_transition_m: float = Field(3.6, ge=1, le=10)
     """Length of the parts of half that slope at the foot and the head of a ramp between levels."""
+
+
+def check_one_level(building: BuildingConfig) -> None:
+    """Refuse several levels where a garage of one level is made.
+
+    Raises
+    ------
+    ConfigError
+        If there is more than one level.
+    """
+    if building.levels > 1:
+        wanted = "1 here; garage2usd.build_levels and `garage2usd build` make garages of several levels"
+        raise ConfigError("building.levels", building.levels, wanted)

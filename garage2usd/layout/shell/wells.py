@@ -125,7 +125,7 @@ class Well:
         return level_name(self.level)
 
     def way_in_words(self, *, is_down: bool) -> str:
-        """Tell where the ramp down or up leads to or comes from, as seen from this level: `` to U2``."""
+        """Tell where the ramp down or up leads to or comes from, as seen from this level, after a blank."""
         above, below = level_name(self.level - 1), level_name(self.level + 1)
         if self.is_top:
             return f" to {below}" if is_down else f" from {below}"
