@@ -287,6 +287,8 @@ def _played(structure: Structure, reader: _Reader) -> tuple[LaneDirections, list
 def _read_stall(reader: _Reader) -> _Stall:
     kind = _KINDS[reader.number(f"0 to {len(_KINDS) - 1} for the kind of stalls", len(_KINDS) - 1)]
     size = _SIZES[reader.number(f"0 to {len(_SIZES) - 1} for the size class of stalls", len(_SIZES) - 1)]
+    if kind is not StallKind.PERPENDICULAR and not size.takes_cars:
+        raise ConfigError("tape", f"{kind} stalls for motorcycles", "perpendicular stalls for motorcycles")
     if kind is not StallKind.ANGLED:
         return _Stall(kind, size, None)
     decimals = reader.number("the decimals of an angle, at most 16", 16)

@@ -14,7 +14,6 @@ from garage2usd.common.randomness import Step, generator
 from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.config.stalls import GivenRun, SizeClass
 from garage2usd.garage import StallKind
-from garage2usd.planning.aisle_widths import narrow_aisles_m
 from garage2usd.planning.dimensions import lines_with_aisles, lines_with_doors
 from garage2usd.planning.motorcycle_runs import split_for_motorcycles
 from garage2usd.planning.plan import Plan
@@ -66,8 +65,7 @@ def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
     Runs are visited by length, equal ones in random order. Each takes the option furthest below its share of the stalls
     so far, among those that fit: squares whose sides are not chosen must be deep enough. Lines of squares without
     traffic along them then get the sides with the least floor per stall, and single runs change their option while the
-    shares on these sides gain by it. One-way lines between angled or parallel stalls are narrower where that needs less
-    floor per stall. Where kinds are free, the garage is laid out with each kind and angle alone, and gets the one with
+    shares on these sides gain by it. Where kinds are free, the garage is laid out with each kind and angle alone, and gets the one with
     the least floor per stall; of equal ones the first in the order perpendicular, angled, parallel.
     """
     if config.stalls.is_free:
@@ -347,7 +345,7 @@ def _deepened(structure: Structure, bay: BayConfig, run: StallRun) -> Structure:
 
 
 class _Fitting:
-    """Sides of lines without traffic along them and of narrow aisles, each chosen by the least floor per stall."""
+    """Sides of lines without traffic along them, each chosen by the least floor per stall."""
 
     def __init__(self, plan: Plan, config: GarageConfig, runs: Sequence[StallRun], counts: _Counts) -> None:
         structure, bay, spacing = plan.structure, config.bay, config.standard.column_spacing
@@ -358,20 +356,19 @@ class _Fitting:
         self._least_mm = [
             np.where(has_door, round(bay.portal_side_m * _MM_PER_M), 0) for has_door in lines_with_doors(structure)
         ]
+        # behind a door, a gate and a car that waits before it find room
+        portals = (structure.cells == Cell.ENTRANCE) | (structure.cells == Cell.EXIT)
+        for axis, least_mm in enumerate(self._least_mm):
+            has_portal = portals.any(axis=1 - axis)
+            least_mm[has_portal] = np.maximum(least_mm[has_portal], _rounded_mm(bay.stall_length_m))
         self._backs = Counter((square, run.edge.along_x) for run in runs for square in run.squares)
         with_aisles = lines_with_aisles(structure)
-        self._aisles_mm = {
-            line: _rounded_mm(clear_m + 2 * bay.carriageway_setback_m)
-            for line, clear_m in narrow_aisles_m(structure, bay, config.standard, runs, plan.directions).items()
-            if bay.chosen_sides[line[0]]
-        }
         self._lines = [
             (axis, line)
             for axis, is_chosen in enumerate(bay.chosen_sides)
             if is_chosen
             for line in range(structure.shape[axis])
-            if (axis, line) in self._aisles_mm
-            or (not with_aisles[axis][line] and (structure.cells.take(line, axis=axis) == Cell.FREE).any())
+            if not with_aisles[axis][line] and (structure.cells.take(line, axis=axis) == Cell.FREE).any()
         ]
         self._of_line = {line: self._runs_on(*line) for line in self._lines}
         for axis, line in self._lines:
@@ -409,8 +406,6 @@ class _Fitting:
     def _choices_mm(self, axis: int, line: int) -> list[int]:
         """Sides to try: as deep as the runs along the line need, and as wide as some stalls of the runs across it."""
         deep = max(self._needed_mm(axis, line), int(self._least_mm[axis][line]))
-        if (axis, line) in self._aisles_mm:
-            return sorted({max(self._aisles_mm[axis, line], deep), int(self._sides_mm[axis][line])})
         half_column_m = self._bay.column_size_m / 2
         found = {deep, deep + _rounded_mm(half_column_m)} if deep else set()
         shapes = {

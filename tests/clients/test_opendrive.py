@@ -87,7 +87,7 @@ FAULTS = [
         "width_m * against, width_m * along",
     ),
     Fault("ramps upside down", "road_builder", "(top_m - run, height)", "(run, height)"),
-    Fault("level ramps", "opendrive", "a=height, b=(next_height", "a=0.0, b=0 * (next_height"),
+    Fault("level ramps", "opendrive", "a=height + road.floor_m, b=(next_height", "a=0.0, b=0 * (next_height"),
     Fault("ways of portals turned round", "road_builder", "if is_turned or path", "if not is_turned or path"),
     Fault(
         "headings off by pi",

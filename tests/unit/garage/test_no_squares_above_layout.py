@@ -76,6 +76,9 @@ def test_one_lane_graph_and_one_stall_stand_above_structure():
         "LaneNode": "garage/lanes.py",
         "LaneEdge": "garage/lanes.py",
         "Stall": "garage/stalls.py",
+        "SurveyedStall": "survey/survey.py",  # as a drawing of others has it, before it is placed
+        "DrawnStall": "survey/toml_survey.py",  # its settings in a TOML drawing
+        "FittedStall": "survey/fitted_stalls.py",  # with its mouth and lane
         "ReportedStall": "reading/report.py",  # the record of one in the report's JSON
     }
 

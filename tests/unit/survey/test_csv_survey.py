@@ -113,12 +113,12 @@ COLUMNS = "x, y, width_m, length_m, heading_deg, x1, y1, x2, y2, x3, y3, x4, y4,
             f"{HEADER},use\n1,2,2,5,0,boats\n",
             (
                 "lot.csv: line 2, use: got 'boats'; allowed: one of standard, turning, ev, accessible, access_aisle, "
-                "unreachable"
+                "unreachable, motorcycle"
             ),
         ),
         (
             f"{HEADER},size\n1,2,2,5,0,tiny\n",
-            "lot.csv: line 2, size: got 'tiny'; allowed: one of standard, compact, large, van",
+            "lot.csv: line 2, size: got 'tiny'; allowed: one of standard, compact, large, van, motorcycle",
         ),
     ],
 )

@@ -135,7 +135,7 @@ RUN = '[[runs]]\nfirst = [0, 0]\nlast = [10, 0]\nside = "left"\n'
         (f"{STALL}colour = 1\n", ("lot.toml: stalls.0.colour: got 1; allowed: one of the keys id, corners, centre, "
          "heading_deg, width_m, length_m, mouth, use, size, number")),
         (f'{STALL}use = "boats"\n', ("lot.toml: stalls.0.use: got 'boats'; allowed: 'standard', 'turning', 'ev', "
-         "'accessible', 'access_aisle' or 'unreachable'")),
+         "'accessible', 'access_aisle', 'unreachable' or 'motorcycle'")),
         (f"{STALL}mouth = 4\n", "lot.toml: stalls.0.mouth: got 4; allowed: less than or equal to 3"),
         ("[[stalls]]\ncentre = [0, 0]\n", ("lot.toml: stalls.0: got {'centre': [0, 0]}; allowed: corners, or centre, "
          "heading_deg, width_m and length_m")),
