@@ -2,27 +2,23 @@
 
     python benchmarks/stall_kinds.py modules
     python benchmarks/stall_kinds.py sites --count 40
-    python benchmarks/stall_kinds.py lanes --count 20
 
 ``modules`` lays out endless rows on both sides of an aisle of the width that a profile asks for, with columns at the
 corners of squares, for squares of 8.1 m and for the best side. ``sites`` plans the same sites with perpendicular stalls
-and two-way aisles, with one-way aisles, and with angled stalls on these. ``lanes`` compares the best lanes for
-perpendicular stalls with those that the stalls of runs choose among the best ones.
+and two-way aisles, with one-way aisles, and with angled stalls on these.
 """
 
 import argparse
 import math
 import statistics
-import time
 
 import numpy as np
 
 from garage2usd import GarageConfig, generate
 from garage2usd.config import BayConfig
 from garage2usd.garage import StallKind
-from garage2usd.planning import completed, driven_lengths, plan_lanes, with_directions, with_stall_kinds
+from garage2usd.planning import driven_lengths
 from garage2usd.profiles import PROFILE_NAMES, Profile, load_profile
-from garage2usd.site import make_site
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.stall_runs import StallRun, capacity_of_runs, depth_needed_m
 from garage2usd.structure.stall_shapes import StallShape
@@ -37,12 +33,6 @@ SITES = {
     "one-way, perpendicular": {"plan": {"aisles": "one-way"}},
     "one-way, 75 degrees": {"plan": {"aisles": "one-way"}, "stalls": {"kinds": {"angled": 1}, "angles_deg": [75]}},
     "one-way, 60 degrees": {"plan": {"aisles": "one-way"}, "stalls": {"kinds": {"angled": 1}, "angles_deg": [60]}},
-}
-
-MIXES = {
-    "all at 60 degrees": {"kinds": {"angled": 1}, "angles_deg": [60]},
-    "all parallel": {"kinds": {"parallel": 1}},
-    "40 % perpendicular, 40 % angled, 20 % parallel": {"kinds": {"perpendicular": 0.4, "angled": 0.4, "parallel": 0.2}},
 }
 
 
@@ -124,52 +114,17 @@ def sites(count: int, profile: str) -> None:
         )
 
 
-def lanes(count: int, profile: str) -> None:
-    """Print stalls, floor and seconds without and with a choice among the best lanes."""
-    print("| stalls | stalls before | after | m2 a stall before | after | seconds before | after |")
-    print("|---|---|---|---|---|---|---|")
-    for name, stalls in MIXES.items():
-        rows = []
-        for seed in range(count):
-            config = GarageConfig(
-                seed=seed,
-                profile=profile,
-                site={"width_cells": 12, "height_cells": 9},
-                plan={"aisles": "one-way"},
-                stalls=stalls,
-            )
-            site = make_site(config.site, bay=config.bay, seed=seed, fittings=config.fittings)
-            start = time.process_time()
-            planned = plan_lanes(site, plan=config.plan, bay=config.bay, seed=seed)
-            middle = time.process_time()
-            before = with_stall_kinds(with_directions(planned, config), config)
-            kinds_s = time.process_time() - middle
-            after = completed(planned, config)
-            all_s = time.process_time() - middle - kinds_s
-            figures = [
-                *(plan.score.stalls for plan in (before, after)),
-                *(plan.structure.floor_m2 / plan.score.stalls for plan in (before, after)),
-                *(middle - start + seconds for seconds in (kinds_s, all_s)),
-            ]
-            rows.append(figures)
-        before_n, after_n, before_m2, after_m2, before_s, after_s = map(statistics.mean, zip(*rows, strict=True))
-        print(
-            f"| {name} | {before_n:.1f} | {after_n:.1f} | {before_m2:.1f} | {after_m2:.1f} "
-            f"| {before_s:.2f} | {after_s:.2f} |"
-        )
-
-
 def main() -> None:
     """Print one of the tables."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("table", choices=("modules", "sites", "lanes"))
+    parser.add_argument("table", choices=("modules", "sites"))
     parser.add_argument("--count", type=int, default=40, help="number of sites")
     parser.add_argument("--profile", choices=PROFILE_NAMES, default=PROFILE_NAMES[0])
     arguments = parser.parse_args()
     if arguments.table == "modules":
         modules()
     else:
-        {"sites": sites, "lanes": lanes}[arguments.table](arguments.count, arguments.profile)
+        sites(arguments.count, arguments.profile)
 
 
 if __name__ == "__main__":

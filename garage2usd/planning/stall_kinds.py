@@ -65,8 +65,8 @@ def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
     Runs are visited by length, equal ones in random order. Each takes the option furthest below its share of the stalls
     so far, among those that fit: squares whose sides are not chosen must be deep enough. Lines of squares without
     traffic along them then get the sides with the least floor per stall, and single runs change their option while the
-    shares on these sides gain by it. Where kinds are free, the garage is laid out with each kind and angle alone, and gets the one with
-    the least floor per stall; of equal ones the first in the order perpendicular, angled, parallel.
+    shares on these sides gain by it. Where kinds are free, the garage is laid out with each kind and angle alone, and
+    gets the one with the least floor per stall; of equal ones the first in the order perpendicular, angled, parallel.
     """
     if config.stalls.is_free:
         return _least_floor(plan, config)

@@ -53,16 +53,6 @@ def test_the_kind_is_that_of_the_module_with_the_least_floor(profile, aisles):
     assert angles_of(garage) == {min(modules, key=modules.__getitem__).angle_deg}
 
 
-@pytest.mark.parametrize("aisle_m", [9.0, 12.0])
-def test_angled_stalls_are_chosen_where_aisles_at_right_angles_need_much(aisle_m):
-    profile = with_aisle(aisle_m)
-    settings = {"profile": profile, "site": {"structure": LADDER}, "plan": {"aisles": "one-way"}}
-    garage = generate(GarageConfig(stalls=FREE, **settings))
-    modules = stall_kinds.best_modules(profile, garage.config.bay)
-    assert min(modules, key=modules.__getitem__).kind == "angled"
-    assert {stall.stall_kind for stall in garage.layout.stalls} == {"angled"}
-
-
 @pytest.mark.parametrize("settings", [SMALL, {"profile": with_aisle(12.0), "site": {"structure": LADDER}}])
 def test_no_kind_alone_needs_less_floor(settings):
     def floor_m2(stalls):
