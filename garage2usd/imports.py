@@ -113,6 +113,7 @@ def import_layout(
     layout = truthful
     proofs = prove_stalls(layout, progress=progress) if proves else ()
     findings = tuple(judged_layout(layout, config)[0])
+    metadata = _metadata(source, config)
     with staging_folder(path) as staging:
         folder = staging / "stage"
         folder.mkdir()
@@ -121,7 +122,7 @@ def import_layout(
             layout,
             folder / f"{path.stem}{path.suffix.lower()}",
             arrangement=arrangement,
-            metadata=_metadata(source, config),
+            metadata=metadata,
             config=config.stage,
             shared=shared,
             progress=progress,
@@ -129,7 +130,7 @@ def import_layout(
         labels, plan, report = (staging / f"{path.stem}_{name}" for name in ("labels.json", "plan.png", "report.json"))
         write_labels(layout, labels, arrangement=arrangement)
         write_png(to_image(draw_plan(layout)), plan)
-        facts = _report(source, config, layout, alignment, proofs, seconds=time.perf_counter() - start)
+        facts = _report(metadata, config, layout, alignment, proofs, seconds=time.perf_counter() - start)
         report.write_text(json_text(facts), encoding="utf-8", newline="\n")
         progress("files", 0, 1)
         # the stage comes last: where it stands, all of it does
@@ -156,7 +157,7 @@ def _metadata(source: str | Path | Survey, config: GarageConfig) -> dict[str, st
 
 
 def _report(
-    source: str | Path | Survey,
+    metadata: Mapping[str, str | int],
     config: GarageConfig,
     layout: SurveyedLayout,
     alignment: Alignment,
@@ -168,7 +169,7 @@ def _report(
     proven = {proof.stall: proof for proof in proofs}
     origin = layout.survey.origin_deg
     return {
-        **_metadata(source, config),
+        **metadata,
         "config": config.model_dump(mode="json"),
         "turn_deg": round(math.degrees(alignment.turn_rad), 6),
         "shift_m": alignment.shift_m,

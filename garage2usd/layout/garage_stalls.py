@@ -4,13 +4,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from garage2usd.config import BayConfig
 from garage2usd.config.stalls import SizeClass
-from garage2usd.garage import Stall
+from garage2usd.garage import LaneGraph, Stall
 from garage2usd.layout.parking.stalls import stalls_of
 from garage2usd.layout.placement import PlacedStall
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.structure.lane_graph import LaneSquares
 
-__all__ = ["garage_stalls", "planned_stalls"]
+__all__ = ["garage_stalls", "planned_stalls", "stall_quads"]
 
 
 def garage_stalls(
@@ -19,7 +19,7 @@ def garage_stalls(
     blocked: Mapping[str, str] | None = None,
     occupied: Iterable[bool] | None = None,
 ) -> Iterator[Stall]:
-    """Yield each stall as a quad that opens onto a lane node.
+    """Return each stall as a quad that opens onto a lane node.
 
     Parameters
     ----------
@@ -32,8 +32,20 @@ def garage_stalls(
     occupied
         True for each stall with a car; None if unknown. The facts are those of a stage's stalls.
     """
+    access = [lanes.number_of[stall.access_square] for stall in stalls]
+    return stall_quads(stalls, access, lanes.lanes, blocked, occupied)
+
+
+def stall_quads(
+    stalls: Sequence[PlacedStall],
+    access: Iterable[int],
+    lanes: LaneGraph,
+    blocked: Mapping[str, str] | None = None,
+    occupied: Iterable[bool] | None = None,
+) -> Iterator[Stall]:
+    """Yield each stall as a quad that opens onto a given lane node; parameters as for `garage_stalls`."""
     told = [()] * len(stalls) if occupied is None else [(("occupied", int(is_taken)),) for is_taken in occupied]
-    for stall, occupancy in zip(stalls, told, strict=True):
+    for stall, node, occupancy in zip(stalls, access, told, strict=True):
         left, right, rear_right, rear_left = stall.corners_m()
         by = (blocked or {}).get(stall.name)
         facts: tuple[tuple[str, str | int], ...] = (
@@ -47,8 +59,7 @@ def garage_stalls(
             *occupancy,
         )
         corners = (left, right, rear_right, rear_left)
-        access = lanes.number_of[stall.access_square]
-        yield Stall(stall.name, corners, stall.use, access, facts, lanes.lanes.nodes[access].level)
+        yield Stall(stall.name, corners, stall.use, node, facts, lanes.nodes[node].level)
 
 
 def planned_stalls(lanes: LaneSquares, bay: BayConfig) -> tuple[Stall, ...]:

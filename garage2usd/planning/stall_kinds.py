@@ -25,7 +25,7 @@ from garage2usd.structure.stall_runs import StallRun, depth_needed_m, lean_of_tr
 from garage2usd.structure.stall_shapes import PARALLEL_DEG, PERPENDICULAR_DEG, StallShape
 from garage2usd.structure.stalls import Edge, stall_rows
 
-__all__ = ["floor_per_stall_m2", "runs_of_settings", "settings_of_runs", "with_runs", "with_stall_kinds"]
+__all__ = ["runs_of_settings", "settings_of_runs", "with_runs", "with_stall_kinds"]
 
 Sides = NDArray[np.int64]
 
@@ -88,10 +88,10 @@ def _least_floor(plan: Plan, config: GarageConfig) -> Plan:
         stalls.of_kind(StallKind.PARALLEL),
     ]
     plans = (with_stall_kinds(plan, config.model_copy(update={"stalls": of_one})) for of_one in every)
-    return min(plans, key=floor_per_stall_m2)
+    return min(plans, key=_floor_per_stall_m2)
 
 
-def floor_per_stall_m2(plan: Plan) -> float:
+def _floor_per_stall_m2(plan: Plan) -> float:
     """Return the floor of a plan over its stalls, of whatever kind; infinite without stalls."""
     return round(plan.structure.floor_m2 / plan.score.stalls, 9) if plan.score.stalls else math.inf
 

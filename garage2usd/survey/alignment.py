@@ -77,7 +77,7 @@ def _outline_around(survey: Survey) -> tuple[Point, ...]:
         for lane in survey.lanes
         for width_m in [lane.width_m or _USUAL_LANE_M]
     ]
-    parts += [shapely.Point(column.centre).buffer(column.size_m / 2, cap_style="square") for column in survey.columns]
+    parts += survey.column_polygons()
     rectangle = shapely.box(*shapely.total_bounds(parts)).buffer(_MARGIN_M, join_style="mitre")
     around = shapely.union_all(parts).buffer(_CLOSED_M, join_style="mitre").buffer(-_CLOSED_M, join_style="mitre")
     if around.geom_type == "Polygon" and around.area < _FILLED * rectangle.area:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 
 import networkx as nx
@@ -51,9 +52,7 @@ def with_medial_lanes(survey: Survey) -> Survey:
     lanes = tuple(SurveyedLane(points) for points in _branches(axis))
     if not lanes:
         raise ConfigError("lanes", "none", f"lanes, or {2 * _LEAST_CLEAR_M:g} m of ground between stalls")
-    return Survey(
-        survey.stalls, lanes, survey.columns, survey.portals, survey.outline, survey.unread, survey.origin_deg
-    )
+    return replace(survey, lanes=lanes)
 
 
 def _ground(survey: Survey) -> shapely.Geometry:
@@ -63,8 +62,7 @@ def _ground(survey: Survey) -> shapely.Geometry:
         inside = shapely.Polygon(survey.outline)
     else:
         inside = stalls.buffer(_CLOSED_M, join_style="mitre").buffer(-_CLOSED_M, join_style="mitre")
-    columns = [shapely.Point(column.centre).buffer(column.size_m / 2, cap_style="square") for column in survey.columns]
-    return shapely.difference(inside, shapely.union_all([stalls, *columns]))
+    return shapely.difference(inside, shapely.union_all([stalls, *survey.column_polygons()]))
 
 
 def _axis(ground: shapely.Geometry) -> "nx.Graph[Point]":

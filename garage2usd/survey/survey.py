@@ -152,3 +152,7 @@ class Survey:
     def stall_polygons(self) -> list[shapely.Polygon]:
         """Return the ground of each stall."""
         return [shapely.Polygon(stall.corners) for stall in self.stalls]
+
+    def column_polygons(self) -> list[shapely.Polygon]:
+        """Return the ground of each column."""
+        return [shapely.Point(column.centre).buffer(column.size_m / 2, cap_style="square") for column in self.columns]

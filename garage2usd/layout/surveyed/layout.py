@@ -19,6 +19,7 @@ from garage2usd.layout.ceiling.lamps import TUBE, installed_lamps, ramp_lamps
 from garage2usd.layout.ceiling.lighting import lane_points_of, light_up
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.floor.stall_numbers import stall_numbers
+from garage2usd.layout.garage_stalls import stall_quads
 from garage2usd.layout.parking.designation import chargers
 from garage2usd.layout.parking.number_plates import number_plates
 from garage2usd.layout.parking.own_cars import with_own_cars
@@ -31,7 +32,7 @@ from garage2usd.layout.shell.ramps import barriers, ramp_lights, with_ramps
 from garage2usd.layout.signs import country_of, with_signs_of
 from garage2usd.layout.surveyed.floor import surveyed_floor
 from garage2usd.layout.surveyed.ground import SurveyedGround
-from garage2usd.layout.surveyed.stalls import placed_stalls, surveyed_quads
+from garage2usd.layout.surveyed.stalls import placed_stalls
 from garage2usd.layout.surveyed.walls import gates_of, surveyed_walls
 from garage2usd.layout.table import ObjectTable
 from garage2usd.layout.tiles import CEILING_THICKNESS_M
@@ -85,7 +86,7 @@ class SurveyedLayout(Layout):
     def quads(self) -> tuple[Stall, ...]:
         """The stalls as those of the neutral garage, in the order of `Layout.stalls`, with the facts of a stage."""
         occupied = self.are_occupied().tolist()
-        return tuple(surveyed_quads(tuple(self.stalls), self.fitted, self.blocked, occupied))
+        return tuple(stall_quads(tuple(self.stalls), _access(self.fitted), self.network, self.blocked, occupied))
 
     @property
     def again(self) -> "partial[SurveyedLayout]":  # type: ignore[override]
@@ -165,7 +166,7 @@ def lay_out_survey(
         keeps_left=keeps_left,
     )
     network = lane_network(survey.lanes, gates, survey.stall_polygons())
-    standing = shapely.union_all([*survey.stall_polygons(), *_column_grounds(survey), ground.polygon.boundary])
+    standing = shapely.union_all([*survey.stall_polygons(), *survey.column_polygons(), ground.polygon.boundary])
     network = with_clear_widths(network, standing)
     found, unplaced = fitted_stalls(survey, network, keeps_left=keeps_left)
     if not found:
@@ -183,7 +184,7 @@ def lay_out_survey(
         fittings,
     )
     country = country_of(look.signs, config.standard)
-    tight = tight_stalls(network, tuple(surveyed_quads(stalls, fitted)))
+    tight = tight_stalls(network, tuple(stall_quads(stalls, _access(fitted), network)))
     parked = with_own_cars(
         park_cars(stalls, config, draws, tight=tight, held_back=held_back), stalls, config.vehicles, draws
     )
@@ -223,8 +224,8 @@ def lay_out_survey(
     )
 
 
-def _column_grounds(survey: Survey) -> list[shapely.Polygon]:
-    return [shapely.Point(column.centre).buffer(column.size_m / 2, cap_style="square") for column in survey.columns]
+def _access(fitted: Iterable[FittedStall]) -> Iterator[int]:
+    return (stall.access for stall in fitted)
 
 
 def _columns(survey: Survey, config: GarageConfig) -> list[Placement]:

@@ -1,16 +1,15 @@
-"""The stalls of a surveyed garage on the tiles of its floor, and as those of the neutral garage."""
+"""The stalls of a surveyed garage on the tiles of its floor, with the numbers that people read."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable
 
-from garage2usd.garage import Stall
 from garage2usd.layout.placement import PlacedStall
 from garage2usd.layout.surveyed.ground import SurveyedGround
 from garage2usd.structure.lane_graph import StallType
 from garage2usd.structure.stalls import Edge
 from garage2usd.survey.fitted_stalls import FittedStall
 
-__all__ = ["placed_stalls", "surveyed_quads"]
+__all__ = ["placed_stalls"]
 
 _OUTWARDS = {Edge.UP: (0.0, -1.0), Edge.DOWN: (0.0, 1.0), Edge.LEFT: (-1.0, 0.0), Edge.RIGHT: (1.0, 0.0)}
 
@@ -55,28 +54,3 @@ def _numbers(fitted: Iterable[FittedStall]) -> list[str]:
     if all(given) and len(set(given)) == len(given):
         return given
     return [f"{number:02d}" for number in range(1, len(given) + 1)]
-
-
-def surveyed_quads(
-    stalls: Iterable[PlacedStall],
-    fitted: Iterable[FittedStall],
-    blocked: Mapping[str, str] | None = None,
-    occupied: Iterable[bool] | None = None,
-) -> Iterator[Stall]:
-    """Yield each stall as a quad that opens onto its lane node, with the facts of a stage's stalls."""
-    stalls = tuple(stalls)
-    taken = [()] * len(stalls) if occupied is None else [(("occupied", int(is_taken)),) for is_taken in occupied]
-    for stall, source, occupancy in zip(stalls, fitted, taken, strict=True):
-        left, right, rear_right, rear_left = stall.corners_m()
-        by = (blocked or {}).get(stall.name)
-        facts: tuple[tuple[str, str | int], ...] = (
-            *([("number", stall.number)] if stall.number else []),
-            ("type", stall.stall_type.value),
-            *([("size", stall.size)] if stall.size != "standard" else []),
-            ("row", stall.square[0]),
-            ("column", stall.square[1]),
-            ("entryEdge", stall.edge.name.lower()),
-            *([("blocked_by", by)] if by else []),
-            *occupancy,
-        )
-        yield Stall(stall.name, (left, right, rear_right, rear_left), stall.use, source.access, facts)
