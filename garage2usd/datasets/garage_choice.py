@@ -40,7 +40,7 @@ def chosen_garages(path: Path, numbers: Sequence[int]) -> Iterator[SheetGarage]:
         drawn = _drawn(recipe, number) if made is None else made[number]
         if drawn.error:
             raise ConfigError("seeds", number, f"a garage that is possible ({drawn.error})")
-        config, _ = recipe.drawn(drawn.seed)
+        config, _ = recipe.drawn(drawn.seed, drawn.number)
         yield SheetGarage(f"garage {number}", config, replanned(drawn, config))
 
 

@@ -105,7 +105,7 @@ def planned(recipe: Recipe, requests: Sequence[tuple[int, int]]) -> list[DrawnPl
 def _planned(recipe: Recipe, number: int, attempt: int) -> DrawnPlan:
     seed = recipe.garage_seed(number, attempt)
     try:
-        config, alternatives = recipe.drawn(seed)
+        config, alternatives = recipe.drawn(seed, number)
         plan = generate_plan(config)
         level = _level(config, plan) if recipe.difficulty else None
     except (OSError, MissingExtraError):  # a failure of the machine, not of this garage

@@ -64,7 +64,7 @@ def make_scene(
     Garage2UsdError
         If the garage cannot be built.
     """
-    config, alternatives = recipe.drawn(drawn.seed)
+    config, alternatives = recipe.drawn(drawn.seed, drawn.number)
     garage = generate(config, plan=replanned(drawn, config))
     stem = f"{drawn.number:0{_DIGITS}}"
     found, unmet = judged_layout(garage.layout, config)
