@@ -255,9 +255,27 @@ class Recipe(Settings):
         if not self.make.self_contained and isinstance(stage, dict):
             given["stage"] = {**stage, "assets": "shared", "asset_folder": _FROM_SHARD}
         try:
-            return config_from_mapping({**given, "seed": seed})
+            config = config_from_mapping({**given, "seed": seed})
+            if config.building.levels > 1:
+                self._check_levels(config)
         except ConfigError as error:
-            raise ConfigError(f"garage.{error.field}", error.value, error.allowed) from None
+            within = "" if error.field.startswith("make.") else "garage."
+            raise ConfigError(f"{within}{error.field}", error.value, error.allowed) from None
+        return config
+
+    def _check_levels(self, config: GarageConfig) -> None:
+        """Refuse settings and outputs that several levels do not go with."""
+        from garage2usd.buildings import check_levels  # noqa: PLC0415 - it brings USD, which most recipes do without
+        from garage2usd.exports import LEVEL_SUFFIXES  # noqa: PLC0415
+
+        check_levels(config)
+        if self.make.drives:
+            wanted = "none in a recipe with building.levels of 2 or more, through which rigs are not recorded yet"
+            raise ConfigError("make.drives.rig", self.make.drives.rig.name, wanted)
+        refused = [name for name in self.make.exports if f".{name}" not in LEVEL_SUFFIXES]
+        if refused:
+            known = " and ".join(sorted(suffix.removeprefix(".") for suffix in LEVEL_SUFFIXES))
+            raise ConfigError("make.exports", refused, f"{known} in a recipe with building.levels of 2 or more")
 
 
 def load_recipe(path: str | Path) -> Recipe:
