@@ -23,6 +23,7 @@ from garage2usd.datasets.manifest import MANIFEST_SCHEMA, ManifestRow, rows_of_t
 from garage2usd.datasets.recipe import ASSET_FOLDER, RECIPE_FILE, Distinct, Recipe, load_recipe
 from garage2usd.datasets.shards import SHARD_FOLDER, shard_members
 from garage2usd.datasets.sums import SUMS_FILE, files_of, read_sums, sha256_of
+from garage2usd.profiles import Profile
 from garage2usd.structure.symmetry import levels_digest
 
 __all__ = ["Fault", "verify_dataset"]
@@ -188,12 +189,12 @@ def _faults_of_shard(folder: Path, recipe: Recipe, task: _Task) -> Iterator[Faul
             for suffix in _STAGES:
                 stage = staging / SHARD_FOLDER / f"{row.key}{suffix}"
                 if stage.is_file():
-                    yield from _of_stage(stage, row.key)
+                    yield from _of_stage(stage, row.key, recipe.drawn(row.seed, row.number)[0].standard)
 
 
-def _of_stage(stage: Path, key: str) -> Iterator[Fault]:
+def _of_stage(stage: Path, key: str, profile: Profile) -> Iterator[Fault]:
     try:
-        garage, profile = read_stage(stage)
+        garage, _ = read_stage(stage, profile=profile)
         findings = check_levels(garage, profile, RULES) if isinstance(garage, BuiltLevels) else check(garage, profile)
     except Garage2UsdError as error:
         yield Fault(key, f"its stage does not open ({error})")
