@@ -37,8 +37,9 @@ def compare(*, folder: Path, figures: Path | None, outputs: tuple[Path, ...]) ->
     """Compare the data set in FOLDER with published figures of real garages.
 
     Each line has a quantity, its published figure, that of the data set, and the distance between both: the
-    Kolmogorov-Smirnov distance of a distribution, of which the median is printed, or the greatest difference of a share
-    in points. Figures that are assumed, at least in part, are marked by *. The JSON table has the sources.
+    Kolmogorov-Smirnov distance of a distribution, of which the median is printed; the greatest difference of a share in
+    points; or the greater share of garages on one side of a range. Figures that are assumed, at least in part, are
+    marked by *. The JSON table has the sources.
 
     \b
     Examples:
@@ -82,7 +83,9 @@ def _row(compared: "Compared") -> tuple[str, str, str, str]:
         far = "" if distance is None else f"{distance:.1f} points"
     else:
         middle = None if figure.distribution is None else figure.distribution.quantile(0.5)
-        published, measured = _number(middle), _number(compared.quantile(0.5))
+        between = figure.between
+        published = _number(middle) if between is None else f"{between.low:g} to {between.high:g}"
+        measured = _number(compared.quantile(0.5))
         far = "" if distance is None else f"{distance:.3f}"
     return title, published, measured or "no data", far
 

@@ -66,8 +66,8 @@ class Compared:
     def distance(self) -> float | None:
         """Distance between data set and published figure; None where the data set has no value.
 
-        Of a distribution the Kolmogorov-Smirnov distance, from 0 to 1. Of shares the greatest difference of a category,
-        in points (0 to 100).
+        Of a distribution the Kolmogorov-Smirnov distance, from 0 to 1; where it is known in part, to the nearest one
+        that agrees with it. Of shares the greatest difference of a category, in points (0 to 100).
         """
         if not self.count:
             return None
@@ -98,6 +98,8 @@ class Compared:
             told["measured"] = {name: round(share, _DIGITS) for name, share in self.shares.items()}
         else:
             told["published"] = {f"{share:g}": published.distribution.quantile(share) for share in _SHARES}
+            if published.between is not None:
+                told["published"] = {"0": published.between.low, "1": published.between.high}
             told["measured"] = {f"{share:g}": self.quantile(share) for share in _SHARES}
         return {**told, "source": published.source, "assumption": published.assumption}
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from garage2usd.common.extras import of_extra
 from garage2usd.datasets.comparison import Compared, Comparison
-from garage2usd.datasets.published import Quantiles
+from garage2usd.datasets.published import Between, Quantiles
 
 with of_extra("the picture of a comparison"):
     import matplotlib as mpl
@@ -70,12 +70,13 @@ def _draw_distribution(axes: Axes, compared: Compared) -> None:
     published, values = compared.published.distribution, compared.values
     if published is None:
         return
-    low, high = published.quantile(0.1), published.quantile(0.9)
-    ends = [end for end in (low, high) if end is not None]
-    margin = 0.6 * (ends[-1] - ends[0]) if len(ends) > 1 else 1.0
-    left = max(min(ends) - margin, 0.0)
-    right = max(ends) + margin
-    if isinstance(published, Quantiles):
+    between = compared.published.between
+    ends = [published.quantile(share) for share in (0.1, 0.9)] if between is None else [between.low, between.high]
+    low, high = min(filter(None, ends), default=0.0), max(filter(None, ends), default=1.0)
+    left, right = max(low - 0.6 * (high - low), 0.0), high + 0.6 * (high - low)
+    if isinstance(published, Between):
+        axes.axvspan(published.low, published.high, color=_REAL, alpha=0.3, linewidth=0)
+    elif isinstance(published, Quantiles):
         axes.plot(published.values, published.shares, color=_REAL, marker="o", markersize=3.5, linewidth=1.5)
     else:
         places = np.linspace(left, right, _CURVE_POINTS)

@@ -15,6 +15,7 @@ from garage2usd.common.settings import Settings, validated
 
 __all__ = [
     "WORLD_FILE",
+    "Between",
     "LogNormalFigure",
     "PublishedFigure",
     "PublishedFigures",
@@ -145,6 +146,32 @@ class Uniform(Settings):
         return float(stats.ks_1samp(values, self.share_below).statistic)
 
 
+class Between(Settings):
+    """A range of which the ends alone are published."""
+
+    low: float
+    """Least value."""
+    high: float
+    """Greatest value."""
+
+    @model_validator(mode="after")
+    def _ascending(self) -> Self:
+        if not self.low < self.high:
+            raise ValueError("low less than high")
+        return self
+
+    def quantile(self, _share: float) -> float | None:
+        """Return None: no quantile is known."""
+        return None
+
+    def distance(self, values: NDArray[np.float64]) -> float:
+        """Return the distance of values, shape (n,), to the nearest distribution between the ends.
+
+        It is the greater one of the shares below the low end and above the high end.
+        """
+        return float(max(np.mean(values < self.low), np.mean(values > self.high)))
+
+
 class LogNormalFigure(Settings):
     """A log-normal distribution."""
 
@@ -183,6 +210,8 @@ class PublishedFigure(Settings):
     """Uniform distribution."""
     log_normal: LogNormalFigure | None = None
     """Log-normal distribution."""
+    between: Between | None = None
+    """Least and greatest value, where nothing is known of the distribution between them."""
     shares: dict[str, Share] | None = None
     """Share of each category of the quantity."""
     source: str = Field(min_length=1)
@@ -192,10 +221,12 @@ class PublishedFigure(Settings):
 
     @model_validator(mode="after")
     def _one_form(self) -> Self:
-        forms = [self.quantiles, self.uniform, self.log_normal, self.shares]
+        forms = [self.quantiles, self.uniform, self.log_normal, self.between, self.shares]
         categories = self.quantity.categories
         if sum(form is not None for form in forms) != 1 or (self.shares is not None) != bool(categories):
-            raise ValueError("shares for a quantity of categories, else one of quantiles, uniform and log_normal")
+            raise ValueError(
+                "shares for a quantity of categories, else one of quantiles, uniform, log_normal and between"
+            )
         if self.shares is not None and (
             set(self.shares) != set(categories) or abs(sum(self.shares.values()) - 1) > _WHOLE
         ):
@@ -203,9 +234,9 @@ class PublishedFigure(Settings):
         return self
 
     @property
-    def distribution(self) -> Quantiles | Uniform | LogNormalFigure | None:
-        """The distribution; None for shares."""
-        return self.quantiles or self.uniform or self.log_normal
+    def distribution(self) -> Quantiles | Uniform | LogNormalFigure | Between | None:
+        """The distribution, or what is known of it; None for shares."""
+        return self.quantiles or self.uniform or self.log_normal or self.between
 
 
 class PublishedFigures(Settings):

@@ -117,5 +117,5 @@ def test_a_folder_that_holds_no_data_set_is_refused(tmp_path):
     (tmp_path / "f.toml").write_text(
         '[[figures]]\nquantity = "stalls"\ntitle = "S"\nsource = "x"\nshares = { one = 1.0 }\n'
     )
-    with pytest.raises(ConfigError, match="one of quantiles, uniform and log_normal"):
+    with pytest.raises(ConfigError, match="one of quantiles, uniform, log_normal and between"):
         read_published(tmp_path / "f.toml")
