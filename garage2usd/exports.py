@@ -28,7 +28,7 @@ from garage2usd.maps.road_builder import network_of
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.pipeline import build
 from garage2usd.reading.files import STAGE_SUFFIXES, open_stage
-from garage2usd.reading.levels import refuse_levels
+from garage2usd.reading.levels import levels_of, refuse_levels
 from garage2usd.reading.objects import PlacedObject
 from garage2usd.reading.remarks import Remarks
 from garage2usd.reading.report import read_report
@@ -41,7 +41,7 @@ _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO, _GRID = ".json", ".glb", ".osm", ".
 _AREAS = ".add.xml"
 _OF_EXTRA = {_LANELET2: ("a Lanelet2 map", "pyproj"), _SCENARIO: ("a scenario", "scenariogeneration")}
 """Formats that need a module of an extra, with their description and that module, by extension."""
-LEVEL_SUFFIXES = frozenset({_LANELET2, _MAP})
+LEVEL_SUFFIXES = frozenset({_LANELET2, _MAP, _SCENE})
 """Extensions of the formats in which a garage of several levels can be written."""
 Notice = Callable[[str], None]
 """Callback for a line on data that a format cannot represent."""
@@ -55,10 +55,12 @@ class _Source:
 
     def read_for(self, formats: Sequence[str]) -> None:
         """Read the data that several files need, so that forks of this process share it."""
-        if self.levels is not None:
+        if levels_of(self.stage):
             for suffix in formats:
                 if suffix not in LEVEL_SUFFIXES:
                     refuse_levels(self.stage, self.name, f"export to {suffix}")
+            if len({*formats} - {_SCENE}) > 1:
+                _ = self.level_networks
             return
         of_lanes = [suffix for suffix in formats if suffix != _SCENE]
         if len(formats) > 1:

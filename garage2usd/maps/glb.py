@@ -12,6 +12,7 @@ from pxr import Usd, UsdLux
 
 from garage2usd.as_built.shapes import are_upright
 from garage2usd.common.errors import StageError
+from garage2usd.garage import Stall
 from garage2usd.layout.grounds import hulls_of
 from garage2usd.maps.glb_file import GlbFile, Piece
 from garage2usd.maps.glb_lights import place_of, punctual_light, why_left_out
@@ -21,6 +22,7 @@ from garage2usd.maps.stall_facts import StallFacts
 from garage2usd.objects import CAR_LABELS, PIECE_LABELS
 from garage2usd.reading.labels import Labels, read_labels
 from garage2usd.reading.lanes import read_lanes
+from garage2usd.reading.levels import levels_of
 from garage2usd.reading.looks import MeshLooks
 from garage2usd.reading.meshes import DRAWN_TYPES, Triangles
 from garage2usd.reading.objects import DrawnPart, Matrix, PlacedObject, once_for_each_look
@@ -73,6 +75,9 @@ def write_glb(
     by material. Faceted primitives have no normals, as glTF 2.0 (3.7.2.1) specifies. Each light is a node: a point, a
     spot or a sun. glTF has no area lights, so an area light is omitted if its lamp is emissive. Below the node
     ``stalls`` each stall is a node in the middle of its outline, whose Z axis leads to its mouth.
+
+    Each level of a garage of several levels is a node at its floor, with its name and floor height as ``extras``; its
+    objects, lights and stalls are nodes below it.
     """
     remarks, file = Remarks() if remarks is None else remarks, stage.GetRootLayer().realPath
     looks = _Looks(remarks)
@@ -84,10 +89,8 @@ def write_glb(
     drawn = [(placed, look) for placed, look in looked_at if look.pieces]
     if not any(look.pieces or look.lights for _, look in looked_at):
         raise StageError(file, "nothing in it can be drawn")
-    stalls = StallFacts(read_lanes(stage).stalls)
-    cars = [(placed, look) for placed, look in drawn if placed.label in CAR_LABELS]
-    grounds = hulls_of([look.on_ground(placed.matrix) for placed, look in cars])
-    homes = stalls.park([placed.path for placed, _ in cars], grounds)
+    levels = _levels(glb, stage)
+    homes = _parked(drawn, levels)
     mesh_of = once_for_each_look(lambda placed: glb.add_mesh(look_of(placed).pieces, name=_name(placed)))
     matrices = np.array([placed.matrix for placed, _ in drawn]).reshape(-1, 4, 4)
     rigid = are_rigid(matrices)
@@ -96,35 +99,96 @@ def write_glb(
     node_of: dict[str, tuple[int, Matrix]] = {}
     for (placed, look), is_rigid, inverse in zip(drawn, rigid.tolist(), inverses, strict=True):
         number = labels.ids.get(placed.path)
-        stall = stalls.at(placed.matrix) if placed.label == _STALL else homes.get(placed.path)
+        level = _level_of(placed.path, levels)
+        stall = level.stalls.at(placed.matrix) if placed.label == _STALL else homes.get(placed.path)
         extras: dict[str, Any] = {"class": placed.label} if placed.label else {}
         extras |= {} if number is None else {"id": number}
-        extras |= {} if stall is None else {"stall": stalls.facts(stall)}
+        extras |= {} if stall is None else {"stall": level.stalls.facts(stall)}
         if is_rigid:
-            above, place = node_of.get(placed.path.rpartition("/")[0]), placed.matrix
-            if above is not None:  # a piece of an object goes with it
-                place = place @ above[1]
-            node = glb.add_node(
-                placed.path, place, mesh=mesh_of(placed), above=None if above is None else above[0], extras=extras
-            )
+            above, inverse_above = node_of.get(placed.path.rpartition("/")[0], (level.node, level.inverse))
+            place = placed.matrix if inverse_above is None else placed.matrix @ inverse_above  # goes with what it is of
+            node = glb.add_node(placed.path, place, mesh=mesh_of(placed), above=above, extras=extras)
             if placed.label not in PIECE_LABELS:
                 node_of[placed.path] = node, inverse
         else:  # no node can say so: it goes into the vertices
             pieces = [
                 piece._replace(triangles=moved_triangles(piece.triangles, placed.matrix)) for piece in look.pieces
             ]
-            glb.add_node(placed.path, _IDENTITY, mesh=glb.add_mesh(pieces, name=_name(placed)), extras=extras)
+            mesh = glb.add_mesh(pieces, name=_name(placed))
+            glb.add_node(placed.path, level.own(_IDENTITY), mesh=mesh, above=level.node, extras=extras)
     units = metres_per_unit(stage)
     for placed, look in looked_at:
+        level = _level_of(placed.path, levels)
         for reason, part in look.left_out:
             remarks.add(reason, placed.path + part.path)
         for part in look.lights:
             name, matrix = placed.path + part.path, part.matrix @ placed.matrix
             light = punctual_light(part.prim, name, matrix, units, remarks)
             if light is not None:
-                glb.add_light(name if part.path or not look.pieces else f"{name}/light", place_of(matrix), light)
-    _add_stalls(glb, stalls)
+                name = name if part.path or not look.pieces else f"{name}/light"
+                glb.add_light(name, level.own(place_of(matrix)), light, above=level.node)
+    for level in levels:
+        _add_stalls(glb, level)
     path.write_bytes(glb.data({name: str(value) for name, value in stage_facts(stage).items()}))
+
+
+class _Level(NamedTuple):
+    """A level of a garage of several levels; or all of a garage, where `path` is empty.
+
+    Attributes
+    ----------
+    path
+        Path of its prim.
+    node
+        Index of its node; None for none.
+    inverse
+        Transform from the scene to that node's space; None for none.
+    stalls
+        Its stalls.
+    """
+
+    path: str
+    node: int | None
+    inverse: Matrix | None
+    stalls: StallFacts
+
+    def has(self, path: str) -> bool:
+        """True if a prim is on the level."""
+        return path.startswith(f"{self.path}/")
+
+    def own(self, place: Matrix) -> Matrix:
+        """Return a transform to the scene as one to the space of the level's node."""
+        return place if self.inverse is None else place @ self.inverse
+
+
+def _levels(glb: GlbFile, stage: Usd.Stage) -> list[_Level]:
+    """Add the nodes of the levels of a garage of several; return the levels, then the rest of the garage."""
+    lanes, found = read_lanes(stage).stalls, []
+    places = levels_of(stage)
+    for number, place in enumerate(places):
+        matrix, inverse = np.eye(4), np.eye(4)
+        matrix[3, 1], inverse[3, 1] = place.floor_m, -place.floor_m
+        node = glb.add_node(place.path, matrix, extras={"level": place.name, "floor_m": place.floor_m})
+        stalls = StallFacts([stall for stall in lanes if stall.level == number], floor_m=place.floor_m)
+        found.append(_Level(place.path, node, inverse, stalls))
+    return [*found, _Level("", None, None, StallFacts(() if places else lanes))]
+
+
+def _level_of(path: str, levels: Sequence[_Level]) -> _Level:
+    return next(level for level in levels if level.has(path))
+
+
+def _parked(drawn: Sequence[tuple[PlacedObject, "_Look"]], levels: Sequence[_Level]) -> dict[str, Stall | None]:
+    """Park the cars of each level in its stalls; return the stall of each car by its path."""
+    homes: dict[str, Stall | None] = {}
+    for level in levels:
+        cars = [
+            (placed.path, look.on_ground(placed.matrix))
+            for placed, look in drawn
+            if placed.label in CAR_LABELS and _level_of(placed.path, levels) is level
+        ]
+        homes |= level.stalls.park([path for path, _ in cars], hulls_of([ground for _, ground in cars]))
+    return homes
 
 
 class _Look(NamedTuple):
@@ -229,10 +293,11 @@ def _name(placed: PlacedObject) -> str:
     return placed.path.rpartition("/")[2]
 
 
-def _add_stalls(glb: GlbFile, stalls: StallFacts) -> None:
+def _add_stalls(glb: GlbFile, level: _Level) -> None:
+    stalls = level.stalls
     if not stalls.stalls:
         return
-    group = glb.add_node(_STALLS, _IDENTITY)
+    group = glb.add_node(f"{level.path}/{_STALLS}" if level.path else _STALLS, _IDENTITY, above=level.node)
     for name, stall in stalls.by_name.items():
         (x, z), (mouth_x, mouth_z) = stall.centre, stall.outwards
         axes = (mouth_z, 0, -mouth_x, 0), (0, 1, 0, 0), (mouth_x, 0, mouth_z, 0)

@@ -162,7 +162,7 @@ class GlbFile:
         siblings.append(number)
         return number
 
-    def add_light(self, name: str, matrix: Matrix, light: dict[str, Any]) -> None:
+    def add_light(self, name: str, matrix: Matrix, light: dict[str, Any], *, above: int | None = None) -> None:
         """Add a light node, which shines along -Z.
 
         Parameters
@@ -170,11 +170,13 @@ class GlbFile:
         name
             Its name.
         matrix
-            Transform to the space of the scene; a rotation and a translation.
+            Transform to the space of the parent node; a rotation and a translation.
         light
             The light as JSON of KHR_lights_punctual.
+        above
+            Index of the parent node; None for a root node of the scene.
         """
-        node = self.add_node(name, matrix)
+        node = self.add_node(name, matrix, above=above)
         if light not in self._lights:
             self._lights.append(light)
         self._nodes[node]["extensions"] = {_LIGHTS: {"light": self._lights.index(light)}}

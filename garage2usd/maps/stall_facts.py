@@ -19,9 +19,9 @@ _MOVED_M = 0.05
 class StallFacts:
     """The stalls of a stage with their parked cars."""
 
-    def __init__(self, stalls: Iterable[Stall]) -> None:
-        """Create the facts of all stalls, without cars."""
-        self.stalls = tuple(stalls)
+    def __init__(self, stalls: Iterable[Stall], *, floor_m: float = 0.0) -> None:
+        """Create the facts of all stalls, without cars, on a floor of some height."""
+        self.stalls, self._floor_m = tuple(stalls), floor_m
         self._grounds = StallGrounds(self.stalls)
         self._middles = shapely.STRtree([shapely.Point(stall.centre) for stall in self.stalls])
         self._car_of: dict[Stall, str] = {}
@@ -64,7 +64,8 @@ class StallFacts:
 
     def outline(self, stall: Stall) -> dict[str, Any]:
         """Return the geometric facts of a stall: corners (x, y, z) as in `Stall`, lane node and car."""
-        corners: Sequence[tuple[float, float, float]] = [(round(x, 4), 0, round(z, 4)) for x, z in stall.corners]
+        height = self._floor_m or 0
+        corners: Sequence[tuple[float, float, float]] = [(round(x, 4), height, round(z, 4)) for x, z in stall.corners]
         car = self._car_of.get(stall)
         return {
             **self.facts(stall),

@@ -194,7 +194,6 @@ def test_a_drive_goes_down_the_ramp_into_a_stall_and_back_to_the_street(built):
     [
         ("view", "{stage}", "--no-browser"),
         ("drive", "{stage}"),
-        ("export", "{stage}", "-o", "a.glb"),
         ("export", "{stage}", "-o", "a.yaml"),
         ("export", "{stage}", "-o", "a.xosc"),
         ("plan", "{stage}", "--stall", "U2/A1-01"),

@@ -141,15 +141,15 @@ def test_what_is_painted_on_a_floor_is_a_node_below_it(made, tmp_path):
 
 
 FAULTS = (
-    Fault("pieces of an object on their own", "glb", "if above is not None:", "if False:"),
+    Fault("pieces of an object on their own", "glb", "if inverse_above is None else", "if True else"),
     Fault("mirrored z", "glb_meshes", "np.round(matrices[:, 3, :3],", "np.round(matrices[:, 3, :3] * (1, 1, -1),"),
     Fault("turned the other way", "glb_meshes", "from_matrix(axes.transpose(0, 2, 1))", "from_matrix(axes)"),
     Fault("a place off by 2 mm", "glb_meshes", "_PLACE_DIGITS, _DIGITS = 4, 6", "_PLACE_DIGITS, _DIGITS = 2, 6"),
     Fault(
         "place of another object",
         "glb",
-        "[0]), placed.matrix",
-        "[0]), drawn[7][0].matrix",
+        "place = placed.matrix if",
+        "place = drawn[7][0].matrix if",
     ),
     Fault("label off by one", "glb", 'else {"id": number}', 'else {"id": number + 1}'),
     Fault(
