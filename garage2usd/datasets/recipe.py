@@ -274,7 +274,7 @@ class Recipe(Settings):
             raise ConfigError("make.drives.rig", self.make.drives.rig.name, wanted)
         refused = [name for name in self.make.exports if f".{name}" not in LEVEL_SUFFIXES]
         if refused:
-            known = " and ".join(sorted(suffix.removeprefix(".") for suffix in LEVEL_SUFFIXES))
+            known = ", ".join(sorted(suffix.removeprefix(".") for suffix in LEVEL_SUFFIXES))
             raise ConfigError("make.exports", refused, f"{known} in a recipe with building.levels of 2 or more")
 
 
