@@ -28,7 +28,8 @@ _SIDE_ROOM_M = 0.5
 _STEP_M = 0.5
 _EYE_M, _AXLE_M = 0.05, 0.6
 """Heights over the ramp's floor of the rays upwards and sideways."""
-_FAR_M = 12.0
+_FAR_M = 4.0
+"""Greatest distance from the box around a ramp of what rays meet; wider and higher ones miss nothing."""
 
 
 def read_stage(path: str | Path, *, profile: Profile | None = None) -> tuple[BuiltLevels | BuiltGarage, Profile]:
@@ -176,7 +177,9 @@ def _caster(garage: BuiltLevels, points: NDArray[np.float64]) -> tuple[BoxTree, 
         if np.any(at + body.shape.reach * 2 < low) or np.any(at - body.shape.reach * 2 > high):
             continue
         corners, _ = triangulated(body.shape.points, body.shape.indices, body.shape.counts)
-        parts.append(body.world_points()[body.shape.indices[corners]])
+        triangles = body.world_points()[body.shape.indices[corners]]
+        is_near = ((triangles.max(axis=1) >= low) & (triangles.min(axis=1) <= high)).all(axis=1)
+        parts.append(triangles[is_near])
     triangles = np.concatenate(parts)
     return BoxTree(triangles.reshape(-1, 3), np.arange(len(triangles) * 3, dtype=np.int32).reshape(-1, 3)), triangles
 

@@ -3,11 +3,12 @@
 import re
 import stat
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path, PurePosixPath
 
 from pxr import Ar, Sdf, Tf, Usd
 
+from garage2usd.common.documents import is_file
 from garage2usd.common.errors import StageError
 from garage2usd.common.limits import allow_seconds
 from garage2usd.common.output import can_say
@@ -18,7 +19,7 @@ STAGE_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 _MAX_FILE_BYTES = 2 * 1024**3
 _MAX_PACKAGE_FILES = 100_000
 _LEAST_S, _OPENING_S_PER_MB, _READING_S_PER_MB = 1.5, 4.0, 60.0
-"""Limits of processor time in seconds: for the root layer, and per megabyte to open and to read a stage."""
+"""Limits of processor time in seconds: for any file, and per megabyte of the files to open and to read a stage."""
 _REASON_CHARACTERS = 300
 _NO_TEXT = "it holds bytes that are not text"
 _SAID = re.compile(r"at line \d+ in file \S+ : '(.*?)'(?= Error in |$)")
@@ -36,26 +37,26 @@ def open_stage(path: Path) -> Usd.Stage:
     _check_file(path)
     if path.suffix.lower() == ".usdz":
         _check_package(path)
-    allow_seconds(_LEAST_S + _OPENING_S_PER_MB * path.stat().st_size / 1e6)
     layers = _open_layers(path)
+    allow_seconds(_LEAST_S + _OPENING_S_PER_MB * _megabytes(layers))
     try:
         stage = Usd.Stage.Open(layers[0])
     except Tf.ErrorException as error:
         raise StageError(path, f"USD cannot compose it ({usd_reason(error)})") from None
-    files = {Ar.SplitPackageRelativePathOuter(used.realPath)[0] for used in stage.GetUsedLayers()} - {""}
-    allow_seconds(_LEAST_S + _READING_S_PER_MB * sum(Path(file).stat().st_size for file in files) / 1e6)
+    allow_seconds(_LEAST_S + _READING_S_PER_MB * _megabytes(stage.GetUsedLayers()))
     return stage
 
 
 def _open_layers(path: Path) -> list[Sdf.Layer]:
     """Open the layer of a file and all layers that it refers to; missing ones are permitted.
 
-    USD tries a damaged layer again for each prim that refers to it.
+    USD tries a damaged layer again for each prim that refers to it. The limit of time is that of each layer.
     """
     layers: dict[str, Sdf.Layer | None] = {}
     waiting = [str(path.absolute())]  # "anon:a.usda" alone is no name of a file to USD
     while waiting:
         name = waiting.pop()
+        allow_seconds(_LEAST_S + _OPENING_S_PER_MB * _size_of(name) / 1e6)
         try:
             layer = Sdf.Layer.FindOrOpen(name)
         except Tf.ErrorException as error:
@@ -70,6 +71,18 @@ def _open_layers(path: Path) -> list[Sdf.Layer]:
     if not found:
         raise StageError(path, "USD cannot read it")
     return found
+
+
+def _size_of(name: str) -> int:
+    """Return the number of bytes of the file that holds a layer; 0 if there is none."""
+    file = Path(Ar.SplitPackageRelativePathOuter(name)[0])
+    return file.stat().st_size if is_file(file) else 0
+
+
+def _megabytes(layers: Iterable[Sdf.Layer]) -> float:
+    """Return the size of the files that hold layers, in megabytes."""
+    files = {Ar.SplitPackageRelativePathOuter(layer.realPath)[0] for layer in layers} - {""}
+    return sum(Path(file).stat().st_size for file in files) / 1e6
 
 
 def usd_reason(error: Exception) -> str:
