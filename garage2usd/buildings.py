@@ -42,7 +42,15 @@ from garage2usd.structure.stalls import Edge
 from garage2usd.view.plan_picture import draw_plan
 from garage2usd.view.raster import to_image, write_png
 
-__all__ = ["LevelsBuild", "LevelsGarage", "build_levels", "generate_levels"]
+__all__ = [
+    "LevelsBuild",
+    "LevelsGarage",
+    "build_levels",
+    "check_levels",
+    "generate_levels",
+    "levels_metadata",
+    "levels_report",
+]
 
 _CEILING_TO_FLOOR_M = 0.25
 """Least height between a ceiling's underside and the floor above: the ceiling's slab."""
@@ -195,7 +203,7 @@ def build_levels(
             levels,
             garage.joined,
             folder / f"{path.stem}{path.suffix.lower()}",
-            metadata=_metadata(garage),
+            metadata=levels_metadata(garage),
             config=garage.config.stage,
             shared=shared,
             progress=progress,
@@ -214,7 +222,7 @@ def build_levels(
         report = staging / f"{path.stem}_report.json"
         unmet = None if judged is None else [clauses for _, clauses in judged]
         report.write_text(
-            json_text(_report(garage, seconds, unmet).model_dump(mode="json")), encoding="utf-8", newline="\n"
+            json_text(levels_report(garage, seconds, unmet).model_dump(mode="json")), encoding="utf-8", newline="\n"
         )
         progress("files", 0, 1)
         files = [*filter(None, [made.assets]), *drawn, labels, report]
@@ -238,7 +246,7 @@ def _generate(
 ) -> tuple[LevelsGarage, dict[str, float]]:
     if seed is not None:
         config = config.with_seed(seed)
-    _refuse(config)
+    check_levels(config)
     clock = [time.perf_counter()]
     site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
     check_room(site, config.bay)
@@ -263,8 +271,14 @@ def _generate(
     return garage, {step: end - start for step, (start, end) in steps}
 
 
-def _refuse(config: GarageConfig) -> None:
-    """Refuse settings that several levels do not go with."""
+def check_levels(config: GarageConfig) -> None:
+    """Refuse settings that several levels do not go with.
+
+    Raises
+    ------
+    ConfigError
+        If there is such a setting, or only one level.
+    """
     building, ceiling_m = config.building, config.fittings.ceiling_height_m
     if building.levels < 2:  # noqa: PLR2004
         raise ConfigError("building.levels", building.levels, "2 or more here; garage2usd.build makes one level")
@@ -377,7 +391,7 @@ def _square_of(structure: Structure, squares: tuple[tuple[int, int], ...], x: fl
     return squares[int(np.argmin(far))]
 
 
-def _metadata(garage: LevelsGarage) -> dict[str, str | int]:
+def levels_metadata(garage: LevelsGarage) -> dict[str, str | int]:
     """Describe how the garage was made, for its stage."""
     return {
         "generator": "garage2usd",
@@ -388,10 +402,20 @@ def _metadata(garage: LevelsGarage) -> dict[str, str | int]:
     }
 
 
-def _report(
+def levels_report(
     garage: LevelsGarage, seconds: dict[str, float], unmet: list[tuple[UnmetClause, ...]] | None
 ) -> LevelsReport:
-    """Make the report; it is reproducible, except for ``seconds``."""
+    """Make the report; it is reproducible, except for ``seconds``.
+
+    Parameters
+    ----------
+    garage
+        The garage.
+    seconds
+        Duration of each step in seconds.
+    unmet
+        Clauses of the profile that the design of each level violates; None if unknown.
+    """
     building, names = garage.building, garage.building.names()
     profile = flight_profile(building.flight.run_m(building.levels[0]), garage.config.building)
     slopes = [(high - low) / (end - start) for (start, low), (end, high) in pairwise(profile)]

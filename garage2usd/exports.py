@@ -35,14 +35,14 @@ from garage2usd.reading.report import read_report
 from garage2usd.reading.values import metres_y_up
 from garage2usd.reading.walk import placed_objects
 
-__all__ = ["EXPORT_SUFFIXES", "check_exports", "check_formats", "export"]
+__all__ = ["EXPORT_SUFFIXES", "LEVEL_SUFFIXES", "check_exports", "check_formats", "export"]
 
 _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO, _GRID = ".json", ".glb", ".osm", ".xodr", ".xosc", ".yaml"
 _AREAS = ".add.xml"
 _OF_EXTRA = {_LANELET2: ("a Lanelet2 map", "pyproj"), _SCENARIO: ("a scenario", "scenariogeneration")}
 """Formats that need a module of an extra, with their description and that module, by extension."""
-_OF_LEVELS = frozenset({_GRID, _LANELET2, _MAP, _SCENE})
-"""Formats in which a garage of several levels can be written."""
+LEVEL_SUFFIXES = frozenset({_GRID, _LANELET2, _MAP, _SCENE})
+"""Extensions of the formats in which a garage of several levels can be written."""
 Notice = Callable[[str], None]
 """Callback for a line on data that a format cannot represent."""
 
@@ -57,7 +57,7 @@ class _Source:
         """Read the data that several files need, so that forks of this process share it."""
         if levels_of(self.stage):
             for suffix in formats:
-                if suffix not in _OF_LEVELS:
+                if suffix not in LEVEL_SUFFIXES:
                     refuse_levels(self.stage, self.name, f"export to {suffix}")
             if len({*formats} - {_SCENE}) > 1:
                 _ = self.levels

@@ -10,6 +10,7 @@ import click
 from garage2usd.cli.build import build
 from garage2usd.cli.check import check
 from garage2usd.cli.commands import Commands
+from garage2usd.cli.compare import compare
 from garage2usd.cli.dataset import dataset
 from garage2usd.cli.doctor import doctor
 from garage2usd.cli.drive import drive
@@ -52,6 +53,7 @@ def main() -> None:
 for _command in (
     build,
     check,
+    compare,
     dataset,
     doctor,
     drive,

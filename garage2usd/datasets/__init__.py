@@ -6,20 +6,37 @@ from garage2usd.common.extras import require
 from garage2usd.common.public_names import on_first_use
 
 if TYPE_CHECKING:
+    from garage2usd.datasets.comparison import Comparison, compare_dataset
     from garage2usd.datasets.making import DataSet, make_dataset
+    from garage2usd.datasets.published import PublishedFigures, read_published
     from garage2usd.datasets.recipe import Recipe, load_recipe
     from garage2usd.datasets.verification import Fault, verify_dataset
 
 require("a data set", ("distributed", "jinja2", "matplotlib", "pyarrow"))
 
-__all__ = ["DataSet", "Fault", "Recipe", "load_recipe", "make_dataset", "verify_dataset"]
+__all__ = [
+    "Comparison",
+    "DataSet",
+    "Fault",
+    "PublishedFigures",
+    "Recipe",
+    "compare_dataset",
+    "load_recipe",
+    "make_dataset",
+    "read_published",
+    "verify_dataset",
+]
 
 _HOME = {
+    "Comparison": "comparison",
     "DataSet": "making",
     "Fault": "verification",
+    "PublishedFigures": "published",
     "Recipe": "recipe",
+    "compare_dataset": "comparison",
     "load_recipe": "recipe",
     "make_dataset": "making",
+    "read_published": "published",
     "verify_dataset": "verification",
 }
 # each worker imports this package, and needs little of it

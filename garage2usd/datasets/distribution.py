@@ -1,4 +1,4 @@
-"""Distributions of settings in a recipe: choice, range, log range, and mixtures."""
+"""Distributions of settings in a recipe: choice, range, log range, beta, log-normal, and mixtures."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -10,11 +10,15 @@ from pydantic import Field, model_validator
 from garage2usd.common.settings import Settings, validated
 from garage2usd.native import elementary
 
-__all__ = ["Choice", "Distribution", "LogRange", "Mix", "Range", "distribution_of"]
+__all__ = ["Beta", "Choice", "Distribution", "LogNormal", "LogRange", "Mix", "Range", "distribution_of"]
 
 Number = int | float
 Weight = Annotated[float, Field(gt=0, le=1e9)]
+Shape = Annotated[float, Field(ge=0.05, le=1000)]
 _MOST_CHOICES = 10_000
+_MOST_REDRAWS = 1000
+_LEAST_SHARE = 0.01
+"""Least share of a log-normal distribution that lies between its ends, so that redraws end."""
 
 
 class Choice(Settings):
@@ -87,6 +91,70 @@ class LogRange(Settings):
         return self.log_range
 
 
+class Beta(Settings):
+    """A beta distribution, by default between 0 and 1."""
+
+    beta: tuple[Shape, Shape]
+    """The parameters alpha and beta; the mean is alpha / (alpha + beta)."""
+    within: tuple[float, float] = (0.0, 1.0)
+    """Least and greatest value, to which the distribution is scaled."""
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        _check_ordered(self.within, above=-math.inf)
+        return self
+
+    def draw(self, random: np.random.Generator) -> float:
+        """Draw a number, rounded as logarithms differ in the last digit from processor to processor."""
+        low, high = self.within
+        return min(max(float(f"{low + (high - low) * random.beta(*self.beta):.9g}"), low), high)
+
+    def ends(self) -> tuple[float, float]:
+        """Return the least and greatest value."""
+        return self.within
+
+
+class LogNormal(Settings):
+    """A log-normal distribution, cut at two ends; of integers if both ends are integers."""
+
+    log_normal: tuple[Annotated[float, Field(gt=0, le=1e9)], Annotated[float, Field(gt=0, le=10)]]
+    """Median, and standard deviation of the natural logarithm."""
+    within: tuple[Number, Number]
+    """Least and greatest value; other draws are repeated."""
+
+    @model_validator(mode="after")
+    def _reachable(self) -> Self:
+        _check_ordered(self.within, above=0)
+        median, spread = self.log_normal
+        low, high = (math.log(end / median) / (spread * math.sqrt(2)) for end in self._real_ends())
+        if (math.erf(high) - math.erf(low)) / 2 < _LEAST_SHARE:
+            raise ValueError(f"ends between which at least {_LEAST_SHARE:.0%} of the distribution lies")
+        return self
+
+    def draw(self, random: np.random.Generator) -> Number:
+        """Draw a number between the ends."""
+        median, spread = self.log_normal
+        low, high = self._real_ends()
+        for _ in range(_MOST_REDRAWS):
+            drawn = float(f"{median * elementary.exp(spread * random.standard_normal()):.9g}")
+            if low <= drawn <= high:
+                break
+        least, most = self.within
+        if isinstance(least, int) and isinstance(most, int):
+            return min(max(round(drawn), least), most)
+        return min(max(drawn, least), most)
+
+    def ends(self) -> tuple[Number, Number]:
+        """Return the least and greatest value."""
+        return self.within
+
+    def _real_ends(self) -> tuple[float, float]:
+        """Return the ends before rounding: integers take half a step on both sides."""
+        low, high = self.within
+        half = 0.5 if isinstance(low, int) and isinstance(high, int) else 0.0
+        return low - half, high + half
+
+
 class MixPart(Settings):
     """A component of a mixture."""
 
@@ -124,9 +192,16 @@ class Mix(Settings):
             yield from (part.value,) if inner is None else inner.ends()
 
 
-Distribution = Choice | Range | LogRange | Mix
-_Key = Literal["choice", "range", "log_range", "mix"]
-_KINDS: dict[_Key, type[Distribution]] = {"choice": Choice, "range": Range, "log_range": LogRange, "mix": Mix}
+Distribution = Choice | Range | LogRange | Beta | LogNormal | Mix
+_Key = Literal["choice", "range", "log_range", "beta", "log_normal", "mix"]
+_KINDS: dict[_Key, type[Distribution]] = {
+    "choice": Choice,
+    "range": Range,
+    "log_range": LogRange,
+    "beta": Beta,
+    "log_normal": LogNormal,
+    "mix": Mix,
+}
 
 
 def distribution_of(value: object, *, field: str) -> Distribution | None:
@@ -135,7 +210,8 @@ def distribution_of(value: object, *, field: str) -> Distribution | None:
     Parameters
     ----------
     value
-        A mapping with one of the keys ``choice``, ``range``, ``log_range`` and ``mix`` is a distribution.
+        A mapping with one of the keys ``choice``, ``range``, ``log_range``, ``beta``, ``log_normal`` and ``mix`` is a
+        distribution.
     field
         The setting, for the error.
 

@@ -7,9 +7,11 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from garage2usd.common.errors import ConfigError
+from garage2usd.config.building import check_one_level
 from garage2usd.contact_sheet import SheetGarage
+from garage2usd.datasets.drawn_plan import DrawnPlan, plans_of
 from garage2usd.datasets.making import PLAN_FILE
-from garage2usd.datasets.plans import DrawnPlan, planned, plans_of, replanned
+from garage2usd.datasets.plans import planned, replanned
 from garage2usd.datasets.recipe import RECIPE_FILE, Recipe, load_recipe
 
 __all__ = ["chosen_garages"]
@@ -29,7 +31,7 @@ def chosen_garages(path: Path, numbers: Sequence[int]) -> Iterator[SheetGarage]:
     Raises
     ------
     ConfigError
-        If the recipe is invalid, or has no garage with one of the numbers.
+        If the recipe is invalid, has no garage with one of the numbers, or one of them has several levels.
     """
     recipe = load_recipe(path)
     plans = path.with_name(PLAN_FILE)
@@ -40,7 +42,8 @@ def chosen_garages(path: Path, numbers: Sequence[int]) -> Iterator[SheetGarage]:
         drawn = _drawn(recipe, number) if made is None else made[number]
         if drawn.error:
             raise ConfigError("seeds", number, f"a garage that is possible ({drawn.error})")
-        config, _ = recipe.drawn(drawn.seed)
+        config, _ = recipe.drawn(drawn.seed, drawn.number)
+        check_one_level(config.building)
         yield SheetGarage(f"garage {number}", config, replanned(drawn, config))
 
 

@@ -17,9 +17,10 @@ from garage2usd.common.version import VERSION
 from garage2usd.datasets.card import data_card
 from garage2usd.datasets.contour import contour_shape
 from garage2usd.datasets.difficulty import Level
+from garage2usd.datasets.drawn_plan import DrawnPlan, plan_table, plans_of
 from garage2usd.datasets.drives import check_drives
 from garage2usd.datasets.manifest import ManifestRow, manifest_table, table_bytes, text_of_rows
-from garage2usd.datasets.plans import DrawnPlan, PlanDraw, chunks, plan_table, planned, plans_of
+from garage2usd.datasets.plans import PlanDraw, chunks, planned
 from garage2usd.datasets.recipe import RECIPE_FILE, Recipe
 from garage2usd.datasets.shards import Shard, failed_row, made_rows, make_shard, shards_of, sweep
 from garage2usd.datasets.sums import SUMS_FILE, damaged_assets, read_sums, sha256_of, sums_text
@@ -228,6 +229,8 @@ def _plan_figures(row: ManifestRow, drawn: DrawnPlan) -> PlanFigures:
         area_per_stall_m2=row.area_per_stall_m2,
         contour=contour_shape(cells),
         level=Level(row.difficulty) if row.difficulty else None,
+        levels=row.levels,
+        of_levels=drawn.digest,
     )
 
 

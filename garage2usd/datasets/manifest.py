@@ -12,6 +12,7 @@ from garage2usd.common.settings import Record
 __all__ = [
     "MANIFEST_SCHEMA",
     "FileEntry",
+    "LinkEntry",
     "ManifestRow",
     "manifest_table",
     "rows_of_text",
@@ -26,6 +27,15 @@ class FileEntry(Record):
     suffix: str
     bytes: int
     sha256: str
+
+
+class LinkEntry(Record):
+    """A ramp between two levels: its kind, such as ``straight``, their names, and the direction ``down`` or ``up``."""
+
+    kind: str
+    upper: str
+    lower: str
+    direction: str
 
 
 class ManifestRow(Record):
@@ -43,6 +53,8 @@ class ManifestRow(Record):
         Its seed, and the number of the draw.
     alternatives
         Name of the alternative drawn from each group of the recipe.
+    country
+        ISO 3166 code of its profile's country; empty if the profile names none.
     config_digest, structure_digest
         As in its report.
     plan_digest
@@ -50,11 +62,23 @@ class ManifestRow(Record):
     rows, cols
         Shape of S.
     squares
-        Number of squares inside the contour.
-    stalls, standard_stalls, ev_stalls, accessible_stalls, cars
-        Numbers of stalls for cars, in total and of the three kinds, and of parked cars.
+        Number of squares inside the contour, on all levels.
+    levels, level_stalls, links
+        Number of levels, number of stalls for cars on each of them, the top one first, and the ramps between them.
+    stalls, standard_stalls, ev_stalls, accessible_stalls
+        Numbers of stalls for cars, in total and of the three uses.
+    angled_stalls, parallel_stalls
+        Numbers of stalls for cars at an angle to their lane and parallel to it; the others are perpendicular.
+    stall_width_m, stall_length_m, aisle_width_m
+        Medians over the perpendicular stalls of the standard size (over all stalls if there are none): their width and
+        length, and the clear width between the columns of the aisle in front of them.
+    cars, perpendicular_cars, nose_out_cars
+        Numbers of parked cars, of those in perpendicular stalls, and of those among the latter that stand nose out.
+    lanes_m, one_way_lanes_m
+        Length of the lanes without portals and ramps, and of those that are one-way.
     loops, longest_dead_end_m, area_per_stall_m2, stair_cores, mean_lux
-        As in its report.
+        As in its report; over several levels the sum of the loops and of the cores, the longest dead end, and the means
+        over all stalls, for which the squares of ramps are no floor.
     difficulty, difficulty_score
         Difficulty of the garage (`garage2usd.datasets.difficulty`); empty and -1 if it is not rated or no stall is
         proven.
@@ -75,17 +99,30 @@ class ManifestRow(Record):
     seed: int
     attempt: int
     alternatives: dict[str, str]
+    country: str = ""
     config_digest: str = ""
     structure_digest: str = ""
     plan_digest: str = ""
     rows: int = 0
     cols: int = 0
     squares: int = 0
+    levels: int = 0
+    level_stalls: tuple[int, ...] = ()
+    links: tuple[LinkEntry, ...] = ()
     stalls: int = 0
     standard_stalls: int = 0
     ev_stalls: int = 0
     accessible_stalls: int = 0
+    angled_stalls: int = 0
+    parallel_stalls: int = 0
+    stall_width_m: float = 0.0
+    stall_length_m: float = 0.0
+    aisle_width_m: float = 0.0
     cars: int = 0
+    perpendicular_cars: int = 0
+    nose_out_cars: int = 0
+    lanes_m: float = 0.0
+    one_way_lanes_m: float = 0.0
     loops: int = 0
     longest_dead_end_m: float = 0.0
     area_per_stall_m2: float = 0.0
@@ -105,7 +142,13 @@ class ManifestRow(Record):
 
 _FILE = pa.struct([("suffix", pa.string()), ("bytes", pa.int64()), ("sha256", pa.string())])
 _TYPES: dict[Any, pa.DataType] = {int: pa.int64(), float: pa.float64(), str: pa.string()}
-_NESTED = {"alternatives": pa.string(), "files": pa.list_(_FILE)}
+_LINK = pa.struct([(name, pa.string()) for name in LinkEntry.model_fields])
+_NESTED = {
+    "alternatives": pa.string(),
+    "files": pa.list_(_FILE),
+    "level_stalls": pa.list_(pa.int64()),
+    "links": pa.list_(_LINK),
+}
 MANIFEST_SCHEMA = pa.schema(
     [
         pa.field(name, _NESTED.get(name) or _TYPES[field.annotation], nullable=False)

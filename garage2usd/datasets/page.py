@@ -125,13 +125,20 @@ def _charts(variety: Variety) -> list[Markup]:
         found = {split: {str(kind): many for kind, many in count(split=split).items()} for split in variety.splits}
         if any(many for kinds in found.values() for many in kinds.values()):
             histograms.append(bars(found, name))
+    if any(plan.levels > 1 for plan in variety.plans):
+        counts = {split: variety.level_counts(split=split) for split in variety.splits}
+        found = {split: {str(levels): many for levels, many in count.items()} for split, count in counts.items()}
+        histograms.append(bars(found, "Levels"))
     return [Markup(chart) for chart in histograms]  # noqa: S704 - matplotlib has escaped what it was given
 
 
 def _thumbnail(plan: PlanFigures) -> Markup:
     cells = cropped_cells(plan.cells)
     rows, cols = cells.shape
-    title = f"{plan.key}: {rows} x {cols} squares, {plan.stalls} stalls, {plan.area_per_stall_m2:.1f} m2 a stall"
+    levels = f" on each of {plan.levels} levels, drawn is U1" if plan.levels > 1 else ""
+    title = (
+        f"{plan.key}: {rows} x {cols} squares{levels}, {plan.stalls} stalls, {plan.area_per_stall_m2:.1f} m2 a stall"
+    )
     return Markup(to_svg(draw_thumbnail(cells, title)))  # noqa: S704 - ElementTree has escaped the key
 
 

@@ -1,34 +1,30 @@
 """Plans of a data set: drawn, compared up to symmetry, and redrawn if duplicate."""
 
-import json
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
-import pyarrow as pa
-from pydantic import Field
 
+from garage2usd.buildings import LevelsGarage, generate_levels
 from garage2usd.common.errors import ConfigError, Garage2UsdError, MissingExtraError
-from garage2usd.common.settings import Record
 from garage2usd.config import GarageConfig
-from garage2usd.datasets.difficulty import Level, garage_difficulty, stall_difficulties
+from garage2usd.datasets.difficulty import GarageDifficulty, garage_difficulty, stall_difficulties
+from garage2usd.datasets.drawn_plan import DrawnPlan
 from garage2usd.datasets.recipe import Distinct, Recipe
-from garage2usd.pipeline import generate, generate_plan
+from garage2usd.pipeline import Garage, generate, generate_plan
 from garage2usd.planning import Plan, evaluate, read_tail, tail_of
-from garage2usd.reading.report import LearningFigures
 from garage2usd.report import learning_figures
-from garage2usd.structure.grid import Structure, cells_from_text
-from garage2usd.structure.symmetry import plan_digest
+from garage2usd.structure.grid import Structure
+from garage2usd.structure.symmetry import levels_digest
 
 __all__ = [
-    "DrawnPlan",
     "PlanDraw",
     "chunks",
     "error_line",
-    "plan_table",
+    "levels_replanned",
     "planned",
-    "plans_of",
     "proportional",
+    "rated",
     "replanned",
 ]
 
@@ -36,57 +32,6 @@ Key = TypeVar("Key")
 
 _CHUNK = 8
 _SAME = 1e-9
-
-
-class DrawnPlan(Record):
-    """A drawn plan of a data set, or the reason for its failure.
-
-    Attributes
-    ----------
-    number, attempt
-        Number of the garage and number of its draw, both from 0.
-    seed
-        Seed of the garage, from which its settings are drawn.
-    alternatives
-        Name of the alternative of each group of the recipe.
-    rows
-        S with lanes, one string of symbols per row (see `garage2usd.structure.grid.Cell`); empty if drawing failed.
-    column_widths_mm, row_depths_mm
-        R and C in millimetres.
-    tail
-        Directions of aisles and kinds of stalls, as in the tape of a plan (`garage2usd.planning.tail_of`); empty if
-        aisles are two-way and stalls of the usual kind.
-    digest
-        Digest of S, equal for rotations and reflections (`garage2usd.structure.symmetry.plan_digest`).
-    gave_way
-        Required rules of circulation that the plan violates, with their places.
-    learning
-        Result of learning, before hill climbing.
-    level
-        Difficulty of the garage; None if the recipe does not control levels.
-    error
-        Reason for the failure; empty if the garage was planned.
-    """
-
-    number: int
-    attempt: int
-    seed: int
-    alternatives: dict[str, str] = Field(default_factory=dict)
-    rows: tuple[str, ...] = ()
-    column_widths_mm: tuple[int, ...] = ()
-    row_depths_mm: tuple[int, ...] = ()
-    tail: str = ""
-    digest: str = ""
-    gave_way: dict[str, str] = Field(default_factory=dict)
-    learning: LearningFigures | None = None
-    level: Level | None = None
-    error: str = ""
-
-    @property
-    def structure(self) -> Structure:
-        """The structure of the plan: S, R and C."""
-        cells = cells_from_text("\n".join(self.rows), field="S")
-        return Structure(cells, np.array(self.column_widths_mm), np.array(self.row_depths_mm))
 
 
 def planned(recipe: Recipe, requests: Sequence[tuple[int, int]]) -> list[DrawnPlan]:
@@ -105,32 +50,61 @@ def planned(recipe: Recipe, requests: Sequence[tuple[int, int]]) -> list[DrawnPl
 def _planned(recipe: Recipe, number: int, attempt: int) -> DrawnPlan:
     seed = recipe.garage_seed(number, attempt)
     try:
-        config, alternatives = recipe.drawn(seed)
-        plan = generate_plan(config)
-        level = _level(config, plan) if recipe.difficulty else None
+        config, alternatives = recipe.drawn(seed, number)
+        made = _levels_plan(config, recipe) if config.building.levels > 1 else _level_plan(config, recipe)
     except (OSError, MissingExtraError):  # a failure of the machine, not of this garage
         raise
     except Exception as error:  # noqa: BLE001 - one garage that fails does not end ten thousand
         return DrawnPlan(number=number, attempt=attempt, seed=seed, error=error_line(error))
+    return DrawnPlan(number=number, attempt=attempt, seed=seed, alternatives=alternatives, **made)
+
+
+def _level_plan(config: GarageConfig, recipe: Recipe) -> dict[str, Any]:
+    """Plan a garage of one level; return the fields of its `DrawnPlan`."""
+    plan = generate_plan(config)
+    level = rated(generate(config, plan=plan)).level if recipe.difficulty else None
     structure = plan.structure
-    return DrawnPlan(
-        number=number,
-        attempt=attempt,
-        seed=seed,
-        alternatives=alternatives,
-        rows=tuple(str(structure).splitlines()),
-        column_widths_mm=tuple(structure.column_widths_mm.tolist()),
-        row_depths_mm=tuple(structure.row_depths_mm.tolist()),
-        tail=tail_of(plan),
-        digest=plan_digest(structure.cells),
-        gave_way=dict(plan.gave_way),
-        learning=learning_figures(plan, config),
-        level=level,
-    )
+    return {
+        **_sides(structure),
+        "rows": _rows(structure),
+        "tail": tail_of(plan),
+        "digest": levels_digest([structure.cells]),
+        "gave_way": dict(plan.gave_way),
+        "learning": learning_figures(plan, config),
+        "level": level,
+    }
 
 
-def _level(config: GarageConfig, plan: Plan) -> Level | None:
-    return garage_difficulty(stall_difficulties(generate(config, plan=plan))).level
+def _levels_plan(config: GarageConfig, recipe: Recipe) -> dict[str, Any]:
+    """Plan a garage of several levels; return the fields of its `DrawnPlan`."""
+    garage = generate_levels(config)
+    top, *lower = structures = garage.building.levels
+    named = zip(garage.building.names(), garage.levels, strict=True)
+    return {
+        **_sides(top),
+        "rows": _rows(top),
+        "lower": tuple(map(_rows, lower)),
+        "tape": garage.tape,
+        "digest": levels_digest([structure.cells for structure in structures]),
+        "gave_way": {f"{name} {rule}": place for name, each in named for rule, place in each.plan.gave_way.items()},
+        "level": rated(*garage.levels).level if recipe.difficulty else None,
+    }
+
+
+def _sides(structure: Structure) -> dict[str, tuple[int, ...]]:
+    return {
+        "column_widths_mm": tuple(structure.column_widths_mm.tolist()),
+        "row_depths_mm": tuple(structure.row_depths_mm.tolist()),
+    }
+
+
+def _rows(structure: Structure) -> tuple[str, ...]:
+    return tuple(str(structure).splitlines())
+
+
+def rated(*levels: Garage) -> GarageDifficulty:
+    """Rate the difficulty of a garage by the stalls of its levels."""
+    return garage_difficulty([stall for level in levels for stall in stall_difficulties(level)])
 
 
 def error_line(error: Exception) -> str:
@@ -145,6 +119,21 @@ def replanned(drawn: DrawnPlan, config: GarageConfig) -> Plan:
     directions, runs = read_tail(structure, drawn.tail, config)
     score = evaluate(structure, bay=config.bay, plan=config.plan, runs=runs)
     return Plan(structure, score, gave_way=drawn.gave_way, runs=runs, directions=directions)
+
+
+def levels_replanned(drawn: DrawnPlan, config: GarageConfig) -> LevelsGarage:
+    """Make a drawn garage of several levels again from its tape.
+
+    Raises
+    ------
+    ConfigError
+        If the tape does not give the plans of all levels, as of a damaged table.
+    """
+    garage = generate_levels(config, tape=drawn.tape)
+    made = garage.building.levels
+    if [_rows(structure) for structure in made] != [drawn.rows, *drawn.lower] or made[0] != drawn.structure:
+        raise ConfigError("tape", drawn.tape, f"that of the plans of garage {drawn.number}")
+    return garage
 
 
 class PlanDraw:
@@ -245,49 +234,3 @@ def proportional(ratios: Mapping[Key, float], total: int) -> dict[Key, int]:
 def chunks(requests: Sequence[tuple[int, int]]) -> list[Sequence[tuple[int, int]]]:
     """Split requests for plans into tasks of some seconds, so that a lost worker costs little."""
     return [requests[first : first + _CHUNK] for first in range(0, len(requests), _CHUNK)]
-
-
-_SCHEMA = pa.schema(
-    [
-        pa.field("number", pa.int64(), nullable=False),
-        pa.field("attempt", pa.int32(), nullable=False),
-        pa.field("seed", pa.int64(), nullable=False),
-        pa.field("alternatives", pa.map_(pa.string(), pa.string()), nullable=False),
-        pa.field("rows", pa.list_(pa.string()), nullable=False),
-        pa.field("column_widths_mm", pa.list_(pa.int32()), nullable=False),
-        pa.field("row_depths_mm", pa.list_(pa.int32()), nullable=False),
-        pa.field("tail", pa.string(), nullable=False),
-        pa.field("digest", pa.string(), nullable=False),
-        pa.field("gave_way", pa.map_(pa.string(), pa.string()), nullable=False),
-        pa.field("learning", pa.string(), nullable=False),
-        pa.field("level", pa.string(), nullable=True),
-        pa.field("error", pa.string(), nullable=False),
-    ]
-)
-
-
-def plan_table(plans: Sequence[DrawnPlan]) -> pa.Table:
-    """Convert plans to a table, the inverse of `plans_of`; results of learning are JSON.
-
-    The column ``tail`` is left out where no plan has one.
-    """
-    schema = _SCHEMA if any(drawn.tail for drawn in plans) else _SCHEMA.remove(_SCHEMA.get_field_index("tail"))
-    rows = []
-    for drawn in plans:
-        row = drawn.model_dump(mode="json")
-        for name in ("alternatives", "gave_way"):
-            row[name] = sorted(row[name].items())
-        row["learning"] = "" if drawn.learning is None else drawn.learning.model_dump_json()
-        rows.append(row)
-    return pa.Table.from_pylist(rows, schema=schema)
-
-
-def plans_of(table: pa.Table) -> list[DrawnPlan]:
-    """Convert a table to plans."""
-    plans = []
-    for row in table.to_pylist():
-        for name in ("alternatives", "gave_way"):
-            row[name] = dict(row[name])
-        row["learning"] = json.loads(row["learning"]) if row["learning"] else None
-        plans.append(DrawnPlan.model_validate(row))
-    return plans

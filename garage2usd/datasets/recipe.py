@@ -1,7 +1,7 @@
 """The recipe of a data set: settings of garages, their outputs, splits and shards."""
+# Over 300 lines: each setting with its meaning, and the checks of all that a recipe may draw.
 
 import json
-import zlib
 from collections.abc import Iterator, Mapping
 from enum import StrEnum
 from functools import partial
@@ -20,6 +20,7 @@ from garage2usd.config import GarageConfig, config_from_mapping, profile_setting
 from garage2usd.datasets.difficulty import Level
 from garage2usd.datasets.distribution import Weight, distribution_of
 from garage2usd.datasets.drives import DrivesConfig
+from garage2usd.datasets.group_places import MOST_EVEN, drawn_place, even_place, setting_generator
 from garage2usd.datasets.settings_table import first_value, merge_settings, pin_textures, resolved
 from garage2usd.sensors.rig.rig import read_rig
 
@@ -138,6 +139,9 @@ class Recipe(Settings):
     are redrawn. Levels are not controlled if left out."""
     groups: dict[Name, tuple[Alternative, ...]] = Field(default_factory=dict)
     """Groups of alternatives; each garage draws one alternative of each group, whose settings override `garage`."""
+    even: tuple[Name, ...] = ()
+    """Groups whose alternatives are spread evenly over the numbers of the garages instead of drawn: their shares then
+    differ from the weights by few garages, also where plans are drawn again."""
     make: MakeConfig = MakeConfig()
     """Outputs for each garage."""
     shards: ShardsConfig = ShardsConfig()
@@ -156,12 +160,27 @@ class Recipe(Settings):
                 raise ValueError(f"in {group} one or more alternatives, each with a name of its own")
         return groups
 
+    @model_validator(mode="after")
+    def _of_groups(self) -> Self:
+        if unknown := sorted(set(self.even) - set(self.groups)):
+            raise ValueError(f"even with names of groups, not {', '.join(unknown)}")
+        if len(set(self.even)) < len(self.even) or len(self.even) > MOST_EVEN:
+            raise ValueError(f"even with at most {MOST_EVEN} groups, each once")
+        return self
+
     def garage_seed(self, number: int, attempt: int) -> int:
         """Return the seed of a garage at an attempt."""
         return derived_seed(self.seed, Step.GARAGES, number, attempt)
 
-    def drawn(self, seed: int) -> tuple[GarageConfig, dict[str, str]]:
+    def drawn(self, seed: int, number: int | None = None) -> tuple[GarageConfig, dict[str, str]]:
         """Draw the configuration of a garage and its alternatives, by group.
+
+        Parameters
+        ----------
+        seed
+            Seed of the garage at an attempt.
+        number
+            Number of the garage, which decides the alternatives of the groups in `even`; required if there are any.
 
         Each distribution has its own random generator, seeded by the name of its setting, so that adding or removing
         one distribution does not change the draws of the others.
@@ -169,22 +188,30 @@ class Recipe(Settings):
         Raises
         ------
         ConfigError
-            If the drawn settings are invalid.
+            If the drawn settings are invalid, or the number is missing.
         """
         chosen = {}
         settings = self.garage
         for group, alternatives in sorted(self.groups.items()):
             weights = np.cumsum([alternative.weight for alternative in alternatives])
-            place = _generator(seed, f"groups.{group}").random() * weights[-1]
+            place = self._place(seed, number, group) * weights[-1]
             alternative = alternatives[int(np.searchsorted(weights, place, side="right"))]
             chosen[group] = alternative.name
             settings = merge_settings(settings, alternative.garage)
 
         def draw(value: object, field: str) -> object:
             distribution = distribution_of(value, field=field)
-            return value if distribution is None else distribution.draw(_generator(seed, field))
+            return value if distribution is None else distribution.draw(setting_generator(seed, field))
 
         return self._config(resolved(settings, "garage", draw), seed), chosen
+
+    def _place(self, seed: int, number: int | None, group: str) -> float:
+        """Return the place of a garage among the alternatives of a group, from 0 to 1."""
+        if group not in self.even:
+            return drawn_place(seed, group)
+        if number is None:
+            raise ConfigError("number", number, f"the number of a garage, as the group {group} is spread evenly")
+        return even_place(self.seed, group, number, index=self.even.index(group))
 
     def record(self) -> str:
         """Return the recipe and the version of garage2usd as JSON, which `load_recipe` reads."""
@@ -228,9 +255,27 @@ class Recipe(Settings):
         if not self.make.self_contained and isinstance(stage, dict):
             given["stage"] = {**stage, "assets": "shared", "asset_folder": _FROM_SHARD}
         try:
-            return config_from_mapping({**given, "seed": seed})
+            config = config_from_mapping({**given, "seed": seed})
+            if config.building.levels > 1:
+                self._check_levels(config)
         except ConfigError as error:
-            raise ConfigError(f"garage.{error.field}", error.value, error.allowed) from None
+            within = "" if error.field.startswith("make.") else "garage."
+            raise ConfigError(f"{within}{error.field}", error.value, error.allowed) from None
+        return config
+
+    def _check_levels(self, config: GarageConfig) -> None:
+        """Refuse settings and outputs that several levels do not go with."""
+        from garage2usd.buildings import check_levels  # noqa: PLC0415 - it brings USD, which most recipes do without
+        from garage2usd.exports import LEVEL_SUFFIXES  # noqa: PLC0415
+
+        check_levels(config)
+        if self.make.drives:
+            wanted = "none in a recipe with building.levels of 2 or more, through which rigs are not recorded yet"
+            raise ConfigError("make.drives.rig", self.make.drives.rig.name, wanted)
+        refused = [name for name in self.make.exports if f".{name}" not in LEVEL_SUFFIXES]
+        if refused:
+            known = ", ".join(sorted(suffix.removeprefix(".") for suffix in LEVEL_SUFFIXES))
+            raise ConfigError("make.exports", refused, f"{known} in a recipe with building.levels of 2 or more")
 
 
 def load_recipe(path: str | Path) -> Recipe:
@@ -271,13 +316,6 @@ def _recorded(path: Path) -> dict[str, Any]:
     if not isinstance(document, dict) or not isinstance(document.get(_RECIPE_KEY), dict):
         raise ConfigError("RECIPE", str(path), f"a recipe (TOML), or a data set's {RECIPE_FILE}")
     return dict(document[_RECIPE_KEY])
-
-
-def _generator(seed: int, field: str) -> np.random.Generator:
-    """Create the random generator of one distribution for one garage."""
-    return np.random.Generator(
-        np.random.PCG64(np.random.SeedSequence([seed, int(Step.SETTINGS), zlib.crc32(field.encode())]))
-    )
 
 
 def _refuse(settings: Mapping[str, Any], keys: tuple[str, ...], allowed: str) -> None:

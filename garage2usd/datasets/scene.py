@@ -4,22 +4,24 @@ import gzip
 import hashlib
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import asdict
 from pathlib import Path
+from typing import Any, NamedTuple
 
-from garage2usd.checks import Severity, judged_layout
+from garage2usd.buildings import levels_report
+from garage2usd.checks import Finding, Severity, judged_layout
 from garage2usd.common.json_text import json_text
-from garage2usd.datasets.difficulty import garage_difficulty, stall_difficulties
+from garage2usd.config import GarageConfig
+from garage2usd.datasets.difficulty import stall_difficulties
+from garage2usd.datasets.drawn_plan import DrawnPlan
 from garage2usd.datasets.drives import record_drives
-from garage2usd.datasets.manifest import FileEntry, ManifestRow
-from garage2usd.datasets.plans import DrawnPlan, replanned
+from garage2usd.datasets.garage_figures import garage_figures
+from garage2usd.datasets.level_files import levels_difficulties, write_difficulty, write_level_files
+from garage2usd.datasets.manifest import FileEntry, LinkEntry, ManifestRow
+from garage2usd.datasets.plans import levels_replanned, replanned
 from garage2usd.datasets.recipe import MakeConfig, Recipe
-from garage2usd.driving import StallProof, prove_stalls
+from garage2usd.driving import prove_stalls
 from garage2usd.exports import export
-from garage2usd.garage import StallUse
 from garage2usd.pipeline import Garage, generate, stage_metadata
-from garage2usd.planning import measured_circulation
-from garage2usd.reading.report import Report
 from garage2usd.report import make_report, write_report
 from garage2usd.stage import StageFormat, arrangement_of, write_labels, write_stage
 from garage2usd.view.plan_picture import draw_plan
@@ -64,30 +66,13 @@ def make_scene(
     Garage2UsdError
         If the garage cannot be built.
     """
-    config, alternatives = recipe.drawn(drawn.seed)
-    garage = generate(config, plan=replanned(drawn, config))
+    config, alternatives = recipe.drawn(drawn.seed, drawn.number)
     stem = f"{drawn.number:0{_DIGITS}}"
-    found, unmet = judged_layout(garage.layout, config)
-    report = make_report(
-        config=config,
-        plan=garage.plan,
-        layout=garage.layout,
-        seconds={},
-        learning=drawn.learning,
-        unmet=unmet,
-    )
-    write_report(folder / f"{stem}.report.json", report)
-    make, difficulty = recipe.make, dict[str, str | int | float]()
-    stage = _write_files(garage, folder, stem, make, assets)
-    if make.difficulty or make.drives:
-        proofs = prove_stalls(garage.layout, most_explained=0)
-        if make.difficulty:
-            difficulty = _difficulty(garage, proofs, folder / f"{stem}.difficulty.json")
-        if make.drives and stage:
-            record_drives(stage, make.drives, proofs, seed=drawn.seed, settings=config.maps.drive)
-    if make.gzip:
+    make = _level_files if config.building.levels == 1 else _levels_files
+    made = make(recipe.make, drawn, config, folder / stem, assets)
+    if recipe.make.gzip:
         _compress(folder, stem)
-    findings = Counter(finding.severity for finding in found)
+    severities = Counter(finding.severity for finding in made.findings)
     return ManifestRow(
         number=drawn.number,
         key=key_of(shard, drawn.number),
@@ -96,13 +81,73 @@ def make_scene(
         seed=drawn.seed,
         attempt=drawn.attempt,
         alternatives=alternatives,
+        country=config.standard.country,
         plan_digest=drawn.digest,
-        check_errors=findings[Severity.ERROR],
-        check_warnings=findings[Severity.WARNING],
-        **difficulty,
+        check_errors=severities[Severity.ERROR],
+        check_warnings=severities[Severity.WARNING],
         files=tuple(_entry(path, stem) for path in sorted(folder.glob(f"{stem}.*"))),
-        **_figures(garage, report),
+        **made.figures,
     )
+
+
+class _Made(NamedTuple):
+    """Fields of a garage's manifest row, and the findings of the quick rules on it."""
+
+    figures: dict[str, Any]
+    findings: Sequence[Finding]
+
+
+def _level_files(make: MakeConfig, drawn: DrawnPlan, config: GarageConfig, place: Path, assets: Path | None) -> _Made:
+    """Write the files of a garage of one level; `place` is their folder and stem."""
+    garage = generate(config, plan=replanned(drawn, config))
+    findings, unmet = judged_layout(garage.layout, config)
+    report = make_report(
+        config=config,
+        plan=garage.plan,
+        layout=garage.layout,
+        seconds={},
+        learning=drawn.learning,
+        unmet=unmet,
+    )
+    write_report(place.with_name(f"{place.name}.report.json"), report)
+    stage = _write_files(garage, place.parent, place.name, make, assets)
+    difficulty = dict[str, Any]()
+    if make.difficulty or make.drives:
+        proofs = prove_stalls(garage.layout, most_explained=0)
+        if make.difficulty:
+            rated = stall_difficulties(garage, proofs=proofs)
+            difficulty = write_difficulty(rated, place.with_name(f"{place.name}.difficulty.json"))
+        if make.drives and stage:
+            record_drives(stage, make.drives, proofs, seed=drawn.seed, settings=config.maps.drive)
+    digests = {"config_digest": report.config_digest, "structure_digest": report.structure_digest}
+    return _Made({**digests, **garage_figures([garage]), **difficulty}, findings)
+
+
+def _levels_files(make: MakeConfig, drawn: DrawnPlan, config: GarageConfig, place: Path, assets: Path | None) -> _Made:
+    """Write the files of a garage of several levels; `place` is their folder and stem."""
+    garage = levels_replanned(drawn, config)
+    judged = [judged_layout(level.layout, level.config) for level in garage.levels]
+    report = levels_report(garage, {}, [unmet for _, unmet in judged])
+    place.with_name(f"{place.name}.report.json").write_text(
+        json_text(report.model_dump(mode="json")), encoding="utf-8", newline="\n"
+    )
+    write_level_files(garage, place, make, assets)
+    difficulty = dict[str, Any]()
+    if make.difficulty:
+        rated = levels_difficulties(garage)
+        difficulty = write_difficulty(rated, place.with_name(f"{place.name}.difficulty.json"))
+    structures = [structure.digest() for structure in garage.building.levels]
+    figures = {
+        "config_digest": report.config_digest,
+        "structure_digest": hashlib.sha256("".join(structures).encode()).hexdigest(),
+        "links": tuple(
+            LinkEntry(kind=link.kind, upper=link.upper, lower=link.lower, direction=link.direction)
+            for link in report.links
+        ),
+        **garage_figures(garage.levels),
+        **difficulty,
+    }
+    return _Made(figures, [finding for findings, _ in judged for finding in findings])
 
 
 def _write_files(garage: Garage, folder: Path, stem: str, make: MakeConfig, assets: Path | None) -> Path | None:
@@ -129,46 +174,6 @@ def _write_files(garage: Garage, folder: Path, stem: str, make: MakeConfig, asse
     if make.plan:
         write_png(to_image(draw_plan(garage.layout)), folder / f"{stem}.plan.png")
     return stage
-
-
-def _difficulty(garage: Garage, proofs: Sequence[StallProof], path: Path) -> dict[str, str | int | float]:
-    """Write the difficulty of each stall to a file, and return the manifest's difficulty fields."""
-    stalls = stall_difficulties(garage, proofs=proofs)
-    table = [{"score": stall.score, "level": stall.level, **asdict(stall.features)} for stall in stalls]
-    path.write_text(json_text({"stalls": table}), encoding="utf-8", newline="\n")
-    found = garage_difficulty(stalls)
-    return {
-        "difficulty": str(found.level or ""),
-        "difficulty_score": -1.0 if found.score is None else found.score,
-        "normal_stalls": found.normal,
-        "complex_stalls": found.complex,
-        "extreme_stalls": found.extreme,
-        "unproven_stalls": found.unproven,
-    }
-
-
-def _figures(garage: Garage, report: Report) -> dict[str, str | int | float]:
-    layout, uses = garage.layout, Counter(stall.use for stall in garage.layout.quads)
-    counts = layout.counts()
-    circulation = measured_circulation(layout.structure)
-    light = layout.illuminance
-    return {
-        "config_digest": report.config_digest,
-        "structure_digest": report.structure_digest,
-        "rows": layout.structure.shape[0],
-        "cols": layout.structure.shape[1],
-        "squares": counts["floor"],
-        "stalls": layout.parking_stalls,
-        "standard_stalls": uses[StallUse.STANDARD],
-        "ev_stalls": uses[StallUse.EV],
-        "accessible_stalls": uses[StallUse.ACCESSIBLE],
-        "cars": counts["car"],
-        "loops": circulation.circulation.loops,
-        "longest_dead_end_m": circulation.dead_end_m,
-        "area_per_stall_m2": report.area_per_stall_m2 or 0.0,
-        "stair_cores": len(layout.cores),
-        "mean_lux": light.stalls.mean if light and light.stalls else 0.0,
-    }
 
 
 def _compress(folder: Path, stem: str) -> None:

@@ -13,8 +13,9 @@ from pathlib import Path
 from garage2usd.common.errors import MissingExtraError
 from garage2usd.common.output import HIDDEN_PREFIX, store, writing
 from garage2usd.common.randomness import Step, generator
+from garage2usd.datasets.drawn_plan import DrawnPlan
 from garage2usd.datasets.manifest import ManifestRow, rows_of_text, text_of_rows
-from garage2usd.datasets.plans import DrawnPlan, error_line, proportional
+from garage2usd.datasets.plans import error_line, proportional
 from garage2usd.datasets.recipe import ASSET_FOLDER, Recipe, ShardForm
 from garage2usd.datasets.scene import make_scene
 

@@ -45,6 +45,10 @@ class PlanFigures:
         Shape of the contour.
     level
         Difficulty of the garage; None if it is not rated.
+    levels
+        Number of levels; all figures but `cells` and `contour`, which are those of the top one, are of all levels.
+    of_levels
+        Digest of the plans of all levels; that of `cells` if left out.
     """
 
     key: str
@@ -56,6 +60,8 @@ class PlanFigures:
     area_per_stall_m2: float
     contour: ContourShape
     level: Level | None = None
+    levels: int = 1
+    of_levels: str | None = None
 
     @cached_property
     def canonical(self) -> CellArray:
@@ -64,8 +70,8 @@ class PlanFigures:
 
     @cached_property
     def digest(self) -> str:
-        """Digest of the plan, equal for its rotations and reflections."""
-        return plan_digest(self.canonical)
+        """Digest of the plans of all levels, equal for their rotations and reflections."""
+        return self.of_levels or plan_digest(self.canonical)
 
     @property
     def squares(self) -> int:
@@ -156,6 +162,11 @@ class Variety:
         """Count plans by difficulty level, of a split or in total, without unrated ones."""
         count = Counter(plan.level for plan in self._of(split))
         return {level: count[level] for level in Level}
+
+    def level_counts(self, *, split: str | None = None) -> dict[int, int]:
+        """Count plans by their number of levels, of a split or in total."""
+        count = Counter(plan.levels for plan in self._of(split))
+        return {levels: count[levels] for levels in range(1, max((plan.levels for plan in self.plans), default=1) + 1)}
 
     @cached_property
     def distinct(self) -> int:

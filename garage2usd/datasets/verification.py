@@ -10,18 +10,21 @@ from pathlib import Path
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from garage2usd.checks import Severity, check_file
+from garage2usd.as_built.levels import BuiltLevels
+from garage2usd.checks import RULES, Severity, check
+from garage2usd.checks.levels import check_levels, read_stage
 from garage2usd.common.errors import ConfigError, Garage2UsdError
 from garage2usd.common.output import staging_folder
 from garage2usd.common.progress import Progress, silent
 from garage2usd.common.system import link_folder
+from garage2usd.datasets.drawn_plan import DrawnPlan, plans_of
 from garage2usd.datasets.making import LINES_FILE, PLAN_FILE, TABLE_FILE
 from garage2usd.datasets.manifest import MANIFEST_SCHEMA, ManifestRow, rows_of_table, rows_of_text
-from garage2usd.datasets.plans import DrawnPlan, plans_of
 from garage2usd.datasets.recipe import ASSET_FOLDER, RECIPE_FILE, Distinct, Recipe, load_recipe
 from garage2usd.datasets.shards import SHARD_FOLDER, shard_members
 from garage2usd.datasets.sums import SUMS_FILE, files_of, read_sums, sha256_of
-from garage2usd.structure.symmetry import plan_digest
+from garage2usd.profiles import Profile
+from garage2usd.structure.symmetry import levels_digest
 
 __all__ = ["Fault", "verify_dataset"]
 
@@ -146,7 +149,7 @@ def _of_plans(recipe: Recipe, rows: Sequence[ManifestRow], plans: Sequence[Drawn
         if row.error:
             continue
         drawn = by_number.get(row.number)
-        digest = plan_digest(drawn.structure.cells) if drawn and not drawn.error else ""
+        digest = levels_digest(drawn.levels_cells()) if drawn and not drawn.error else ""
         if digest != row.plan_digest:
             yield Fault(row.key, f"has another plan in {PLAN_FILE}")
         same[digest].append(row)
@@ -186,12 +189,13 @@ def _faults_of_shard(folder: Path, recipe: Recipe, task: _Task) -> Iterator[Faul
             for suffix in _STAGES:
                 stage = staging / SHARD_FOLDER / f"{row.key}{suffix}"
                 if stage.is_file():
-                    yield from _of_stage(stage, row.key)
+                    yield from _of_stage(stage, row.key, recipe.drawn(row.seed, row.number)[0].standard)
 
 
-def _of_stage(stage: Path, key: str) -> Iterator[Fault]:
+def _of_stage(stage: Path, key: str, profile: Profile) -> Iterator[Fault]:
     try:
-        findings, profile = check_file(stage)
+        garage, _ = read_stage(stage, profile=profile)
+        findings = check_levels(garage, profile, RULES) if isinstance(garage, BuiltLevels) else check(garage, profile)
     except Garage2UsdError as error:
         yield Fault(key, f"its stage does not open ({error})")
         return

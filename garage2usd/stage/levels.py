@@ -29,6 +29,7 @@ __all__ = ["LevelLayout", "write_level_labels", "write_levels_stage"]
 _PHYSICS = "PhysicsScene"
 _ALL = "all"
 _POINT_OFFSET_DECIMALS = 3
+_INT_END = 2**31
 
 
 class LevelLayout(NamedTuple):
@@ -83,6 +84,7 @@ def write_levels_stage(
     metadata: Mapping[str, str | int],
     config: StageConfig,
     shared: Path | None = None,
+    own: str | None = None,
     progress: Progress = silent,
 ) -> StageFiles:
     """Write a stage of several levels into a folder of its own.
@@ -101,6 +103,9 @@ def write_levels_stage(
         Texture quality and form.
     shared
         Folder of the assets that it shares with others, as for `garage2usd.stage.write_stage`.
+    own
+        Prefix of the names of the levels' layers and of their own ones, which then stand beside the stage; only with
+        shared assets. If left out, they stand in a folder named by `garage2usd.stage.asset_folder_name`.
     progress
         Called with each prototype that is written.
 
@@ -115,26 +120,31 @@ def write_levels_stage(
     graph of the whole building takes the place of those of the levels.
     """
     packed, is_flat = path.suffix == StageFormat.USDZ, config.form is StageForm.FLAT
-    folder = path.parent / ("assets" if packed else asset_folder_name(path))
-    folder.mkdir()
-    assets = "." if shared is None else posixpath.join("..", config.asset_folder)
+    beside = own is not None and shared is not None
+    if beside:
+        folder, layers, assets = path.parent, f"{own}", config.asset_folder
+    else:
+        folder = path.parent / ("assets" if packed else asset_folder_name(path))
+        folder.mkdir()
+        layers = f"{folder.name}/"
+        assets = "." if shared is None else posixpath.join("..", config.asset_folder)
     form = StageForm.INSTANCED if is_flat else config.form
     of_level = config.model_copy(update={"assets": AssetPlace.SHARED, "asset_folder": assets, "form": form})
     for level in levels:
         write_stage(
             level.layout,
-            folder / f"{level.name}.usdc",
+            path.parent / f"{layers}{level.name}.usdc",
             arrangement=arrangement_of(level.layout, of_level),
             metadata=level.metadata,
             config=of_level,
             shared=folder if shared is None else shared,
-            own=f"{level.name}_",
+            own=f"{own}{level.name}." if beside else f"{level.name}_",
             progress=progress,
         )
-    write_lane_graph(folder / LANE_GRAPH_FILE, lanes)
+    write_lane_graph(path.parent / f"{layers}{LANE_GRAPH_FILE}", lanes)
     layer_path = path.with_suffix(".usda") if packed else path
     layer = Sdf.Layer.CreateAnonymous(".usda")
-    layer.ImportFromString(_root_text(levels, lanes, folder.name, path, metadata))
+    layer.ImportFromString(_root_text(levels, lanes, layers, path, metadata))
     layer.Export(str(layer_path))
     if is_flat:
         flat = layer_path.with_stem(f"{layer_path.stem}_flat")
@@ -142,6 +152,8 @@ def write_levels_stage(
         flat.replace(layer_path)
         for asset in folder.glob("*.usdc"):
             asset.unlink()
+    if beside:
+        return StageFiles(path, None)
     if not packed:
         return StageFiles(path, folder if any(folder.iterdir()) else None)
     files = sorted(file for file in folder.rglob("*") if file.is_file())
@@ -153,12 +165,12 @@ def write_levels_stage(
 
 
 def _root_text(
-    levels: Sequence[LevelLayout], lanes: Drivable, folder: str, path: Path, metadata: Mapping[str, str | int]
+    levels: Sequence[LevelLayout], lanes: Drivable, layers: str, path: Path, metadata: Mapping[str, str | int]
 ) -> str:
-    """Return the root layer as text."""
-    last_frame = max(_last_frame(path.parent / folder / f"{level.name}.usdc") for level in levels)
+    """Return the root layer as text; `layers` precedes the names of the layers that it refers to."""
+    last_frame = max(_last_frame(path.parent / f"{layers}{level.name}.usdc") for level in levels)
     data = "".join(
-        f"int {key} = {value}\n" if isinstance(value, int) else f'string {key} = "{value}"\n'
+        f"{_integer_type(value)} {key} = {value}\n" if isinstance(value, int) else f'string {key} = "{value}"\n'
         for key, value in metadata.items()
     )
     names = ", ".join(f'"{level.name}"' for level in levels)
@@ -167,7 +179,7 @@ def _root_text(
     set_names = ", ".join(f'"{name}"' for name, _, _ in sets)
     selections = "".join(f'string {name} = "{usual}"\n' for name, usual, _ in sets)
     bodies = "".join(body for _, _, body in sets)
-    places = "".join(_level_text(level, folder) for level in levels)
+    places = "".join(_level_text(level, layers) for level in levels)
     return (
         f'#usda 1.0\n(\ndefaultPrim = "{ROOT_NAME}"\nendTimeCode = {last_frame}\nframesPerSecond = 24\n'
         "kilogramsPerUnit = 1\nmetersPerUnit = 1\nstartTimeCode = 0\ntimeCodesPerSecond = 24\n"
@@ -176,16 +188,21 @@ def _root_text(
         f"variants = {{\n{selections}}}\nprepend variantSets = [{set_names}]\n)\n{{\n{bodies}"
         f'def Xform "{LEVELS}" (\nkind = "group"\n)\n{{\n{places}}}\n'
         f'def "{Path(LANE_GRAPH_FILE).stem}" (\n'
-        f"prepend references = @{anchored(f'{folder}/{LANE_GRAPH_FILE}')}@\n)\n{{\n}}\n"
+        f"prepend references = @{anchored(f'{layers}{LANE_GRAPH_FILE}')}@\n)\n{{\n}}\n"
         f'def {_PHYSICS} "{_PHYSICS}"\n{{\n}}\n}}\n'
     )
 
 
-def _level_text(level: LevelLayout, folder: str) -> str:
+def _integer_type(value: int) -> str:
+    """Return the type in which USD's Python module stores an integer."""
+    return "int" if abs(value) < _INT_END else "int64"
+
+
+def _level_text(level: LevelLayout, layers: str) -> str:
     """Return the prim of a level, without what the whole garage has once."""
     off = "".join(f'over "{name}" (\nactive = false\n)\n{{\n}}\n' for name in (Path(LANE_GRAPH_FILE).stem, _PHYSICS))
     return (
-        f'def "{level.name}" (\nprepend references = @{anchored(f"{folder}/{level.name}.usdc")}@\n)\n{{\n'
+        f'def "{level.name}" (\nprepend references = @{anchored(f"{layers}{level.name}.usdc")}@\n)\n{{\n'
         f"float3 xformOp:translate = (0, {level.floor_m}, 0)\n"
         f'uniform token[] xformOpOrder = ["xformOp:translate"]\n{off}}}\n'
     )

@@ -1,12 +1,13 @@
 """Canonical form and digest of plans, equal for all rotations and reflections."""
 
 import hashlib
+from collections.abc import Sequence
 
 import numpy as np
 
 from garage2usd.structure.grid import Cell, CellArray
 
-__all__ = ["canonical_cells", "cropped_cells", "eight_symmetries", "plan_digest"]
+__all__ = ["canonical_cells", "cropped_cells", "eight_symmetries", "levels_digest", "plan_digest"]
 
 
 def cropped_cells(cells: CellArray) -> CellArray:
@@ -77,6 +78,31 @@ def plan_digest(cells: CellArray) -> str:
     Plans of equal digest are the same arrangement of squares up to rotation, reflection and the sizes of the squares.
     """
     canonical = canonical_cells(cells)
+    digest = hashlib.sha256(np.array(canonical.shape, dtype="<i8").tobytes())
+    digest.update(canonical.tobytes())
+    return digest.hexdigest()
+
+
+def levels_digest(levels: Sequence[CellArray]) -> str:
+    """Compute the SHA-256 digest, in hex, of the plans of all levels of a building.
+
+    Parameters
+    ----------
+    levels
+        S of each level, the top one first; int8, shape (rows, cols) each.
+
+    Notes
+    -----
+    The digest is equal for rotations and reflections of the whole building, and that of one level is its `plan_digest`.
+    """
+    if len(levels) == 1:
+        return plan_digest(levels[0])
+    # cropped alike: levels of one contour are framed by the squares that are inside on any of them
+    inside = np.max(np.stack(levels), axis=0)
+    rows, cols = (np.flatnonzero((inside != Cell.OBSTACLE).any(axis=axis)) for axis in (1, 0))
+    framed = [level[rows[0] : rows[-1] + 1, cols[0] : cols[-1] + 1] for level in levels] if rows.size else list(levels)
+    images = (np.stack(image) for image in zip(*map(eight_symmetries, framed), strict=True))
+    canonical = min(images, key=_order)
     digest = hashlib.sha256(np.array(canonical.shape, dtype="<i8").tobytes())
     digest.update(canonical.tobytes())
     return digest.hexdigest()

@@ -11,7 +11,7 @@ import shapely
 from numpy.typing import NDArray
 
 from garage2usd.garage import Arc, LaneGraph, Point
-from garage2usd.survey.stall_shapes import PARALLEL_DEG, StallShape, snapped_yaw_rad, stall_shape, with_parallel_rear
+from garage2usd.survey.stall_shapes import PARALLEL_DEG, FittedShape, snapped_yaw_rad, stall_shape, with_parallel_rear
 from garage2usd.survey.survey import Survey, SurveyedStall, Unplaced
 
 __all__ = ["FittedStall", "fitted_stalls"]
@@ -35,19 +35,8 @@ class FittedStall:
     ----------
     source
         The stall in the survey.
-    centre
-        (x, z) of its middle.
-    width_m, length_m
-        Sides of the rectangle for a car.
-    yaw_rad
-        Yaw about +Y of a car parked nose in, 0 where its nose points to -Z.
-    angle_deg
-        Angle of its long sides to the lane: 90 for perpendicular stalls, 0 for parallel ones.
-    turn
-        1 if cars enter an angled stall by a turn to the right, and for a parallel one with the lane on the left, seen
-        towards the nose; else -1.
-    outwards
-        Unit vector (x, z) from its rear to its mouth.
+    shape
+        Its rectangle or parallelogram.
     access
         Number of the lane node in front of its mouth.
     note
@@ -55,13 +44,7 @@ class FittedStall:
     """
 
     source: SurveyedStall
-    centre: Point
-    width_m: float
-    length_m: float
-    yaw_rad: float
-    angle_deg: float
-    turn: int
-    outwards: Point
+    shape: FittedShape
     access: int
     note: str = ""
 
@@ -138,10 +121,10 @@ class _Fitting:
                 continue
             if shape.angle_deg == PARALLEL_DEG:
                 shape = self._along_traffic(shape, access)
-            fitted.append(FittedStall(stall, *shape, access, note))
+            fitted.append(FittedStall(stall, shape, access, note))
         return tuple(fitted), tuple(unplaced)
 
-    def _reshaped(self, number: int, mouth: _Mouth) -> tuple[StallShape | None, str]:
+    def _reshaped(self, number: int, mouth: _Mouth) -> tuple[FittedShape | None, str]:
         """Return the shape of a stall with its rear laid parallel to its mouth, and what that changes."""
         laid = with_parallel_rear(np.roll(np.array(self._stalls[number].corners), -mouth.side, axis=0))
         if laid is None:
@@ -286,7 +269,7 @@ class _Fitting:
             return f"no route {' and '.join(missing) or 'without a turn on the spot'} over its lane"
         return order[0]
 
-    def _along_traffic(self, shape: StallShape, access: int) -> StallShape:
+    def _along_traffic(self, shape: FittedShape, access: int) -> FittedShape:
         """Turn a parallel stall so that its car looks along the traffic of a one-way lane beside it."""
         arcs: list[Arc] = [arc for arc, edge in self._lanes.arcs.items() if access in arc and edge.one_way]
         arcs = [arc for arc in arcs if not self._is_gate(*arc)]

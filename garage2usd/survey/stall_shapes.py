@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from garage2usd.garage import Point
 
-__all__ = ["PARALLEL_DEG", "StallShape", "snapped_yaw_rad", "stall_shape", "with_parallel_rear"]
+__all__ = ["PARALLEL_DEG", "FittedShape", "snapped_yaw_rad", "stall_shape", "with_parallel_rear"]
 
 Floats = NDArray[np.float64]
 _SQUARE_DEG, _LEAST_ANGLE_DEG, _PARALLEL_SIDES_DEG = 1.0, 25.0, 3.0
@@ -21,7 +21,7 @@ _QUARTER_RAD = 1e-3
 _DIGITS, _YAW_DIGITS = 6, 9
 
 
-class StallShape(NamedTuple):
+class FittedShape(NamedTuple):
     """The rectangle or parallelogram of a stall.
 
     Attributes
@@ -50,7 +50,7 @@ class StallShape(NamedTuple):
     outwards: Point
 
 
-def stall_shape(given: ArrayLike, side: int, keeps_left: bool) -> StallShape | str:  # noqa: FBT001 - a fact of the country
+def stall_shape(given: ArrayLike, side: int, keeps_left: bool) -> FittedShape | str:  # noqa: FBT001 - a fact of the country
     """Return the rectangle or parallelogram of a stall, or the reason that there is none.
 
     Parameters
@@ -91,7 +91,7 @@ def stall_shape(given: ArrayLike, side: int, keeps_left: bool) -> StallShape | s
         yaw = math.atan2(out_x, out_z)
     if width_m < _LEAST_WIDTH_M or length_m < _LEAST_LENGTH_M:
         return f"{width_m:.2f} by {length_m:.2f} m for a car, below {_LEAST_WIDTH_M:g} by {_LEAST_LENGTH_M:g}"
-    shape = StallShape(
+    shape = FittedShape(
         (round(float(centre[0]), _DIGITS), round(float(centre[1]), _DIGITS)),
         round(width_m, _DIGITS),
         round(length_m, _DIGITS),
@@ -143,7 +143,7 @@ def snapped_yaw_rad(yaw_rad: float) -> float:
     return round(yaw_rad, _YAW_DIGITS)
 
 
-def _off_m(corners: Floats, shape: StallShape) -> float:
+def _off_m(corners: Floats, shape: FittedShape) -> float:
     """Return the greatest distance of the corners of a stall from those of its shape."""
     out = np.array(shape.outwards)
     right = np.array([out[1], -out[0]])

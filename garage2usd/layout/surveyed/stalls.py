@@ -19,29 +19,30 @@ def placed_stalls(
 ) -> tuple[tuple[PlacedStall, ...], tuple[FittedStall, ...]]:
     """Return the stalls by tile in reading order, each with a number that people read, and the fitted ones likewise."""
     fitted = list(fitted)
-    square_of = [ground.square_at(stall.centre) for stall in fitted]
+    square_of = [ground.square_at(stall.shape.centre) for stall in fitted]
     numbers = _numbers(fitted)
     order = sorted(range(len(fitted)), key=lambda index: (square_of[index], index))
     ordinals: Counter[tuple[int, int]] = Counter()
     stalls = []
     for index in order:
         stall, square = fitted[index], square_of[index]
+        shape = stall.shape
         ordinals[square] += 1
-        out_x, out_z = stall.outwards
+        out_x, out_z = shape.outwards
         stalls.append(
             PlacedStall(
                 square=square,
                 ordinal=ordinals[square],
                 edge=max(Edge, key=lambda edge: _OUTWARDS[edge][0] * out_x + _OUTWARDS[edge][1] * out_z),
                 stall_type=StallType.TYPE_3,
-                centre_m=stall.centre,
-                width_m=stall.width_m,
-                length_m=stall.length_m,
-                yaw_rad=stall.yaw_rad,
+                centre_m=shape.centre,
+                width_m=shape.width_m,
+                length_m=shape.length_m,
+                yaw_rad=shape.yaw_rad,
                 use=stall.source.use,
                 number=numbers[index] if stall.source.use.takes_cars else "",
-                angle_deg=stall.angle_deg,
-                turn=stall.turn,
+                angle_deg=shape.angle_deg,
+                turn=shape.turn,
                 size=stall.source.size.value,
             )
         )

@@ -77,3 +77,45 @@ def test_what_is_no_distribution_is_refused(value, field):
 @pytest.mark.parametrize("value", [3, "range", [1, 2], {"width_cells": 4}, {}])
 def test_other_values_are_themselves(value):
     assert distribution_of(value, field="x") is None
+
+
+def test_beta_draws_are_scaled_between_their_ends():
+    values = drawn({"beta": [1.3, 2.0]})
+    assert stats.kstest(values, stats.beta(1.3, 2.0).cdf).pvalue > LEAST_P
+    values = drawn({"beta": [2, 3], "within": [5.5, 7.3]})
+    assert stats.kstest(values, stats.beta(2, 3, 5.5, 1.8).cdf).pvalue > LEAST_P
+    assert distribution_of({"beta": [1, 1], "within": [5.5, 7.3]}, field="x").ends() == (5.5, 7.3)
+
+
+def test_log_normal_draws_are_cut_at_their_ends():
+    values = drawn({"log_normal": [150, 0.7], "within": [60.0, 350.0]})
+    whole = stats.lognorm(0.7, scale=150)
+    low, high = whole.cdf([60, 350])
+    assert stats.kstest(values, lambda x: (whole.cdf(x) - low) / (high - low)).pvalue > LEAST_P
+    assert min(values) >= 60
+    assert max(values) <= 350
+
+
+def test_whole_log_normal_draws_have_each_number_by_its_share():
+    values = drawn({"log_normal": [11, 0.3], "within": [9, 14]})
+    assert all(isinstance(value, int) for value in values)
+    edges = stats.lognorm(0.3, scale=11).cdf(np.arange(8.5, 15))
+    expected = np.diff(edges) / (edges[-1] - edges[0])
+    counts = np.bincount(values, minlength=15)[9:]
+    assert stats.chisquare(counts, DRAWS * expected).pvalue > LEAST_P
+
+
+@pytest.mark.parametrize(
+    ("value", "field"),
+    [
+        ({"beta": [0, 1]}, "x.beta.0"),
+        ({"beta": [1, 1], "within": [1, 0]}, "x"),
+        ({"log_normal": [150, 0.7]}, "x.within"),
+        ({"log_normal": [-1, 0.7], "within": [1, 2]}, "x.log_normal.0"),
+        ({"log_normal": [150, 0.1], "within": [1000, 2000]}, "x"),
+    ],
+)
+def test_beta_and_log_normal_distributions_that_cannot_be_drawn_are_refused(value, field):
+    with pytest.raises(ConfigError) as caught:
+        distribution_of(value, field="x")
+    assert caught.value.field.startswith(field)

@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from support.data_sets import small_recipe
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.datasets.plans import DrawnPlan, PlanDraw, plan_table, planned, plans_of, proportional, replanned
+from garage2usd.datasets.drawn_plan import DrawnPlan, plan_table, plans_of
+from garage2usd.datasets.plans import PlanDraw, planned, proportional, replanned
 from garage2usd.pipeline import generate
 from garage2usd.structure.symmetry import plan_digest
 

@@ -140,3 +140,27 @@ def test_textures_of_a_recipe_are_beside_it_and_pinned_by_what_they_hold(tmp_pat
 def generate_stage(config, folder):
     own = config.model_copy(update={"stage": config.stage.model_copy(update={"assets": AssetPlace.OWN})})
     return build(own, folder / "garage.usdc")
+
+
+def test_even_groups_have_their_shares_over_any_numbers_and_together():
+    first = [{"name": "a", "weight": 0.35}, {"name": "b", "weight": 0.65}]
+    second = [{"name": "c", "weight": 0.1}, {"name": "d", "weight": 0.9}]
+    recipe = small_recipe(groups={"one": first, "two": second, "three": first}, even=["one", "two"])
+    drawn = [recipe.drawn(recipe.garage_seed(n, n % 3), n)[1] for n in range(400)]
+    assert recipe.drawn(7, 5)[1]["one"] == recipe.drawn(8, 5)[1]["one"]
+    for start, end in ((0, 400), (100, 200), (333, 400)):
+        part = drawn[start:end]
+        assert abs(sum(each["one"] == "a" for each in part) - 0.35 * len(part)) <= 2
+        assert abs(sum(each["two"] == "c" for each in part) - 0.1 * len(part)) <= 2
+    assert abs(sum(each["one"] == "a" and each["two"] == "c" for each in drawn) - 0.035 * 400) <= 5
+    with pytest.raises(ConfigError, match="number"):
+        recipe.drawn(7)
+    with pytest.raises(ConfigError, match="even with names of groups"):
+        load_with(even=["four"])
+
+
+def load_with(**changes):
+    from garage2usd.common.settings import validated
+    from garage2usd.datasets.recipe import Recipe
+
+    return validated(Recipe, {"name": "x", **changes})

@@ -125,9 +125,9 @@ def test_lanes_are_as_wide_as_the_ground_between_stalls():
 def test_stalls_open_onto_their_lane(stall, kind, outwards):
     (found,), unplaced = fitted(lot(stall))
     assert not unplaced
-    assert np.allclose(found.outwards, outwards, atol=1e-3)
+    assert np.allclose(found.shape.outwards, outwards, atol=1e-3)
     angle = {"perpendicular": 90.0, "parallel": 0.0}.get(kind)
-    assert found.angle_deg == angle or (angle is None and found.angle_deg == pytest.approx(60, abs=0.1))
+    assert found.shape.angle_deg == angle or (angle is None and found.shape.angle_deg == pytest.approx(60, abs=0.1))
 
 
 def test_parallel_cars_look_along_traffic():
@@ -135,12 +135,12 @@ def test_parallel_cars_look_along_traffic():
     ahead = {}
     for keeps_left in (False, True):
         (found,), _ = fitted(lot(stall), keeps_left=keeps_left)
-        ahead[keeps_left] = -math.sin(found.yaw_rad)
+        ahead[keeps_left] = -math.sin(found.shape.yaw_rad)
     # the lane is south of the stall: who keeps to the right drives west there
     assert ahead == {False: pytest.approx(-1), True: pytest.approx(1)}
     one_way = SurveyedLane(LANE.points, 4.0, one_way=True)
     (found,), _ = fitted(lot(stall, lanes=(one_way,)))
-    assert -math.sin(found.yaw_rad) == pytest.approx(1)
+    assert -math.sin(found.shape.yaw_rad) == pytest.approx(1)
 
 
 @pytest.mark.parametrize(
@@ -173,7 +173,7 @@ def test_a_square_rear_is_laid_parallel_to_the_mouth_and_said_so():
     (found,), unplaced = fitted(lot(SurveyedStall("1", corners)))
     assert not unplaced
     assert found.note == "its rear is laid parallel to its mouth, by which a corner moves 2.50 m"
-    assert (found.width_m, found.length_m) == (pytest.approx(2.5, abs=0.01), pytest.approx(5.0, abs=0.01))
+    assert (found.shape.width_m, found.shape.length_m) == (pytest.approx(2.5, abs=0.01), pytest.approx(5.0, abs=0.01))
 
 
 @settings(deadline=None, max_examples=80)
