@@ -80,14 +80,12 @@ def _beside_floor(ramp: Thing) -> Iterator[Body]:
     """Yield the bodies of a ramp that rise above its floor."""
     floors = floors_of_ramps([ramp])
     for body in ramp.bodies:
-        if _is_sheet(body):
-            continue
         points = body.world_points()
         lifts = [
             points[:, 1] - np.interp((points[:, [0, 2]] - floor.foot_m) @ floor.uphill, floor.runs_m, floor.heights_m)
             for floor in floors
         ]
-        if not any(lift.max() <= _CARRIED_M for lift in lifts):
+        if not (_is_sheet(body) or any(lift.max() <= _CARRIED_M for lift in lifts)):
             yield body
 
 
