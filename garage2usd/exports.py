@@ -41,7 +41,7 @@ _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO, _GRID = ".json", ".glb", ".osm", ".
 _AREAS = ".add.xml"
 _OF_EXTRA = {_LANELET2: ("a Lanelet2 map", "pyproj"), _SCENARIO: ("a scenario", "scenariogeneration")}
 """Formats that need a module of an extra, with their description and that module, by extension."""
-LEVEL_SUFFIXES = frozenset({_LANELET2, _MAP, _SCENE})
+LEVEL_SUFFIXES = frozenset({_GRID, _LANELET2, _MAP, _SCENE})
 """Extensions of the formats in which a garage of several levels can be written."""
 Notice = Callable[[str], None]
 """Callback for a line on data that a format cannot represent."""
@@ -60,6 +60,8 @@ class _Source:
                 if suffix not in LEVEL_SUFFIXES:
                     refuse_levels(self.stage, self.name, f"export to {suffix}")
             if len({*formats} - {_SCENE}) > 1:
+                _ = self.levels
+            if {_LANELET2, _MAP} <= {*formats}:
                 _ = self.level_networks
             return
         of_lanes = [suffix for suffix in formats if suffix != _SCENE]
@@ -109,12 +111,15 @@ class _Asked(NamedTuple):
         Separator between the stem and the names of a grid's masks.
     road_file
         Name of the map beside it to which a scenario and SUMO's parking areas refer.
+    levels
+        Names of the levels of a garage of several levels, each of which has an occupancy grid of its own.
     """
 
     place: Path
     settings: MapsConfig
     joint: str
     road_file: str
+    levels: tuple[str, ...] = ()
 
     @property
     def format(self) -> str:
@@ -126,7 +131,15 @@ class _Asked(NamedTuple):
         path = folder / self.place.name
         if self.format == _AREAS:
             return path, path.with_name(f"{_stem_of(path)}{NETWORK_SUFFIX}")
-        return grid_files(path, self.settings.grid, joint=self.joint) if self.format == _GRID else (path,)
+        if self.format != _GRID:
+            return (path,)
+        grids = [grid_files(grid, self.settings.grid, joint=self.joint) for grid in self.grids(folder)]
+        return tuple(file for files in grids for file in files)
+
+    def grids(self, folder: Path) -> list[Path]:
+        """Paths in `folder` of the occupancy grids, one for each level."""
+        path = folder / self.place.name
+        return [path.with_stem(f"{path.stem}{self.joint}{name}") for name in self.levels] or [path]
 
 
 _Write = Callable[["_Source", Path, _Asked, Remarks], object]
@@ -145,7 +158,10 @@ def _opendrive(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) ->
 
 
 def _grid(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
-    write_grid(source.garage, path, asked.settings.grid, joint=asked.joint)
+    levels = source.levels
+    garages = [source.garage] if levels is None else [level.garage for level in levels.levels]
+    for garage, file in zip(garages, asked.grids(path.parent), strict=True):
+        write_grid(garage, file, asked.settings.grid, joint=asked.joint)
 
 
 def _lanelet2(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
@@ -245,7 +261,8 @@ def export(
         One or more files, whose extensions select the formats: ``.glb`` a scene as binary glTF 2.0, ``.osm`` a Lanelet2
         map, ``.xodr`` an OpenDRIVE 1.8 map, ``.xosc`` an OpenSCENARIO 1.2 scenario with a ``.xodr`` map of the same
         stem beside it, ``.yaml`` an occupancy grid for robots with its image (``.pgm``) and, depending on the settings,
-        masks, ``.add.xml`` the stalls as parking areas of SUMO, with the map that their network is made of and
+        masks, for each level of a garage of several levels (``a_U1.yaml``), ``.add.xml`` the stalls as parking areas of
+        SUMO, with the map that their network is made of and
         netconvert's configuration for it (``.netccfg``) beside it.
     settings
         Settings of maps, grids and drives; if left out, those of the report, else the defaults.
@@ -260,7 +277,7 @@ def export(
         Called with a line for each kind of data that a format cannot represent: the file's name, the reason, the number
         of cases, and the first few places.
     joint
-        Separator between the stem of a grid and the names of its masks: ``a_keepout.yaml``.
+        Separator between the stem of a grid and the names of its level and masks: ``a_keepout.yaml``.
 
     Returns
     -------
@@ -302,6 +319,10 @@ def export(
         with without_collector():
             opened = _Source(stage, str(source))
             opened.read_for([asked.format for asked in files])
+            names = tuple(level.name for level in levels_of(opened.stage))
+            if names:
+                files = [asked._replace(levels=names) for asked in files]
+                _check_files(files)
             tasks = [partial(_write, opened, staging / str(number), files[number]) for number in order]
             progress("export", 0, len(files))
             for number, (written, lines) in zip(order, run_in_forks(tasks, workers), strict=True):
@@ -328,16 +349,19 @@ def check_exports(
         if place in asked[:number]:
             raise ConfigError("output", str(place), "each file once")
     places = tuple(_with_maps(asked))
-    brought = [
-        file for each in _asked(places, settings or MapsConfig(), joint) for file in each.files(each.place.parent)
-    ]
+    _check_files(_asked(places, settings or MapsConfig(), joint))
+    check_formats(map(_format_of, places))
+    return places
+
+
+def _check_files(asked: Sequence[_Asked]) -> None:
+    """Check that no two outputs write the same file, and that all can be written."""
+    brought = [file for each in asked for file in each.files(each.place.parent)]
     for number, file in enumerate(brought):
         if file in brought[:number]:
             raise ConfigError("output", str(file), "paths of which none is a file that another one brings with it")
         check_name(file)
         check_file(file)
-    check_formats(map(_format_of, places))
-    return places
 
 
 def check_formats(suffixes: Iterable[str]) -> None:

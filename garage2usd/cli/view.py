@@ -24,7 +24,8 @@ def view(*, path: Path, port: int, no_browser: bool) -> None:
     """Show the stage at PATH (.usd, .usda, .usdc or .usdz) in a browser until Ctrl-C.
 
     Only this machine can see it, and nothing is fetched from elsewhere. Drag to orbit, or walk with W A S D; click an
-    object for its class, id and prim, and on a stall for its number, use and type.
+    object for its class, id and prim, and on a stall for its number, use and type. A garage of several levels has a
+    switch of levels, which hides those above.
 
     \b
     Examples:
@@ -33,12 +34,10 @@ def view(*, path: Path, port: int, no_browser: bool) -> None:
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.common.limits import lift  # noqa: PLC0415 - keeps --help instant
     from garage2usd.reading.files import open_stage  # noqa: PLC0415
-    from garage2usd.reading.levels import refuse_levels  # noqa: PLC0415
     from garage2usd.view.viewer import ViewerServer, read_scene  # noqa: PLC0415
 
     start = time.perf_counter()
     stage = open_stage(path)
-    refuse_levels(stage, str(path), "the viewer")
     with ViewerServer(port) as server:
         try:
             click.echo(f"{path.name} at {server.url}")

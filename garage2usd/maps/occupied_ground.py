@@ -6,6 +6,7 @@ import numpy as np
 import shapely
 
 from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built.driven_road import floors_of_ramps
 from garage2usd.as_built.openings import section_of
 from garage2usd.as_built.placed_pieces import placed_pieces
 from garage2usd.as_built.shapes import Body, Thing
@@ -17,6 +18,8 @@ __all__ = ["floor_of", "occupied_ground", "ramp_floors"]
 _DOOR, _RAMP, _FLOOR, _DRIVEN_OVER = "vehicle_door", "ramp", "floor", "speed_bump"
 _TOUCH_M = 1e-4
 """Distance below which section lines belong to one body."""
+_CARRIED_M = 1e-3
+"""Greatest height above a ramp's floor of a body that carries it."""
 _LEAST_UP = 0.1
 """Least upward component of a floor face's normal, which allows ramps with grooves."""
 
@@ -49,7 +52,7 @@ def occupied_ground(garage: BuiltGarage, low_m: float, high_m: float) -> Iterato
     -----
     Solids are those of `garage2usd.as_built.solids.Solids`, without speed bumps, which cars drive over. A vehicle door
     is represented by its sections at every height where its shape changes, since its convex hull would close it. Ramps
-    are included without their floors.
+    are included without their floors and the slabs that carry these.
     """
     for solid in garage.solids.between(low_m, high_m):
         if solid.label not in {_DOOR, _RAMP, _DRIVEN_OVER}:
@@ -57,9 +60,11 @@ def occupied_ground(garage: BuiltGarage, low_m: float, high_m: float) -> Iterato
     for thing in garage.things:
         if thing.label == _DOOR:
             yield from _sections(thing, low_m, high_m)
-    for body in _bodies(garage, _RAMP):
-        if not _is_sheet(body):
-            yield from hulls_of([outline for outline, low, high in body.pieces() if low <= high_m and high >= low_m])
+    for thing in garage.things:
+        if thing.label == _RAMP:
+            for body in _beside_floor(thing):
+                pieces = body.pieces()
+                yield from hulls_of([outline for outline, low, high in pieces if low <= high_m and high >= low_m])
 
 
 def _bodies(garage: BuiltGarage, label: str) -> Iterator[Body]:
@@ -69,6 +74,19 @@ def _bodies(garage: BuiltGarage, label: str) -> Iterator[Body]:
 def _is_sheet(body: Body) -> bool:
     """Test if all faces of a body look up, as those of a floor."""
     return all(face.normal[1] >= _LEAST_UP for face in body.faces())
+
+
+def _beside_floor(ramp: Thing) -> Iterator[Body]:
+    """Yield the bodies of a ramp that rise above its floor."""
+    floors = floors_of_ramps([ramp])
+    for body in ramp.bodies:
+        points = body.world_points()
+        lifts = [
+            points[:, 1] - np.interp((points[:, [0, 2]] - floor.foot_m) @ floor.uphill, floor.runs_m, floor.heights_m)
+            for floor in floors
+        ]
+        if not (_is_sheet(body) or any(lift.max() <= _CARRIED_M for lift in lifts)):
+            yield body
 
 
 def _sections(thing: Thing, low_m: float, high_m: float) -> Iterator[shapely.Geometry]:

@@ -4,13 +4,17 @@ import json
 
 import numpy as np
 import pytest
+import shapely
 import trimesh
+from support.browser import find_browser
 from support.glb_reader import Glb, assert_like_the_stage
 from support.gltf_validator import find_node, find_validator, validated
 from support.label_tables import labelled_objects
-from support.level_judge import LevelJudge
+from support.level_judge import LevelJudge, above, first_hits
+from support.map_reader import FREE, OCCUPIED, UNKNOWN, read_map
 from support.places import MILLIMETRE
 from support.small_levels import FLOORS_M, SMALL_LEVELS
+from support.viewer_page import viewed
 
 import garage2usd
 
@@ -72,3 +76,123 @@ def test_no_material_of_a_scene_is_written_twice_and_cars_stand_in_stalls_of_the
     cars = [node for node in glb.nodes if node.get("extras", {}).get("class") == "car"]
     homes = {(node["name"].split("/")[3], node["extras"]["stall"]["id"].partition("/")[0]) for node in cars}
     assert homes == {(name, name) for name in FLOORS_M}
+
+
+def test_an_occupancy_grid_has_the_obstacles_of_its_level_only(built, judge, tmp_path):
+    written = garage2usd.export(built.stage, [tmp_path / "map.yaml"])
+    assert [file.name for file in written] == [f"map_{name}.{end}" for name in FLOORS_M for end in ("yaml", "pgm")]
+    objects = labelled_objects(built.labels)
+    on_both = 0
+    for number, name in enumerate(FLOORS_M):
+        grid = read_map(tmp_path / f"map_{name}.yaml")
+        cars = {level: [] for level in FLOORS_M}
+        for thing in objects:
+            (x0, _, z0), (x1, _, z1) = thing["min_m"], thing["max_m"]
+            level, middle = thing["path"].split("/")[3], ((x0 + x1) / 2, -(z0 + z1) / 2)
+            if thing["class"] == "car":
+                cars[level].append(middle)
+            elif thing["class"] == "column" and level == name:
+                assert value_at(grid, middle) == OCCUPIED
+        assert all(value_at(grid, car) == OCCUPIED for car in cars[name])
+        (others,) = (places for level, places in cars.items() if level != name)
+        alone = [place for place in others if min(np.hypot(*np.subtract(place, car)) for car in cars[name]) > 4]
+        values = [value_at(grid, place) for place in alone]
+        on_both += values.count(FREE)
+        assert OCCUPIED not in [
+            value for value, place in zip(values, alone, strict=True) if is_on_stall(judge, place, number)
+        ]
+        own = [place for place, level in zip(judge.places, judge.levels, strict=True) if level == number]
+        nodes = [place for place in own if place[1] < FLOORS_M[name] + 3.5]  # the head of a ramp is on the level above
+        assert {value_at(grid, (x, -z)) for x, _, z in nodes} == {FREE}
+        for ramp in judge.ramps():
+            x, _, z = ramp[len(ramp) // 2 - 1 : len(ramp) // 2 + 1].mean(axis=0)
+            assert value_at(grid, (x, -z)) == (UNKNOWN if name == "U1" else FREE)
+    assert on_both
+
+
+def value_at(grid, place):
+    """The value of the cell at (x, y)."""
+    column, row = np.floor((np.array(place) - grid.origin) / grid.side).astype(int)
+    return grid.cells[row, column]
+
+
+def is_on_stall(judge, place, level):
+    """Whether (x, y) is in a stall of a level."""
+    return any(
+        shapely.Polygon(outline[:, [0, 2]]).contains(shapely.Point(place[0], -place[1]))
+        for outline, own in zip(judge.outlines, judge.stall_levels, strict=True)
+        if own == level
+    )
+
+
+def floors_below_m(judge, places):
+    """Heights of the floors and ramps of the stage's meshes under places, by rays from a metre above."""
+    places = np.asarray(places)
+    drive = judge.mesh("floor", "ramp")
+    far = first_hits(drive, above(places, 1.0), np.tile([0.0, -1.0, 0.0], (len(places), 1)))
+    return places[:, 1] + 1.0 - far
+
+
+@pytest.fixture(scope="module")
+def page(built):
+    with viewed(built.stage) as opened:
+        yield opened
+        assert opened.complaints == []
+
+
+@pytest.mark.skipif(find_browser() is None, reason="no Chromium on the path")
+def test_the_viewer_hides_the_levels_above_the_chosen_one(page, judge):
+    assert [button.inner_text() for button in page.page.query_selector_all("#levels button")] == [*FLOORS_M]
+    visible = "viewer.scene.paths.filter((path, k) => viewer.instances.visible[k])"
+    shown = f"{visible}.map((path) => path.split('/')[3])"
+    assert {*page.eval(shown)} == {*FLOORS_M}
+    for number, (name, floor_m) in reversed([*enumerate(FLOORS_M.items())]):
+        page.page.click(f"#level-{name}")
+        page.rest()
+        assert {*page.eval(shown)} == {*list(FLOORS_M)[number:]}
+        assert page.page.get_attribute(f"#level-{name}", "aria-pressed") == "true"
+        stall = next(k for k, level in enumerate(judge.stall_levels) if level == number and judge.numbers[k])
+        x, y, z = judge.outlines[stall].mean(axis=0)
+        page.eval(
+            f"viewer.orbit.target.set({x}, {y}, {z}), viewer.camera.position.set({x + 1}, {y + 22}, {z + 4}),"
+            " viewer.orbit.update(), viewer.touch()"
+        )
+        page.rest()
+        page.page.mouse.click(*page.screen((x, y, z)))
+        facts = page.facts()
+        assert (facts["Level"], facts["Stall id"]) == (name, judge.stall_ids[stall])
+        assert facts["Number"] == judge.numbers[stall]
+        assert facts["Prim"].startswith(f"/Garage/Levels/{name}/")
+        assert page.eval("viewer.orbit.target.y") == pytest.approx(floor_m, abs=0.01)
+    # a number without its level is one of the level that is shown
+    page.page.fill("#query", judge.numbers[stall].partition("/")[2])
+    page.page.keyboard.press("Enter")
+    assert page.facts()["Stall id"] == judge.stall_ids[stall]
+    page.eval("document.activeElement.blur(), viewer.select(-1)")
+
+
+@pytest.mark.skipif(find_browser() is None, reason="no Chromium on the path")
+def test_one_walks_down_a_ramp_and_stands_on_each_floor(page, judge):
+    for name, floor_m in FLOORS_M.items():
+        page.page.keyboard.press("1")
+        page.eval(f"document.getElementById('level-{name}').click()")
+        page.page.keyboard.press("2")
+        page.rest()
+        assert page.eval("viewer.camera.position.y") == pytest.approx(floor_m + 1.65, abs=0.01)
+        assert page.page.inner_text("#place").startswith(f"{name} ")
+    down = next(ramp for ramp in judge.ramps() if ramp[0, 1] > ramp[-1, 1])
+    way = down[-1] - down[0]
+    # beside the middle of the ramp, as rays may miss the edges that the triangles of its floor share there
+    x, z = down[0, [0, 2]] + 0.37 * np.array([way[2], -way[0]]) / np.hypot(way[0], way[2])
+    assert page.eval(f"viewer.walkAt({x}, {z}, {np.arctan2(-way[0], -way[2])}, 0)")
+    feet = page.eval(
+        "(() => { const found = []; viewer.walker.key('KeyW', true); for (let k = 0; k < 130; k++) {"
+        " viewer.walker.advance(0.1); found.push(viewer.walker.feet.toArray()); }"
+        " viewer.walker.release(); viewer.touch(); return found; })()"
+    )
+    feet = np.array(feet)
+    assert (feet[0, 1], feet[:, 1].min()) == pytest.approx((FLOORS_M["U1"], FLOORS_M["U2"]), abs=0.01)
+    assert np.abs(feet[:, 1] - floors_below_m(judge, feet)).max() < MILLIMETRE
+    page.rest()
+    assert page.page.get_attribute("#level-U2", "aria-pressed") == "true"
+    assert page.page.inner_text("#place").startswith("U2 ")

@@ -192,9 +192,7 @@ def test_a_drive_goes_down_the_ramp_into_a_stall_and_back_to_the_street(built):
 @pytest.mark.parametrize(
     "arguments",
     [
-        ("view", "{stage}", "--no-browser"),
         ("drive", "{stage}"),
-        ("export", "{stage}", "-o", "a.yaml"),
         ("export", "{stage}", "-o", "a.xosc"),
         ("plan", "{stage}", "--stall", "U2/A1-01"),
         ("check", "{report}"),

@@ -10,6 +10,7 @@ from pxr import Usd
 from garage2usd.common.errors import StageError
 from garage2usd.reading.label_table import read_label_table
 from garage2usd.reading.lanes import read_lanes
+from garage2usd.reading.levels import levels_of
 from garage2usd.reading.values import metres_y_up
 from garage2usd.view.viewer.looks import Looks
 from garage2usd.view.viewer.scene import Placed, Scene, Shape, box_corners, moved
@@ -53,6 +54,7 @@ def read_scene(stage: Usd.Stage, path: Path) -> Scene:
         ids=_ids(path),
         bounds_m=_bounds_m(objects, looks.shapes.values),
         remarks=remarks,
+        levels=levels_of(stage),
     )
 
 

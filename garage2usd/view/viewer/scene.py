@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.reading.lanes import Lanes
+from garage2usd.reading.levels import StageLevel
 from garage2usd.reading.meshes import Triangles
 from garage2usd.reading.pictures import Bands, Pictures
 from garage2usd.view.viewer.surfaces import ShownSurface
@@ -162,6 +163,8 @@ class Scene:
         Least and greatest corner of the scene; float64, shape (2, 3).
     remarks
         Descriptions of everything that is not shown.
+    levels
+        The levels of a garage of several levels, the top one first.
     """
 
     name: str
@@ -176,6 +179,7 @@ class Scene:
     ids: Mapping[str, int]
     bounds_m: NDArray[np.float64]
     remarks: Sequence[str] = field(default_factory=tuple)
+    levels: Sequence[StageLevel] = ()
 
     def counts(self) -> dict[str, int]:
         """Number of objects of each class, in descending order."""

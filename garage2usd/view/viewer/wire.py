@@ -37,6 +37,7 @@ def encode_scene(scene: Scene) -> bytes:
         "facts": dict(scene.facts),
         "remarks": list(scene.remarks),
         "boundsM": np.round(scene.bounds_m, 4).tolist(),
+        "levels": [{"name": level.name, "path": level.path} for level in scene.levels],
         "labels": labels,
         "squares": squares,
         "textures": len(scene.textures),
@@ -175,6 +176,7 @@ def _lanes(lanes: Lanes, buffers: _Buffers) -> dict[str, Any]:
     return {
         "nodes": buffers.add(np.array(middles, np.float32)),
         "kinds": [node.kind for node in lanes.nodes],
+        "levels": [node.level for node in lanes.nodes],
         "edges": buffers.add(np.array([(edge.start, edge.end) for edge in lanes.edges], np.uint32)),
         "forward": [edge.one_way for edge in lanes.edges],
         "stalls": [_stall(stall) for stall in lanes.stalls],
@@ -184,4 +186,5 @@ def _lanes(lanes: Lanes, buffers: _Buffers) -> dict[str, Any]:
 
 def _stall(stall: Stall) -> dict[str, Any]:
     corners = np.round(np.array(stall.corners, np.float32), 4).tolist()
-    return {"id": stall.name, "use": stall.use, "accessNode": stall.access, **dict(stall.facts), "corners": corners}
+    own = {"id": stall.name, "use": stall.use, "accessNode": stall.access, "level": stall.level}
+    return {**own, **dict(stall.facts), "corners": corners}

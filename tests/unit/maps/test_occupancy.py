@@ -165,7 +165,7 @@ FAULTS = (
     Fault("unknown read as free", "occupancy", "_FREE_THRESHOLD = 0.65, 0.196", "_FREE_THRESHOLD = 0.65, 0.25"),
     Fault("every cell that is touched", "occupancy", "_NEAR_CELLS = 0.25", "_NEAR_CELLS = 2.0"),
     Fault("doors shut", "occupied_ground", "if solid.label not in {_DOOR, _RAMP,", "if solid.label not in {_RAMP,"),
-    Fault("ramps filled", "occupied_ground", "if not _is_sheet(body):", "if True:"),
+    Fault("ramps filled", "occupied_ground", "if not (_is_sheet(body)", "if True or (_is_sheet(body)"),
     Fault(
         "what hangs counts",
         "occupied_ground",

@@ -9,24 +9,28 @@ const LANE_WIDTH_M = 0.36;
 const NODE_RADIUS_M = 0.75;
 const NODE_SIDES = 20;
 const ARROW_M = 1.4;
+const ARROW_LIFT_M = LIFT_M + 0.004;
 const LANE_COLOUR = "#ffd84d";
 const STALL_INSET_M = 0.12;
+
+type Corner = [number, number, number];
 
 /** Triangles on the floor, each corner with a colour. */
 class Flat {
   private readonly places: number[] = [];
   private readonly colours: number[] = [];
 
-  triangle(y: number, corners: [number, number][], colour: THREE.Color): void {
-    for (const [x, z] of corners) {
-      this.places.push(x, y, z);
+  /** Corners are (x, y, z). */
+  triangle(corners: Corner[], colour: THREE.Color): void {
+    for (const corner of corners) {
+      this.places.push(...corner);
       this.colours.push(colour.r, colour.g, colour.b);
     }
   }
 
-  quad(y: number, [a, b, c, d]: [number, number][], colour: THREE.Color): void {
-    this.triangle(y, [a, b, c], colour);
-    this.triangle(y, [a, c, d], colour);
+  quad([a, b, c, d]: Corner[], colour: THREE.Color): void {
+    this.triangle([a, b, c], colour);
+    this.triangle([a, c, d], colour);
   }
 
   mesh(opacity: number): THREE.Mesh {
@@ -50,28 +54,33 @@ class Flat {
   }
 }
 
-export function laneGraphOf(lanes: Lanes): THREE.Object3D {
+/** Of each level, the lanes and the ramps that lead up from it. */
+export function laneGraphOf(lanes: Lanes, levels: number): THREE.Object3D {
+  return grouped(levels, (level) => lanesOf(lanes, level));
+}
+
+function lanesOf(lanes: Lanes, level: number): THREE.Mesh {
   const flat = new Flat();
   const colour = new THREE.Color(LANE_COLOUR);
   lanes.forward.forEach((forward, edge) => {
-    const [from, to] = [3 * lanes.edges[2 * edge], 3 * lanes.edges[2 * edge + 1]];
+    const ends = [lanes.edges[2 * edge], lanes.edges[2 * edge + 1]];
+    if (Math.max(...ends.map((end) => lanes.levels[end])) !== level) return;
+    const [from, to] = ends.map((end) => 3 * end);
     const n = lanes.nodes;
-    const y = (n[from + 1] + n[to + 1]) / 2 + LIFT_M;
     const length = Math.hypot(n[to] - n[from], n[to + 2] - n[from + 2]) || 1;
     const [dx, dz] = [(n[to] - n[from]) / length, (n[to + 2] - n[from + 2]) / length];
-    const at = (node: number, along: number, across: number): [number, number] => [
-      n[node] + along * dx - across * dz,
-      n[node + 2] + along * dz + across * dx,
+    const at = (along: number, across: number, lift = LIFT_M): Corner => [
+      n[from] + along * dx - across * dz,
+      n[from + 1] + (along / length) * (n[to + 1] - n[from + 1]) + lift,
+      n[from + 2] + along * dz + across * dx,
     ];
     const half = LANE_WIDTH_M / 2;
-    flat.quad(y, [at(from, 0, -half), at(from, 0, half), at(to, 0, half), at(to, 0, -half)], colour);
+    flat.quad([at(0, -half), at(0, half), at(length, half), at(length, -half)], colour);
     const middle = length / 2;
-    const arrow = (sign: number, centre: number) =>
-      flat.triangle(
-        y + 0.004,
-        [at(from, centre + sign * ARROW_M * 0.6, 0), at(from, centre - sign * ARROW_M * 0.4, -0.65), at(from, centre - sign * ARROW_M * 0.4, 0.65)],
-        colour,
-      );
+    const arrow = (sign: number, centre: number) => {
+      const [tip, base] = [centre + sign * ARROW_M * 0.6, centre - sign * ARROW_M * 0.4];
+      flat.triangle([at(tip, 0, ARROW_LIFT_M), at(base, -0.65, ARROW_LIFT_M), at(base, 0.65, ARROW_LIFT_M)], colour);
+    };
     if (forward) arrow(1, middle);
     else {
       arrow(1, middle + 0.9);
@@ -79,31 +88,45 @@ export function laneGraphOf(lanes: Lanes): THREE.Object3D {
     }
   });
   lanes.kinds.forEach((kind, node) => {
+    if (lanes.levels[node] !== level) return;
     const [x, y, z] = lanes.nodes.subarray(3 * node, 3 * node + 3);
     const shade = new THREE.Color(NODE_COLOURS[kind] ?? "#ffffff");
     const radius = kind === "entrance" || kind === "exit" ? 1.6 * NODE_RADIUS_M : NODE_RADIUS_M;
     for (let k = 0; k < NODE_SIDES; k++) {
       const [a, b] = [k, k + 1].map((step) => (step * 2 * Math.PI) / NODE_SIDES);
-      const rim = (angle: number): [number, number] => [x + radius * Math.cos(angle), z + radius * Math.sin(angle)];
-      flat.triangle(y + LIFT_M + 0.008, [[x, z], rim(a), rim(b)], shade);
+      const high = y + LIFT_M + 0.008;
+      const rim = (angle: number): Corner => [x + radius * Math.cos(angle), high, z + radius * Math.sin(angle)];
+      flat.triangle([[x, high, z], rim(a), rim(b)], shade);
     }
   });
   return flat.mesh(1);
 }
 
-export function stallPlanOf(lanes: Lanes, floor: number): THREE.Object3D {
+export function stallPlanOf(lanes: Lanes, floors: number[]): THREE.Object3D {
+  return grouped(floors.length, (level) => stallsOf(lanes, level, floors[level]));
+}
+
+function stallsOf(lanes: Lanes, level: number, floor: number): THREE.Mesh {
   const flat = new Flat();
   for (const stall of lanes.stalls) {
+    if (stall.level !== level) continue;
     const colour = new THREE.Color(USE_COLOURS[stall.use ?? ""] ?? "#9aa5b1");
     const [cx, cz] = middleOf(stall.corners);
-    const inset = stall.corners.map(([x, z]): [number, number] => {
+    const inset = stall.corners.map(([x, z]): Corner => {
       const length = Math.hypot(x - cx, z - cz);
       const share = (length - STALL_INSET_M * Math.SQRT2) / length;
-      return [cx + share * (x - cx), cz + share * (z - cz)];
+      return [cx + share * (x - cx), floor + 0.03, cz + share * (z - cz)];
     });
-    flat.quad(floor + 0.03, inset, colour);
+    flat.quad(inset, colour);
   }
   return flat.mesh(0.55);
+}
+
+/** A group with a child for each level. */
+function grouped(levels: number, of: (level: number) => THREE.Mesh): THREE.Group {
+  const group = new THREE.Group();
+  for (let level = 0; level < levels; level++) group.add(of(level));
+  return group;
 }
 
 export function middleOf(corners: [number, number][]): [number, number] {

@@ -1,5 +1,5 @@
 /**
- * The light of the whole garage as one picture of its plan, so that hundreds of tubes cost a surface one look-up.
+ * The light of each level as one picture of its plan, so that hundreds of tubes cost a surface one look-up.
  *
  * Red is the square root of a quarter of the direct light on the floor (1 is what most of the lit floor has), green how
  * much of the ceiling shines, blue how much of the light reaches the floor past cars and columns.
@@ -19,9 +19,15 @@ const SHADE_BLUR_M = 0.35;
 const SHADE = 0.62;
 
 export interface LightPlan {
+  /** A layer for each level. */
   texture: THREE.Texture;
   /** Least x and z in metres, and one by the metres across and along. */
   frame: THREE.Vector4;
+  /** The top one first. */
+  levels: LevelLight[];
+}
+
+export interface LevelLight {
   /** Height of the lights in metres. */
   height: number;
   /** Height of the floor in metres. */
@@ -31,6 +37,7 @@ export interface LightPlan {
 }
 
 interface Lamp {
+  level: number;
   x: number;
   y: number;
   z: number;
@@ -48,25 +55,30 @@ export function lightPlanOf(scene: SceneFile, boxes: Boxes): LightPlan {
   const [width, depth] = [x1 - x0 + 2 * MARGIN_M, z1 - z0 + 2 * MARGIN_M];
   const texel = Math.max(FINEST_M, Math.max(width, depth) / MOST_TEXELS);
   const [columns, rows] = [Math.ceil(width / texel), Math.ceil(depth / texel)];
-  const lamps = lampsOf(scene);
-  const heights = lamps.map((lamp) => lamp.y).sort((a, b) => a - b);
-  const floor = floorHeight(scene, boxes);
-  const { field, across, along, lit } = directLight(lamps, floor, left, back, width, depth);
+  const all = lampsOf(scene);
+  const levels: LevelLight[] = [];
+  const layers = new Uint8Array(4 * columns * rows * scene.levels);
+  for (let level = 0; level < scene.levels; level++) {
+    const lamps = all.filter((lamp) => lamp.level === level);
+    const data = layers.subarray(4 * columns * rows * level, 4 * columns * rows * (level + 1));
+    const heights = lamps.map((lamp) => lamp.y).sort((a, b) => a - b);
+    const floor = floorHeight(scene, boxes, level);
+    const { field, across, along, lit } = directLight(lamps, floor, left, back, width, depth);
+    for (let row = 0; row < rows; row++)
+      for (let column = 0; column < columns; column++) {
+        const light = between(field, across, along, ((column + 0.5) * texel) / COARSE_M, ((row + 0.5) * texel) / COARSE_M);
+        const at = 4 * (row * columns + column);
+        data[at] = Math.min(255, 255 * Math.sqrt(light / 4));
+        data[at + 3] = 255;
+      }
+    const transform = [1 / texel, 0, 0, 1 / texel, -left / texel, -back / texel] as const;
+    drawn(columns, rows, transform, (context) => drawLamps(context, lamps), data, 1);
+    drawn(columns, rows, transform, (context) => drawShade(context, scene, boxes, { level, floor }), data, 2);
+    blur(data, columns, rows, Math.max(1, Math.round(SHADE_BLUR_M / texel)));
+    levels.push({ height: heights.length ? heights[heights.length >> 1] : scene.header.boundsM[1][1], floor, lit });
+  }
 
-  const data = new Uint8Array(4 * columns * rows);
-  for (let row = 0; row < rows; row++)
-    for (let column = 0; column < columns; column++) {
-      const light = between(field, across, along, ((column + 0.5) * texel) / COARSE_M, ((row + 0.5) * texel) / COARSE_M);
-      const at = 4 * (row * columns + column);
-      data[at] = Math.min(255, 255 * Math.sqrt(light / 4));
-      data[at + 3] = 255;
-    }
-  const transform = [1 / texel, 0, 0, 1 / texel, -left / texel, -back / texel] as const;
-  drawn(columns, rows, transform, (context) => drawLamps(context, lamps), data, 1);
-  drawn(columns, rows, transform, (context) => drawShade(context, scene, boxes, floor), data, 2);
-  blur(data, columns, rows, Math.max(1, Math.round(SHADE_BLUR_M / texel)));
-
-  const texture = new THREE.DataTexture(data, columns, rows, THREE.RGBAFormat);
+  const texture = new THREE.DataArrayTexture(layers, columns, rows, scene.levels);
   texture.minFilter = THREE.LinearMipmapLinearFilter;
   texture.magFilter = THREE.LinearFilter;
   texture.generateMipmaps = true;
@@ -74,16 +86,14 @@ export function lightPlanOf(scene: SceneFile, boxes: Boxes): LightPlan {
   return {
     texture,
     frame: new THREE.Vector4(left, back, 1 / (columns * texel), 1 / (rows * texel)),
-    height: heights.length ? heights[heights.length >> 1] : scene.header.boundsM[1][1],
-    floor,
-    lit,
+    levels,
   };
 }
 
-function floorHeight(scene: SceneFile, boxes: Boxes): number {
+function floorHeight(scene: SceneFile, boxes: Boxes, level: number): number {
   const heights: number[] = [];
   for (let object = 0; object < scene.count; object++)
-    if (scene.labelOf(object) === "floor") heights.push(boxes.world[6 * object + 4]);
+    if (scene.labelOf(object) === "floor" && scene.level[object] === level) heights.push(boxes.world[6 * object + 4]);
   heights.sort((a, b) => a - b);
   return heights.length ? heights[heights.length >> 1] : scene.header.boundsM[0][1];
 }
@@ -105,7 +115,7 @@ function lampsOf(scene: SceneFile): Lamp[] {
       const bright = 0.2126 * light.rgb[0] + 0.7152 * light.rgb[1] + 0.0722 * light.rgb[2];
       const down = light.kind === "RectLight" || light.kind === "DiskLight" ? -place(0, 0, -1, 0)[1] : 0.7;
       const round = light.kind === "DiskLight";
-      lamps.push({ x, y, z, power: light.candela * bright, sides: [side[0], side[2], other[0], other[2]], round, down });
+      lamps.push({ level: scene.level[object], x, y, z, power: light.candela * bright, sides: [side[0], side[2], other[0], other[2]], round, down });
     }
   return lamps;
 }
@@ -183,9 +193,14 @@ function drawLamps(context: CanvasRenderingContext2D, lamps: Lamp[]): void {
   }
 }
 
-function drawShade(context: CanvasRenderingContext2D, scene: SceneFile, boxes: Boxes, floor: number): void {
+function drawShade(
+  context: CanvasRenderingContext2D,
+  scene: SceneFile,
+  boxes: Boxes,
+  { level, floor }: { level: number; floor: number },
+): void {
   for (let object = 0; object < scene.count; object++) {
-    if (!SHADING.has(scene.labelOf(object)) || boxes.world[6 * object + 1] > floor + 0.6) continue;
+    if (scene.level[object] !== level || !SHADING.has(scene.labelOf(object)) || boxes.world[6 * object + 1] > floor + 0.6) continue;
     const corners = footprint(scene, boxes, object);
     context.beginPath();
     corners.forEach(([x, z], k) => (k ? context.lineTo(x, z) : context.moveTo(x, z)));

@@ -5,7 +5,7 @@ import { CARS, OVERHEAD } from "./classes";
 import { Colliders, Frame, isInside, laneGraphOf, middleOf, stallPlanOf } from "./guides";
 import { Instances } from "./instances";
 import { footprint, lightPlanOf } from "./light_plan";
-import { element, laneLegend, showClasses, showLayers, showObject, showRemarks, useLegend } from "./panel";
+import { element, laneLegend, showClasses, showLayers, showLevels, showObject, showRemarks, useLegend } from "./panel";
 import { type Eye, PlanMap } from "./plan_map";
 import { Quality, isSoftware } from "./quality";
 import { type Hit, Rays } from "./rays";
@@ -41,6 +41,8 @@ class Viewer {
   readonly frame = new Frame();
   readonly hiddenLabels = new Set<string>();
   mode: Mode = "orbit";
+  /** The highest level that is shown; while one walks, the one that one is on. */
+  level = 0;
   selected = -1;
   ready = false;
   firstFrameMs = 0;
@@ -63,7 +65,8 @@ class Viewer {
     readonly scene: SceneFile,
     private readonly instances: Instances,
     private readonly materials: SurfaceMaterials,
-    private readonly floor: number,
+    /** Heights of the floors, the top one first. */
+    private readonly floors: number[],
     parts: { boxes: Boxes; rays: Rays; renderer: THREE.WebGLRenderer },
   ) {
     ({ boxes: this.boxes, rays: this.rays, renderer: this.renderer } = parts);
@@ -78,8 +81,8 @@ class Viewer {
     this.orbit.addEventListener("change", () => this.touch());
     this.world.add(instances.group, this.colliders.group, this.frame.lines);
     if (scene.lanes) {
-      this.lanes = laneGraphOf(scene.lanes);
-      this.stalls = stallPlanOf(scene.lanes, floor);
+      this.lanes = laneGraphOf(scene.lanes, scene.levels);
+      this.stalls = stallPlanOf(scene.lanes, floors);
       for (const guide of [this.lanes, this.stalls]) guide.visible = false;
       this.world.add(this.lanes, this.stalls);
     }
@@ -105,7 +108,8 @@ class Viewer {
     const light = lightPlanOf(scene, boxes);
     const materials = new SurfaceMaterials(scene, await textures, light);
     const instances = await Instances.create(scene, boxes, chunks, materials);
-    return new Viewer(scene, instances, materials, light.floor, { boxes, rays: new Rays(scene, boxes, chunks), renderer });
+    const floors = light.levels.map(({ floor }) => floor);
+    return new Viewer(scene, instances, materials, floors, { boxes, rays: new Rays(scene, boxes, chunks), renderer });
   }
 
   /** Draw until the page goes. */
@@ -177,7 +181,8 @@ class Viewer {
     camera.far = 60 + 3 * this.reach;
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
-    this.cutAway(camera.position.y > this.ceilingHeight);
+    if (this.mode === "walk") this.setLevel(this.levelAt(this.walker.feet.y));
+    this.cutAway(camera.position.y > this.ceilingHeights[this.level]);
     const ratio = this.renderer.getPixelRatio();
     this.instances.update(camera, element("view").clientHeight * ratio, this.quality.moving ? this.quality.coarse : 1);
     this.renderer.render(this.world, camera);
@@ -189,7 +194,8 @@ class Viewer {
     const { objects, triangles, calls } = this.instances.drawn;
     element("figures").textContent = `${objects.toLocaleString("en")} objects · ${(triangles / 1000).toFixed(0)}k triangles · ${calls} calls`;
     const { x, z } = this.camera.position;
-    element("place").textContent = this.mode === "walk" ? `${x.toFixed(1)}, ${z.toFixed(1)} m` : "";
+    const level = this.scene.header.levels.length ? `${this.scene.header.levels[this.level].name} · ` : "";
+    element("place").textContent = this.mode === "walk" ? `${level}${x.toFixed(1)}, ${z.toFixed(1)} m` : "";
   }
 
   private get reach(): number {
@@ -197,14 +203,49 @@ class Viewer {
     return Math.hypot(x1 - x0, z1 - z0);
   }
 
-  /** Height above which one looks at the garage from above. */
-  private get ceilingHeight(): number {
-    const heights: number[] = [];
+  /** Height of each level above which one looks at it from above. */
+  private get ceilingHeights(): number[] {
+    const heights = this.floors.map(() => Infinity);
     for (let object = 0; object < this.scene.count; object++)
-      if (this.scene.labelOf(object) === "ceiling") heights.push(this.boxes.world[6 * object + 1]);
-    const height = heights.length ? Math.min(...heights) : Infinity;
-    Object.defineProperty(this, "ceilingHeight", { value: height });
-    return height;
+      if (this.scene.labelOf(object) === "ceiling") {
+        const level = this.scene.level[object];
+        heights[level] = Math.min(heights[level], this.boxes.world[6 * object + 1]);
+      }
+    Object.defineProperty(this, "ceilingHeights", { value: heights });
+    return heights;
+  }
+
+  private get floor(): number {
+    return this.floors[this.level];
+  }
+
+  /** The level that a height is on; the upper half of a ramp is on the level at its head. */
+  private levelAt(y: number): number {
+    const heights = this.floors.map((floor, k) => (k + 1 < this.floors.length ? (floor + this.floors[k + 1]) / 2 : -Infinity));
+    return heights.findIndex((height) => y >= height);
+  }
+
+  /** Show a level and those below it; one that walks goes there. */
+  chooseLevel(level: number): void {
+    if (level === this.level || level < 0 || level >= this.scene.levels) return;
+    const rise = this.floors[level] - this.floor;
+    if (this.mode === "walk") {
+      this.walkIn(level);
+      return;
+    }
+    this.setLevel(level);
+    this.orbit.target.y += rise;
+    this.camera.position.y += rise;
+    this.orbit.update();
+  }
+
+  private setLevel(level: number): void {
+    if (level !== this.level) {
+      this.level = level;
+      this.map.showLevel(level);
+      this.applyLayers();
+    }
+    this.scene.header.levels.forEach(({ name }, k) => (element(`level-${name}`).ariaPressed = String(k === this.level)));
   }
 
   /** From above, what hangs overhead is not shown. */
@@ -215,11 +256,15 @@ class Viewer {
   }
 
   applyLayers(): void {
-    const labels = this.scene.header.labels.map(
-      (label) => !this.hiddenLabels.has(label) && !(this.cut === true && OVERHEAD.has(label)),
-    );
+    const labels = this.scene.header.labels.map((label) => !this.hiddenLabels.has(label));
     const { visible } = this.instances;
-    for (let object = 0; object < this.scene.count; object++) visible[object] = labels[this.scene.label[object]] ? 1 : 0;
+    const top = this.mode === "walk" ? 0 : this.level;
+    for (let object = 0; object < this.scene.count; object++) {
+      const level = this.scene.level[object];
+      const isCut = level === this.level && this.cut === true && OVERHEAD.has(this.scene.labelOf(object));
+      visible[object] = level >= top && !isCut && labels[this.scene.label[object]] ? 1 : 0;
+    }
+    for (const guide of [this.lanes, this.stalls]) guide?.children.forEach((child, level) => (child.visible = level >= top));
     if (this.colliders.group.visible) this.colliders.show(visible);
     this.touch();
   }
@@ -277,6 +322,8 @@ class Viewer {
         },
       });
     this.setLayer = showLayers(rows);
+    showLevels(scene, (level) => this.chooseLevel(level));
+    this.setLevel(this.level);
     showClasses(scene, (label, on) => {
       if (on) this.hiddenLabels.delete(label);
       else this.hiddenLabels.add(label);
@@ -372,33 +419,40 @@ class Viewer {
     element("hints").textContent = HINTS[mode];
     document.documentElement.dataset["mode"] = mode;
     if (mode === "orbit" && document.pointerLockElement) document.exitPointerLock();
-    this.touch();
+    this.applyLayers();
   }
 
-  /** Walk from a place on, looking along a direction. */
-  walkAt(x: number, z: number, yaw?: number): boolean {
-    if (!this.walker.standAt(x, z, this.floor + 1)) return false;
+  /** Walk from a place on a level on, looking along a direction. */
+  walkAt(x: number, z: number, yaw?: number, level = this.level): boolean {
+    if (!this.walker.standAt(x, z, this.floors[level] + 1)) return false;
     if (yaw !== undefined) this.walker.yaw = yaw;
     this.walker.pitch = 0;
     this.setMode("walk");
     return true;
   }
 
-  /** Walk in at an entrance, or in the middle where there is none. */
-  walkIn(): void {
+  /** Walk in at an entrance of a level, on one of its lanes, or in the middle where there is none. */
+  walkIn(level = this.level): void {
     const lanes = this.scene.lanes;
-    const entrance = lanes ? lanes.kinds.indexOf("entrance") : -1;
-    if (lanes && entrance >= 0)
+    const entrance = lanes ? lanes.kinds.findIndex((kind, node) => kind === "entrance" && lanes.levels[node] === level) : -1;
+    if (lanes)
       for (let edge = 0; edge < lanes.forward.length; edge++) {
         const [from, to] = [lanes.edges[2 * edge], lanes.edges[2 * edge + 1]];
-        if (from !== entrance && to !== entrance) continue;
+        if (entrance >= 0 ? from !== entrance && to !== entrance : !this.isFlat(from, to, level)) continue;
         const next = from === entrance ? to : from;
-        const [x0, z0] = [lanes.nodes[3 * entrance], lanes.nodes[3 * entrance + 2]];
+        const first = from === next ? to : from;
+        const [x0, z0] = [lanes.nodes[3 * first], lanes.nodes[3 * first + 2]];
         const [x1, z1] = [lanes.nodes[3 * next], lanes.nodes[3 * next + 2]];
-        if (this.walkAt(x0 + 0.5 * (x1 - x0), z0 + 0.5 * (z1 - z0), Math.atan2(x0 - x1, z0 - z1))) return;
+        if (this.walkAt(x0 + 0.5 * (x1 - x0), z0 + 0.5 * (z1 - z0), Math.atan2(x0 - x1, z0 - z1), level)) return;
       }
     const [x0, z0, x1, z1] = this.inside();
-    if (!this.walkAt((x0 + x1) / 2, (z0 + z1) / 2)) element("hints").textContent = "There is no floor to walk on.";
+    if (!this.walkAt((x0 + x1) / 2, (z0 + z1) / 2, undefined, level)) element("hints").textContent = "There is no floor to walk on.";
+  }
+
+  /** Whether a lane lies on the floor of a level. */
+  private isFlat(from: number, to: number, level: number): boolean {
+    const lanes = this.scene.lanes;
+    return lanes !== null && [from, to].every((node) => lanes.levels[node] === level && Math.abs(lanes.nodes[3 * node + 1] - this.floors[level]) < 0.2);
   }
 
   private goTo(x: number, z: number): void {
@@ -422,23 +476,24 @@ class Viewer {
     element("inspector").hidden = object < 0;
     if (object >= 0) {
       const [x, , z] = this.boxes.centre(object);
-      const stall = this.stallAt(x, z, this.boxes.world[6 * object + 1]);
-      const parked = stall !== null && this.cars.some((car) => isInside(stall.corners, ...this.middle(car)));
+      const stall = this.stallAt(x, z, this.boxes.world[6 * object + 1], this.scene.level[object]);
+      const parked = stall !== null && this.cars.some((car) => this.isIn(stall, car));
       showObject(this.scene, this.boxes, object, stall, parked);
       this.frame.around(this.scene, this.boxes.local, object);
     }
     this.touch();
   }
 
-  private middle(object: number): [number, number] {
+  /** Whether the middle of an object is in a stall. */
+  private isIn(stall: Stall, object: number): boolean {
     const [x, , z] = this.boxes.centre(object);
-    return [x, z];
+    return stall.level === this.scene.level[object] && isInside(stall.corners, x, z);
   }
 
   /** The stall that something low stands in. */
-  private stallAt(x: number, z: number, low: number): Stall | null {
-    if (low > this.floor + 1) return null;
-    return this.scene.lanes?.stalls.find((stall) => isInside(stall.corners, x, z)) ?? null;
+  private stallAt(x: number, z: number, low: number, level: number): Stall | null {
+    if (low > this.floors[level] + 1) return null;
+    return this.scene.lanes?.stalls.find((stall) => stall.level === level && isInside(stall.corners, x, z)) ?? null;
   }
 
   /** The object seen at a place on the canvas, in CSS pixels, stains only on request; -1 for none. */
@@ -461,26 +516,29 @@ class Viewer {
   find(query: string): boolean {
     const word = query.trim().toLowerCase();
     if (!word) return false;
-    const stall = this.scene.lanes?.stalls.find((one) => [one.number, one.id].some((name) => name?.toLowerCase() === word));
-    let object = stall ? this.scene.paths.findIndex((_, k) => this.scene.labelOf(k) === "parking_stall" && isInside(stall.corners, ...this.middle(k))) : -1;
+    const level = this.scene.header.levels[this.level]?.name.toLowerCase();
+    const words = [word, `${level}/${word}`];
+    const stall = this.scene.lanes?.stalls.find((one) => [one.number, one.id].some((name) => words.includes(name?.toLowerCase() ?? "")));
+    let object = stall ? this.scene.paths.findIndex((_, k) => this.scene.labelOf(k) === "parking_stall" && this.isIn(stall, k)) : -1;
     if (object < 0 && /^\d+$/.test(word)) object = this.scene.ids.indexOf(Number(word));
     if (object < 0) object = this.scene.paths.findIndex((path) => path.toLowerCase() === word);
     if (object < 0) object = this.scene.paths.findIndex((path) => path.toLowerCase().endsWith(word));
     if (object < 0) return false;
     this.select(object);
+    if (this.mode === "orbit") this.chooseLevel(this.scene.level[object]);
     this.approach(object);
     return true;
   }
 
   private approach(object: number): void {
     const [x, y, z] = this.boxes.centre(object);
-    const stall = this.scene.lanes?.stalls.find((one) => isInside(one.corners, x, z));
+    const stall = this.scene.lanes?.stalls.find((one) => this.isIn(one, object));
     if (this.mode === "walk") {
       const mouth = stall ? middleOf(stall.corners.slice(0, 2)) : [x, z + 3];
       const way = [mouth[0] - x, mouth[1] - z];
       const length = Math.hypot(way[0], way[1]) || 1;
       const [px, pz] = [mouth[0] + (2 * way[0]) / length, mouth[1] + (2 * way[1]) / length];
-      if (this.walkAt(px, pz)) {
+      if (this.walkAt(px, pz, undefined, this.scene.level[object])) {
         this.walker.yaw = Math.atan2(this.walker.feet.x - x, this.walker.feet.z - z);
         this.walker.pitch = Math.atan2(y - this.walker.feet.y - EYE_M, length + 2);
       }
@@ -525,7 +583,7 @@ class Viewer {
       const hit = this.hitAt(event.clientX, event.clientY, false);
       if (!hit) return;
       const ahead = this.camera.getWorldDirection(new THREE.Vector3());
-      this.walkAt(hit.point[0], hit.point[2], Math.atan2(-ahead.x, -ahead.z));
+      this.walkAt(hit.point[0], hit.point[2], Math.atan2(-ahead.x, -ahead.z), this.scene.level[hit.object]);
     });
     document.addEventListener("pointerlockchange", () => {
       element("crosshair").hidden = document.pointerLockElement !== canvas;
@@ -574,6 +632,8 @@ class Viewer {
       KeyG: () => this.setLayer("lanes"),
       KeyU: () => this.setLayer("stalls"),
       KeyK: () => this.setLayer("colliders"),
+      PageUp: () => this.chooseLevel(this.level - 1),
+      PageDown: () => this.chooseLevel(this.level + 1),
       KeyF: () => this.selected >= 0 && this.approach(this.selected),
       Escape: () => this.select(-1),
     };

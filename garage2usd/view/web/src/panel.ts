@@ -106,6 +106,18 @@ export function showClasses(scene: SceneFile, change: (label: string, on: boolea
   });
 }
 
+/** A button for each level of a garage of several levels. */
+export function showLevels(scene: SceneFile, choose: (level: number) => void): void {
+  element("levels").hidden = scene.header.levels.length === 0;
+  scene.header.levels.forEach(({ name }, level) => {
+    const button = made("button", "", name);
+    button.id = `level-${name}`;
+    button.title = "Page Up and Page Down; levels above are hidden";
+    button.addEventListener("click", () => choose(level));
+    element("levels").append(button);
+  });
+}
+
 export function showRemarks(remarks: string[]): void {
   element("remarks").hidden = remarks.length === 0;
   element("remarks").replaceChildren(...remarks.map((remark) => made("p", "", remark)));
@@ -164,6 +176,8 @@ export function showObject(scene: SceneFile, boxes: Boxes, object: number, stall
     ["Size", `${size} m`],
     ["Middle", `${boxes.centre(object).map((value) => value.toFixed(2)).join(", ")} m`],
   ];
+  const level = scene.header.levels[scene.level[object]];
+  if (level) place.push(["Level", level.name]);
   if (square) place.push(["Square", spoken(square)]);
   sections.push(made("h3", "", "Place"), facts(place));
   element("inspected").replaceChildren(...sections);

@@ -38,6 +38,7 @@ export class PlanMap {
   private scale = 1;
   private side = SMALL_PX;
   private last = "";
+  private level = 0;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -53,6 +54,12 @@ export class PlanMap {
       const [[left, , back]] = this.frame;
       go(left + event.offsetX / this.scale, back + event.offsetY / this.scale);
     });
+  }
+
+  showLevel(level: number): void {
+    if (level === this.level) return;
+    this.level = level;
+    this.resize(this.side);
   }
 
   toggleSize(): void {
@@ -105,6 +112,7 @@ export class PlanMap {
     context.fillRect(x0, z0, x1 - x0, z1 - z0);
     const stalls = () => {
       for (const stall of this.scene.lanes?.stalls ?? []) {
+        if (stall.level !== this.level) continue;
         context.fillStyle = `${USE_COLOURS[stall.use ?? ""] ?? "#9aa5b1"}66`;
         this.polygon(context, stall.corners);
         context.strokeStyle = PAPER;
@@ -117,12 +125,12 @@ export class PlanMap {
       const number = this.scene.header.labels.indexOf(label);
       context.fillStyle = colour;
       for (let object = 0; number >= 0 && object < this.scene.count; object++)
-        if (this.scene.label[object] === number) this.polygon(context, footprint(this.scene, this.boxes, object));
+        if (this.scene.label[object] === number && this.isDrawn(object)) this.polygon(context, footprint(this.scene, this.boxes, object));
     }
     const lanes = this.scene.lanes;
     for (const [kind, colour] of [["entrance", "#34d399"], ["exit", "#f87171"]])
       lanes?.kinds.forEach((found, node) => {
-        if (found !== kind) return;
+        if (found !== kind || lanes.levels[node] !== this.level) return;
         context.fillStyle = colour;
         context.beginPath();
         context.arc(lanes.nodes[3 * node], lanes.nodes[3 * node + 2], 8 / Math.max(this.scale, 1), 0, 7);
@@ -133,6 +141,12 @@ export class PlanMap {
         context.fillStyle = "#9aa5b133";
         this.polygon(context, footprint(this.scene, this.boxes, object));
       }
+  }
+
+  /** Whether an object is on the level; a ramp is drawn on the level at its head, too. */
+  private isDrawn(object: number): boolean {
+    const below = this.scene.level[object] - this.level;
+    return below === 0 || (below === 1 && this.scene.labelOf(object) === "ramp");
   }
 
   private polygon(context: CanvasRenderingContext2D, corners: [number, number][]): void {

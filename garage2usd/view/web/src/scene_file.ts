@@ -49,6 +49,8 @@ export interface Stall {
   entryEdge?: string;
   size?: string;
   accessNode?: number;
+  /** Number of its level, from 0. */
+  level: number;
   /** (x, z) in metres: mouth left, mouth right, rear right, rear left. */
   corners: [number, number][];
 }
@@ -58,6 +60,8 @@ interface Header {
   facts: Record<string, string>;
   remarks: string[];
   boundsM: [[number, number, number], [number, number, number]];
+  /** Those of a garage of several levels, the top one first; none of a garage of one. */
+  levels: { name: string; path: string }[];
   labels: string[];
   squares: string[];
   textures: number;
@@ -83,6 +87,7 @@ interface Header {
   lanes: {
     nodes: number;
     kinds: string[];
+    levels: number[];
     edges: number;
     forward: boolean[];
     stalls: Stall[];
@@ -95,6 +100,8 @@ interface Header {
 export interface Lanes {
   nodes: Float32Array;
   kinds: string[];
+  /** Number of the level of each node; a ramp between levels has that of its foot. */
+  levels: number[];
   edges: Uint32Array;
   forward: boolean[];
   stalls: Stall[];
@@ -114,6 +121,8 @@ export class SceneFile {
   readonly square: Uint32Array;
   readonly shape: Uint32Array;
   readonly palette: Uint32Array;
+  /** Number of the level of each object; 0 in a garage of one level. */
+  readonly level: Uint8Array;
   /** Twelve numbers an object: three rows that multiply (x, y, z, 1). */
   readonly matrix: Float32Array;
   readonly lanes: Lanes | null;
@@ -140,7 +149,14 @@ export class SceneFile {
     this.shape = words(objects.shape);
     this.palette = words(objects.palette);
     this.matrix = floats(objects.matrix);
+    const roots = this.header.levels.map(({ path }) => `${path}/`);
+    this.level = Uint8Array.from(this.paths, (path) => Math.max(0, roots.findIndex((root) => path.startsWith(root))));
     this.lanes = lanes && { ...lanes, nodes: floats(lanes.nodes), edges: words(lanes.edges) };
+  }
+
+  /** How many levels there are, at least one. */
+  get levels(): number {
+    return Math.max(1, this.header.levels.length);
   }
 
   get count(): number {

@@ -31,13 +31,16 @@ void main() {
   gl_Position = projectionMatrix * viewMatrix * vec4(vPlace, 1.0);
 }`;
 
+/** How far below its floor something still stands in the light of a level. */
+const BELOW_M = 0.15;
+
 const FRAGMENT = /* glsl */ `
 uniform mediump sampler2DArray layers;
 uniform highp sampler2D palette;
 uniform highp sampler2D labels;
-uniform sampler2D plan;
+uniform mediump sampler2DArray plan;
 uniform vec4 frame;
-uniform vec3 heights; // lights, floor, whether anything shines
+uniform vec3 levels[LEVELS]; // of each level: lights, floor, whether anything shines
 uniform float byLabel;
 uniform float selected;
 uniform float gloss;
@@ -76,10 +79,17 @@ void main() {
   if (byLabel > 0.5) {
     shown = texelFetch(labels, ivec2(int(vInfo.y + 0.5), 0), 0).rgb * (0.72 + 0.2 * normal.y + 0.08 * normal.x);
   } else {
+    float level = 0.0;
+    vec3 heights = levels[0];
+    for (int k = 1; k < LEVELS; k++)
+      if (vPlace.y < levels[k - 1].y - ${BELOW_M}) {
+        level = float(k);
+        heights = levels[k];
+      }
     float lit = heights.z;
     vec2 at = (vPlace.xz + 0.6 * normal.xz - frame.xy) * frame.zw;
-    vec4 here = texture2D(plan, at);
-    float bounce = mix(0.9, max(lightOf(textureLod(plan, at, 5.0).r), 0.2), lit);
+    vec4 here = texture(plan, vec3(at, level));
+    float bounce = mix(0.9, max(lightOf(textureLod(plan, vec3(at, level), 5.0).r), 0.2), lit);
     // as on a photograph, pools of light and what lies between them are nearer to each other than they are
     float direct = mix(0.9, max(0.62 * lightOf(here.r) + 0.38 * bounce, 0.2), lit);
     float above = vPlace.y - heights.y;
@@ -101,8 +111,8 @@ void main() {
       vec2 there = (vPlace.xz + away.xz * far - frame.xy) * frame.zw;
       float spread = log2(1.0 + roughness * roughness * far * 24.0);
       float ceiling = 0.24 * bounce;
-      mirrored = ceiling + 9.0 * textureLod(plan, there, spread).g;
-      clear = finish.w > 0.0 ? ceiling + 9.0 * textureLod(plan, there, 0.0).g : mirrored;
+      mirrored = ceiling + 9.0 * textureLod(plan, vec3(there, level), spread).g;
+      clear = finish.w > 0.0 ? ceiling + 9.0 * textureLod(plan, vec3(there, level), 0.0).g : mirrored;
     }
     float metallic = finish.y;
     float grazing = pow(1.0 - max(dot(normal, view), 0.0), 5.0);
@@ -134,13 +144,14 @@ export class SurfaceMaterials {
       layers: { value: layers.texture },
       plan: { value: light.texture },
       frame: { value: light.frame },
-      heights: { value: new THREE.Vector3(light.height, light.floor, light.lit ? 1 : 0) },
+      levels: { value: light.levels.map(({ height, floor, lit }) => new THREE.Vector3(height, floor, lit ? 1 : 0)) },
       byLabel: { value: 0 },
       selected: { value: -1 },
       gloss: { value: 1 },
     };
     this.uniforms = uniforms;
-    const common = { vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms };
+    const defines = { LEVELS: light.levels.length };
+    const common = { vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms, defines };
     this.opaque = new THREE.ShaderMaterial(common);
     this.opaqueTwoSided = new THREE.ShaderMaterial({ ...common, side: THREE.DoubleSide });
     this.blended = new THREE.ShaderMaterial({

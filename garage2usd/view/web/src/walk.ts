@@ -14,6 +14,8 @@ const HEIGHTS_M = [0.3, 0.75, 1.35];
 const STEP_M = 0.35;
 const LONGEST_STEP_M = 0.25;
 const FLATTEST = 0.6;
+/** Height of edges in a floor, such as those of grooves in a ramp, on which a foot stands however steep they are. */
+const EDGE_M = 0.05;
 const SENSITIVITY = 0.0023;
 const TURN_RAD_S = 1.8;
 
@@ -141,7 +143,9 @@ export class Walker {
   /** Height of the floor beneath a place; null where there is none. */
   private ground(x: number, z: number, from: number, reach: number): number | null {
     const hit = this.rays.cast([x, from, z], [0, -1, 0], reach, this.solid);
-    return hit && hit.normal[1] > FLATTEST ? hit.point[1] : null;
+    if (!hit) return null;
+    const isEdge = Math.abs(hit.point[1] - this.feet.y) < EDGE_M;
+    return hit.normal[1] > FLATTEST || isEdge ? hit.point[1] : null;
   }
 
   private readonly solid = (object: number): boolean => {
