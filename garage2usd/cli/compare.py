@@ -39,7 +39,7 @@ def compare(*, folder: Path, figures: Path | None, outputs: tuple[Path, ...]) ->
     Each line has a quantity, its published figure, that of the data set, and the distance between both: the
     Kolmogorov-Smirnov distance of a distribution, of which the median is printed; the greatest difference of a share in
     points; or the greater share of garages on one side of a range. Figures that are assumed, at least in part, are
-    marked by *. The JSON table has the sources.
+    marked by an asterisk. The JSON table has the sources.
 
     \b
     Examples:
