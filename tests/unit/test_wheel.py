@@ -12,6 +12,7 @@ from support.sample_files import REPOSITORY
 DATA_FILES = (
     "datasets/*.jinja",
     "datasets/*.json",
+    "datasets/*.toml",
     "native/*.[ch]",
     "native/loops.so",
     "config/markets/*.toml",
@@ -82,6 +83,7 @@ def test_the_wheel_holds_what_runs_and_nothing_else(wheel):
     expected = (
         "config/markets/world.toml",
         "datasets/card.md.jinja",
+        "datasets/world.toml",
         "native/loops.so",
         "profiles/cn-jgj100.toml",
         "stage/meshes.npz",
