@@ -82,6 +82,14 @@ class LevelsGarage:
         return _joined(self.building, self.levels)
 
     @property
+    def layouts(self) -> list[LevelLayout]:
+        """Layout, floor and description of each level, as its stage is written from."""
+        return [
+            LevelLayout(name, self.building.floor_m(number), level.layout, stage_metadata(level))
+            for number, (name, level) in enumerate(zip(self.building.names(), self.levels, strict=True))
+        ]
+
+    @property
     def tape(self) -> str:
         """Canonical random process of the garage: the ramps, then the tape of each level, with slashes between."""
         flight = self.building.flight
@@ -195,10 +203,7 @@ def build_levels(
         start = time.perf_counter()
         folder = staging / "stage"
         folder.mkdir()
-        levels = [
-            LevelLayout(name, garage.building.floor_m(number), level.layout, stage_metadata(level))
-            for number, (name, level) in enumerate(zip(names, garage.levels, strict=True))
-        ]
+        levels = garage.layouts
         made = write_levels_stage(
             levels,
             garage.joined,

@@ -29,7 +29,7 @@ _STEP_M = 0.5
 _EYE_M, _AXLE_M = 0.05, 0.6
 """Heights over the ramp's floor of the rays upwards and sideways."""
 _FAR_M = 4.0
-"""Greatest distance from the box around a ramp of what rays meet; wider and higher ones miss nothing."""
+"""Distance around the box of a ramp in which triangles are cast at; more clearance than this is enough anywhere."""
 
 
 def read_stage(path: str | Path, *, profile: Profile | None = None) -> tuple[BuiltLevels | BuiltGarage, Profile]:

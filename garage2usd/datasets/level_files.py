@@ -11,7 +11,6 @@ from garage2usd.common.json_text import json_text
 from garage2usd.datasets.difficulty import StallDifficulty, garage_difficulty, stall_difficulties
 from garage2usd.datasets.recipe import MakeConfig
 from garage2usd.exports import export
-from garage2usd.pipeline import stage_metadata
 from garage2usd.stage import StageFormat
 from garage2usd.stage.levels import LevelLayout, write_level_labels, write_levels_stage
 from garage2usd.view.plan_picture import draw_plan
@@ -35,11 +34,7 @@ def write_level_files(garage: LevelsGarage, place: Path, make: MakeConfig, asset
         Folder of the assets shared by all stages; None if each stage is self-contained.
     """
     folder, stem = place.parent, place.name
-    named = list(zip(garage.building.names(), garage.levels, strict=True))
-    levels = [
-        LevelLayout(name, garage.building.floor_m(number), level.layout, stage_metadata(level))
-        for number, (name, level) in enumerate(named)
-    ]
+    levels = garage.layouts
     if make.stage:
         stage = _write_stage(garage, levels, place, make, assets)
         if make.exports:
@@ -48,8 +43,8 @@ def write_level_files(garage: LevelsGarage, place: Path, make: MakeConfig, asset
     if make.labels:
         write_level_labels(levels, folder / f"{stem}.labels.json", garage.config.stage)
     if make.plan:
-        for name, level in named:
-            write_png(to_image(draw_plan(level.layout)), folder / f"{stem}.{name}.plan.png")
+        for level in levels:
+            write_png(to_image(draw_plan(level.layout)), folder / f"{stem}.{level.name}.plan.png")
 
 
 def levels_difficulties(garage: LevelsGarage) -> tuple[StallDifficulty, ...]:

@@ -119,8 +119,8 @@ class Quantiles(Settings):
         return float(max(before.max(), after.max()))
 
 
-class Uniform(Settings):
-    """A uniform distribution."""
+class _Range(Settings):
+    """A range of values."""
 
     low: float
     """Least value."""
@@ -132,6 +132,10 @@ class Uniform(Settings):
         if not self.low < self.high:
             raise ValueError("low less than high")
         return self
+
+
+class Uniform(_Range):
+    """A uniform distribution."""
 
     def share_below(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the share below each value, shape (n,)."""
@@ -146,19 +150,8 @@ class Uniform(Settings):
         return float(stats.ks_1samp(values, self.share_below).statistic)
 
 
-class Between(Settings):
+class Between(_Range):
     """A range of which the ends alone are published."""
-
-    low: float
-    """Least value."""
-    high: float
-    """Greatest value."""
-
-    @model_validator(mode="after")
-    def _ascending(self) -> Self:
-        if not self.low < self.high:
-            raise ValueError("low less than high")
-        return self
 
     def quantile(self, _share: float) -> float | None:
         """Return None: no quantile is known."""

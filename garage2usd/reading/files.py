@@ -38,12 +38,12 @@ def open_stage(path: Path) -> Usd.Stage:
     if path.suffix.lower() == ".usdz":
         _check_package(path)
     layers = _open_layers(path)
-    allow_seconds(_LEAST_S + _OPENING_S_PER_MB * _megabytes(layers))
+    allow_seconds(_LEAST_S + _OPENING_S_PER_MB * _megabytes(layer.realPath for layer in layers))
     try:
         stage = Usd.Stage.Open(layers[0])
     except Tf.ErrorException as error:
         raise StageError(path, f"USD cannot compose it ({usd_reason(error)})") from None
-    allow_seconds(_LEAST_S + _READING_S_PER_MB * _megabytes(stage.GetUsedLayers()))
+    allow_seconds(_LEAST_S + _READING_S_PER_MB * _megabytes(used.realPath for used in stage.GetUsedLayers()))
     return stage
 
 
@@ -56,7 +56,7 @@ def _open_layers(path: Path) -> list[Sdf.Layer]:
     waiting = [str(path.absolute())]  # "anon:a.usda" alone is no name of a file to USD
     while waiting:
         name = waiting.pop()
-        allow_seconds(_LEAST_S + _OPENING_S_PER_MB * _size_of(name) / 1e6)
+        allow_seconds(_LEAST_S + _OPENING_S_PER_MB * _megabytes([name]))
         try:
             layer = Sdf.Layer.FindOrOpen(name)
         except Tf.ErrorException as error:
@@ -73,16 +73,10 @@ def _open_layers(path: Path) -> list[Sdf.Layer]:
     return found
 
 
-def _size_of(name: str) -> int:
-    """Return the number of bytes of the file that holds a layer; 0 if there is none."""
-    file = Path(Ar.SplitPackageRelativePathOuter(name)[0])
-    return file.stat().st_size if is_file(file) else 0
-
-
-def _megabytes(layers: Iterable[Sdf.Layer]) -> float:
-    """Return the size of the files that hold layers, in megabytes."""
-    files = {Ar.SplitPackageRelativePathOuter(layer.realPath)[0] for layer in layers} - {""}
-    return sum(Path(file).stat().st_size for file in files) / 1e6
+def _megabytes(names: Iterable[str]) -> float:
+    """Return the size of the files that hold layers, in megabytes; missing ones have none."""
+    files = {Path(Ar.SplitPackageRelativePathOuter(name)[0]) for name in names}
+    return sum(file.stat().st_size for file in files if is_file(file)) / 1e6
 
 
 def usd_reason(error: Exception) -> str:
