@@ -19,7 +19,17 @@ from garage2usd.common.output import check_file, check_name
 PACKAGE = REPOSITORY / "garage2usd"
 OTHERS = ("win32", "darwin")
 PLAN = ".....\nE===X\n.....\n"
-RECIPE = 'name = "two"\ncount = 2\n[garage.site]\nwidth_cells = 4\nheight_cells = 4\n[garage.plan]\nepisodes = 60\n[make]\nexports = ["xodr"]\n'
+RECIPE = """
+name = "two"
+count = 2
+[garage.site]
+width_cells = 4
+height_cells = 4
+[garage.plan]
+episodes = 60
+[make]
+exports = ["xodr"]
+"""
 
 
 @pytest.fixture(params=OTHERS)

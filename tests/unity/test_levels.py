@@ -1,4 +1,4 @@
-"""The prefab of a garage of several levels: levels as objects, stalls and lanes of all, and colliders over the ramps."""
+"""The prefab of a garage of several levels: levels as objects, stalls and lanes of all, colliders over the ramps."""
 
 from collections import Counter
 
