@@ -62,7 +62,8 @@ def drive(
     a path are listed with the objects in the way, and the exit code is 1.
 
     With --stall the car drives from an entrance into the stall and on to an exit, over ramps and lanes. Its speed
-    follows the settings `maps.drive` of a configuration or report, else the defaults. Gates are open.
+    follows the settings `maps.drive` of a configuration or report, else the defaults. Gates are open. In a stage of
+    several levels it drives over the ramps between them; the number of a stall begins with its level, U2/A1-08.
 
     \b
     Examples:
@@ -133,13 +134,10 @@ def _drive_to(
             garage, settings = read_stage(path)[0], DriveConfig()
         else:
             garage, settings = _garage_of(path, seed, progress)
-        if isinstance(garage, BuiltLevels):
-            for option, value in (("entrance", entrance), ("exit", exit_), ("rig", rig)):
-                if value is not None:
-                    raise ConfigError(option, value, "not with several levels, for which it is not built yet")
-            driven = LevelsDrivePlanner(garage, settings).drive(stall, leg=Leg(leg))
-        else:
-            driven = DrivePlanner(garage, settings).drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
+        planner = (
+            LevelsDrivePlanner(garage, settings) if isinstance(garage, BuiltLevels) else DrivePlanner(garage, settings)
+        )
+        driven = planner.drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
     if output is not None:
         _write_drive(output, driven, car)
     route, states = driven.route, driven.trajectory

@@ -7,6 +7,7 @@ turns by 0.8 degrees. ESMINI is its program, built without graphics, as docs/gui
 """
 
 import math
+import os
 import subprocess
 import sys
 import tempfile
@@ -19,9 +20,11 @@ from garage2usd.checks import read_garage
 from garage2usd.config.maps import Leg, ScenarioConfig
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.openscenario import EGO
-from support.sample_files import SAMPLES
+from support.sample_files import REPOSITORY, SAMPLES
 from support.trajectory_judge import OpenWorld
 
+ESMINI = Path(os.environ.get("GARAGE2USD_ESMINI", REPOSITORY / ".venv/judges/bin/esmini"))
+"""Where tests find the program."""
 STEP_S, MOST_M, MOST_DEG = 0.03, 0.02, 1.0
 LOOK = 2
 """Steps from one pose to the next between which the ground that the car sweeps is looked at."""

@@ -193,7 +193,7 @@ def test_a_drive_goes_down_the_ramp_into_a_stall_and_back_to_the_street(built):
     "arguments",
     [
         ("drive", "{stage}"),
-        ("export", "{stage}", "-o", "a.xosc"),
+        ("export", "{stage}", "-o", "a.add.xml"),
         ("plan", "{stage}", "--stall", "U2/A1-01"),
         ("check", "{report}"),
         ("export", "{report}", "-o", "a.xodr"),
