@@ -4,6 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from garage2usd.as_built.driven_floor import BEYOND_TOP_M
 from garage2usd.as_built.levels import BuiltLevels
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.spelling import find_named
@@ -20,7 +21,7 @@ from garage2usd.maps.drives import Drive, DrivePlanner, portals_asked
 __all__ = ["LevelsDrivePlanner"]
 
 _NAMED = 6
-_BEYOND_TOP_M, _BEYOND_FOOT_M = 1.0, 2.0
+_BEYOND_FOOT_M = 2.0
 _RISE_M = 0.01
 
 _Street = Mapping[LaneKind, tuple[Portal, ...]]
@@ -232,7 +233,7 @@ class LevelsDrivePlanner:
         if upper is not None:
             foot_m = self._garage.levels[upper + 1].place.floor_m
             ramps += [
-                _lifted(ramp, foot_m, float(ramp.runs_m[-1]) + _BEYOND_TOP_M)
+                _lifted(ramp, foot_m, float(ramp.runs_m[-1]) + BEYOND_TOP_M)
                 for ramp in self._planner(upper + 1).road.ramps
             ]
         return FloorSpan(end_m, own_m, tuple(ramps))
