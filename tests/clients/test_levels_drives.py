@@ -3,6 +3,9 @@
 import importlib.util
 import json
 import math
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,7 +13,8 @@ import shapely
 from PIL import Image
 from support.esmini_player import ESMINI, played
 from support.label_tables import labelled_objects
-from support.level_judge import LevelJudge, first_hits
+from support.level_judge import LevelJudge, above, first_hits
+from support.newton_reader import needs_newton
 from support.openscenario_checker import issues_of, needs_checker
 from support.openscenario_reader import OpenScenario
 from support.small_levels import FLOORS_M, SMALL_LEVELS
@@ -198,6 +202,25 @@ def test_a_stall_is_named_with_its_level_and_portals_are_those_to_the_street(bui
     for field, wrong in (("entrance", 2), ("exit", 2), ("stall", number.partition("/")[2])):
         with pytest.raises(ConfigError, match=f"{field}: got"):
             planner.drive(**{field: wrong})
+
+
+@needs_newton
+def test_newton_s_rays_meet_its_ramps_where_the_car_drives(built, scenario, tmp_path):
+    rear, front = (
+        places[(places[:, 1] > LOWEST_M + 0.05) & (places[:, 1] < -0.05)]
+        for places in axles(OpenScenario(scenario).track())
+    )
+    eyes = above(np.concatenate([rear, front]), 1.0)
+    rays, output = tmp_path / "rays.npz", tmp_path / "far.npy"
+    np.savez(rays, origins=eyes, directions=np.tile([0.0, -1.0, 0.0], (len(eyes), 1)))
+    command = [sys.executable, Path(__file__).with_name("newton_rays.py"), built.stage]
+    subprocess.run([*command, "/Garage/Levels/U2/Ramps", rays, output], check=True, capture_output=True)
+    for deep, within_m in zip(np.split(np.load(output) - 1.0, [len(rear)]), (MILLIMETRE, FRONT_M), strict=True):
+        assert np.median(np.abs(deep)) < 1e-5
+        assert deep.min() > -within_m
+        over_groove = deep > within_m
+        assert deep[over_groove].max() < GROOVE_M + within_m
+        assert over_groove.mean() < GROOVES
 
 
 @needs_checker
