@@ -18,11 +18,12 @@ from garage2usd.common.progress import Progress, silent, unheard
 from garage2usd.config.maps import MapsConfig, ScenarioConfig
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.glb import write_glb
+from garage2usd.maps.level_drives import LevelsDrivePlanner
 from garage2usd.maps.level_networks import LevelNetwork, level_networks
 from garage2usd.maps.network import Network
 from garage2usd.maps.occupancy import grid_files, write_grid
 from garage2usd.maps.opendrive import write_opendrive, write_opendrive_levels
-from garage2usd.maps.parked_cars import parked_cars
+from garage2usd.maps.parked_cars import parked_cars, parked_cars_of_levels
 from garage2usd.maps.parking_areas import NETWORK_SUFFIX, write_parking_areas
 from garage2usd.maps.road_builder import network_of
 from garage2usd.maps.stage_facts import stage_facts
@@ -41,7 +42,7 @@ _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO, _GRID = ".json", ".glb", ".osm", ".
 _AREAS = ".add.xml"
 _OF_EXTRA = {_LANELET2: ("a Lanelet2 map", "pyproj"), _SCENARIO: ("a scenario", "scenariogeneration")}
 """Formats that need a module of an extra, with their description and that module, by extension."""
-LEVEL_SUFFIXES = frozenset({_GRID, _LANELET2, _MAP, _SCENE})
+LEVEL_SUFFIXES = frozenset({_GRID, _LANELET2, _MAP, _SCENARIO, _SCENE})
 """Extensions of the formats in which a garage of several levels can be written."""
 Notice = Callable[[str], None]
 """Callback for a line on data that a format cannot represent."""
@@ -179,9 +180,15 @@ def _lanelet2(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> 
 def _scenario(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
     from garage2usd.maps.openscenario import write_scenario  # noqa: PLC0415 - other formats do without its extra
 
-    garage, driven = source.garage, asked.settings.scenario
-    planner = DrivePlanner(garage, asked.settings.drive)
+    driven, levels = asked.settings.scenario, source.levels
+    planner = (
+        DrivePlanner(source.garage, asked.settings.drive)
+        if levels is None
+        else LevelsDrivePlanner(levels, asked.settings.drive)
+    )
     drive = planner.drive(driven.stall, entrance=driven.entrance, exit=driven.exit, leg=driven.leg)
+    free = [drive.route.stall]
+    parked = parked_cars(source.garage, free=free) if levels is None else parked_cars_of_levels(levels, free=free)
     seed = stage_facts(source.stage).get("seed")
     write_scenario(
         path,
@@ -189,7 +196,7 @@ def _scenario(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> 
         car=drive.car,
         settings=drive.settings,
         road_file=asked.road_file,
-        parked=parked_cars(garage, free=[drive.route.stall]),
+        parked=parked,
         name=f"{drive.route.stall} {drive.leg}",
         seed=None if seed is None else int(seed),
     )

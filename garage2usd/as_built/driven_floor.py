@@ -1,7 +1,7 @@
 """The floor for driving: level in the garage, and sloping on its ramps."""
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,8 +10,12 @@ from garage2usd.as_built.driven_road import floors_of_ramps
 from garage2usd.as_built.shapes import Thing
 from garage2usd.driving import RampFloor, heights_m
 from garage2usd.garage import LaneGraph
+from garage2usd.reading.levels import StageLevel
 
-__all__ = ["DrivenFloor"]
+__all__ = ["BEYOND_TOP_M", "DrivenFloor"]
+
+BEYOND_TOP_M = 1.0
+"""Metres beyond the top of a ramp between levels up to which its floor reaches, level."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,6 +37,18 @@ class DrivenFloor:
     def of(cls, lanes: LaneGraph, things: Iterable[Thing]) -> "DrivenFloor":
         """Find the floor of the lanes and of the ramps among objects."""
         return cls(lanes.floor_m(), floors_of_ramps(things))
+
+    @classmethod
+    def of_levels(cls, levels: Sequence[StageLevel], things: Iterable[Thing]) -> "tuple[DrivenFloor, ...]":
+        """Find the floor of each level among the objects of all, by the paths of these; ramps belong to their foot."""
+        named = list(things)
+        floors = []
+        for number, level in enumerate(levels):
+            ramps = floors_of_ramps(thing for thing in named if thing.name.startswith(f"{level.path}/"))
+            if number:  # those of the top level lead to the street and go on
+                ramps = tuple(replace(ramp, end_m=float(ramp.runs_m[-1]) + BEYOND_TOP_M) for ramp in ramps)
+            floors.append(cls(level.floor_m, ramps))
+        return tuple(floors)
 
     def heights_m(self, x_m: ArrayLike, z_m: ArrayLike) -> NDArray[np.float64]:
         """Return the floor's heights at points; float64, their shape."""

@@ -1,6 +1,7 @@
 """A garage of several levels as built: each level as a garage of its own, and the lanes of the whole."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -40,6 +41,11 @@ class BuiltLevel(NamedTuple):
         if path == root or path.startswith(f"{root}/"):
             return self.place.path + path[len(root) :]
         return f"{self.place.name}/{path}" if path else self.place.name
+
+    def own_names(self, names: Iterable[str]) -> list[str]:
+        """Return the names within the level of those stalls of the whole garage that are on it."""
+        start = f"{self.place.name}/"
+        return [name.removeprefix(start) for name in names if name.startswith(start)]
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,9 +12,10 @@ from garage2usd.cli.parameters import INPUT_FILE, drive_options, refuse_seed, se
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from garage2usd.as_built import BuiltGarage
+    from garage2usd.as_built.levels import BuiltLevels
     from garage2usd.common.progress import Progress
     from garage2usd.config.maps import DriveConfig
     from garage2usd.config.vehicles import CarBody
@@ -59,10 +60,12 @@ def drive(
     PATH is a configuration, from which the garage is made as by `build`; a stage, including one edited in other tools;
     or the report of a build. Without PATH the default garage is used. The car is 4.8 x 1.8 m with a turning radius of
     6 m. Access aisles, turning stalls and stalls for motorcycles are left out, since no car parks there. Stalls without
-    a path are listed with the objects in the way, and the exit code is 1.
+    a path are listed with the objects in the way, and the exit code is 1. In a stage of several levels the stalls of
+    all levels are proven, from the street and back to it.
 
     With --stall the car drives from an entrance into the stall and on to an exit, over ramps and lanes. Its speed
-    follows the settings `maps.drive` of a configuration or report, else the defaults. Gates are open.
+    follows the settings `maps.drive` of a configuration or report, else the defaults. Gates are open. In a stage of
+    several levels it drives over the ramps between them; the number of a stall begins with its level, U2/A1-08.
 
     \b
     Examples:
@@ -91,9 +94,9 @@ def drive(
         _drive_to(path, seed, stall, entrance=entrance, exit_=exit_, leg=leg or "both", output=output, rig=rig)
         return
     with Bars(sys.stderr) as progress:
-        proofs = _proofs_of(path, seed, progress)
+        proofs, floors_m = _proofs_of(path, seed, progress)
     if output is not None:
-        _write(output, proofs)
+        _write(output, proofs, floors_m)
     _describe(proofs)
     if not all(proof.is_proven for proof in proofs):
         raise click.exceptions.Exit(1)
@@ -118,28 +121,18 @@ def _drive_to(
 ) -> None:
     """Drive to one stall and print the result."""
     from garage2usd.as_built.levels import BuiltLevels  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.checks.levels import read_stage  # noqa: PLC0415
-    from garage2usd.config.maps import DriveConfig, Leg  # noqa: PLC0415
+    from garage2usd.config.maps import Leg  # noqa: PLC0415
     from garage2usd.maps.drives import DrivePlanner  # noqa: PLC0415
     from garage2usd.maps.level_drives import LevelsDrivePlanner  # noqa: PLC0415
-    from garage2usd.reading.files import STAGE_SUFFIXES  # noqa: PLC0415
     from garage2usd.sensors.rig.rig import read_rig  # noqa: PLC0415
 
-    garage: BuiltGarage | BuiltLevels
     car = None if rig is None else read_rig(rig).body
     with Bars(sys.stderr) as progress:
-        if path is not None and path.suffix.lower() in STAGE_SUFFIXES:
-            refuse_seed(seed)
-            garage, settings = read_stage(path)[0], DriveConfig()
-        else:
-            garage, settings = _garage_of(path, seed, progress)
-        if isinstance(garage, BuiltLevels):
-            for option, value in (("entrance", entrance), ("exit", exit_), ("rig", rig)):
-                if value is not None:
-                    raise ConfigError(option, value, "not with several levels, for which it is not built yet")
-            driven = LevelsDrivePlanner(garage, settings).drive(stall, leg=Leg(leg))
-        else:
-            driven = DrivePlanner(garage, settings).drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
+        garage, settings = _garage_of(path, seed, progress)
+        planner = (
+            LevelsDrivePlanner(garage, settings) if isinstance(garage, BuiltLevels) else DrivePlanner(garage, settings)
+        )
+        driven = planner.drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
     if output is not None:
         _write_drive(output, driven, car)
     route, states = driven.route, driven.trajectory
@@ -155,7 +148,9 @@ def _drive_to(
         click.echo(f"{route.stall}: only while the stalls that are empty now stay empty")
 
 
-def _garage_of(path: Path | None, seed: int | None, progress: "Progress") -> "tuple[BuiltGarage, DriveConfig]":
+def _garage_of(
+    path: Path | None, seed: int | None, progress: "Progress"
+) -> "tuple[BuiltGarage | BuiltLevels, DriveConfig]":
     """The garage, and the settings of drives."""
     from garage2usd.as_built.layout_reader import garage_of_layout  # noqa: PLC0415 - keeps --help instant
 
@@ -166,14 +161,22 @@ def _garage_of(path: Path | None, seed: int | None, progress: "Progress") -> "tu
     return garage, made.config.maps.drive
 
 
-def _proofs_of(path: Path | None, seed: int | None, progress: "Progress") -> "tuple[StallProof, ...]":
+def _proofs_of(
+    path: Path | None, seed: int | None, progress: "Progress"
+) -> "tuple[tuple[StallProof, ...], Mapping[str, float] | None]":
+    """Prove all stalls; return also the height of the floor under each by name, in a garage of several levels."""
     from garage2usd.as_built.driven_ground import driven_garage  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.as_built.driven_levels import floors_of_stalls, prove_levels  # noqa: PLC0415
+    from garage2usd.as_built.levels import BuiltLevels  # noqa: PLC0415
     from garage2usd.driving import prove_garage, prove_stalls  # noqa: PLC0415
 
     if path is not None and _is_made(path):
-        return prove_garage(driven_garage(_read(path, seed)[0]), progress=progress)
+        made = _read(path, seed)[0]
+        if isinstance(made, BuiltLevels):
+            return prove_levels(made, progress=progress), floors_of_stalls(made)
+        return prove_garage(driven_garage(made), progress=progress), None
     garage = _generated(path, seed, progress)
-    return prove_stalls(garage.layout, progress=progress)
+    return prove_stalls(garage.layout, progress=progress), None
 
 
 def _is_made(path: Path) -> bool:
@@ -183,16 +186,16 @@ def _is_made(path: Path) -> bool:
     return path.suffix.lower() in {*STAGE_SUFFIXES, ".json"}
 
 
-def _read(path: Path, seed: int | None) -> "tuple[BuiltGarage, DriveConfig]":
+def _read(path: Path, seed: int | None) -> "tuple[BuiltGarage | BuiltLevels, DriveConfig]":
     """Read a stage or a report, with the settings of drives: the report's, or the defaults for a stage."""
     from garage2usd.as_built.plan_reader import garage_of_plan  # noqa: PLC0415
-    from garage2usd.checks import read_garage  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.checks.levels import read_stage  # noqa: PLC0415 - keeps --help instant
     from garage2usd.config.maps import DriveConfig  # noqa: PLC0415
     from garage2usd.reading.files import STAGE_SUFFIXES  # noqa: PLC0415
 
     refuse_seed(seed)
     if path.suffix.lower() in STAGE_SUFFIXES:
-        return read_garage(path)[0], DriveConfig()
+        return read_stage(path)[0], DriveConfig()
     garage, config = garage_of_plan(path)
     return garage, config.maps.drive
 
@@ -220,15 +223,15 @@ def _write_drive(output: Path, driven: "Drive", car: "CarBody | None") -> None:
     _publish(output, write)
 
 
-def _write(output: Path, proofs: "Sequence[StallProof]") -> None:
+def _write(output: Path, proofs: "Sequence[StallProof]", floors_m: "Mapping[str, float] | None") -> None:
     from garage2usd.driving.witness import write_witness  # noqa: PLC0415 - keeps --help instant
     from garage2usd.stage.driving_layer import write_driving_layer  # noqa: PLC0415
 
     def write(file: Path) -> "Sequence[Path]":
         if file.suffix == ".json":
-            write_witness(file, proofs)
+            write_witness(file, proofs, floors_m=floors_m)
         else:
-            write_driving_layer(file, proofs)
+            write_driving_layer(file, proofs, floors_m=floors_m)
         return ()
 
     _publish(output, write)

@@ -97,8 +97,8 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
 @click.option(
     "--along",
     metavar="ENTRANCE:STALL|CAMERA",
-    help="With --rig: the proven way from an entrance (1, 2 ...; left out, the nearest) to a stall, as 1:A1-08, or a "
-    "camera that moves. A rig in the world needs none.",
+    help="With --rig: the proven way from an entrance (1, 2 ...; left out, the nearest) to a stall, as 1:A1-08 "
+    "or 1:U2/A1-08, or a camera that moves. A rig in the world needs none.",
 )
 @click.option(
     "--every-m", metavar="M", type=click.FloatRange(0.01), help="With --rig: metres between two places.  [default: 1]"

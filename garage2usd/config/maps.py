@@ -73,8 +73,9 @@ class ScenarioConfig(Settings):
     """Stall, portals and part of a visit that an OpenSCENARIO scenario drives."""
 
     stall: str | None = None
-    """Id of the stall, or the number painted in it. If left out, the first free stall in the stage's order to which a
-    drive is found; if there is none, the first stall to which a drive is found, without its parked car."""
+    """Id of the stall, or the number painted in it, which in a garage of several levels begins with its level,
+    ``U2/A1-08``. If left out, the first free stall in the stage's order to which a drive is found, of several levels on
+    the lowest; if there is none, the first stall to which a drive is found, without its parked car."""
     entrance: int | None = Field(None, ge=1)
     """Number of the entrance, from 1 in reading order; if left out, that of the shortest path."""
     exit: int | None = Field(None, ge=1)

@@ -270,7 +270,9 @@ class Recipe(Settings):
 
         check_levels(config)
         if self.make.drives:
-            wanted = "none in a recipe with building.levels of 2 or more, through which rigs are not recorded yet"
+            wanted = (
+                "none in a recipe with building.levels of 2 or more, for which drives of data sets are not built yet"
+            )
             raise ConfigError("make.drives.rig", self.make.drives.rig.name, wanted)
         refused = [name for name in self.make.exports if f".{name}" not in LEVEL_SUFFIXES]
         if refused:

@@ -23,9 +23,11 @@ from garage2usd.driving.way_search import find_guided_way, find_way_by_steps
 from garage2usd.garage import DEAD_END_LIMIT_M, Arc, LaneGraph, Point, Stall
 from garage2usd.native import elementary
 
-__all__ = ["DrivenGarage", "Find", "Nose", "StallProof", "middle_of", "prove_garage"]
+__all__ = ["ABSENT", "DrivenGarage", "Find", "Nose", "StallProof", "middle_of", "prove_garage"]
 
 Find = Callable[[DesignCar, Pose, Obstacles, Sequence[LanePose], Limits], Search]
+ABSENT = "a car in "
+"""Beginning of the name of the car that stands in an empty stall in a proof; the name of the stall follows."""
 _SUSPECTS = 8
 _NEAR_EDGES, _DIGITS = 2, 4
 _FURTHER_OUT_M = (0.0, 0.1, 0.2, 0.3)
@@ -148,7 +150,7 @@ def middle_of(stall: Stall) -> Point:
 
 
 def _absent(stall: Stall) -> str:
-    return f"a car in {stall.name}"
+    return f"{ABSENT}{stall.name}"
 
 
 def prove_garage(

@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -20,7 +20,12 @@ _DIGITS = 6
 
 
 def write_witness(
-    path: Path, proofs: Sequence[StallProof], *, car: DesignCar | None = None, limits: Limits | None = None
+    path: Path,
+    proofs: Sequence[StallProof],
+    *,
+    car: DesignCar | None = None,
+    limits: Limits | None = None,
+    floors_m: Mapping[str, float] | None = None,
 ) -> None:
     """Write the swept-path proof of each stall as JSON.
 
@@ -29,21 +34,23 @@ def write_witness(
     ``moves`` are gear, curvature (1/m, positive to the driver's left) and length (m) in order from ``start``; they
     define the manoeuvre. ``poses`` sample it at most 0.25 m apart: distance driven (m), x, z (m), yaw (right-handed
     about +Y, 0 points to -Z), gear (1 or -1) and curvature. All refer to the middle of the rear axle. Stalls without
-    manoeuvres list the touched objects; those for which the search reached its bound are ``undecided``.
+    manoeuvres list the touched objects; those for which the search reached its bound are ``undecided``. With
+    `floors_m`, the height of the floor under each stall by name, ``floor_m`` says it: all poses of a stall are on it.
     """
     car = car or DesignCar()
     document = {
         "version": VERSION,
         "car": {**asdict(car), "rear_axle_radius_m": round(car.rear_axle_radius_m, _DIGITS)},
         "limits": asdict(limits or Limits()),
-        "stalls": [_stall(proof) for proof in proofs],
+        "stalls": [_stall(proof, floors_m) for proof in proofs],
     }
     path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8", newline="\n")
 
 
-def _stall(proof: StallProof) -> dict[str, Any]:
+def _stall(proof: StallProof, floors_m: Mapping[str, float] | None) -> dict[str, Any]:
     return {
         "name": proof.stall,
+        **({} if floors_m is None else {"floor_m": floors_m[proof.stall]}),
         "proven": proof.is_proven,
         "nose": proof.nose and proof.nose.value,
         "clear_with_all_stalls_taken": proof.is_full,

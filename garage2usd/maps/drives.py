@@ -16,7 +16,7 @@ from garage2usd.driving.trajectory import Trajectory
 from garage2usd.driving.turns import Steering
 from garage2usd.garage import LaneKind, Stall
 
-__all__ = ["Drive", "DrivePlanner"]
+__all__ = ["Drive", "DrivePlanner", "portals_asked"]
 
 _NAMED = 6
 _STEP_S = 0.05
@@ -97,18 +97,27 @@ class DrivePlanner:
         self._driven = {stall.name: stall for stall in self.road.garage.stalls}
         self._others = {stall.name: _names(stall) for stall in garage.stalls if stall.name not in self._outlines}
 
-    def route_of(self, stall: str, *, entrances: Sequence[Portal], exits: Sequence[Portal]) -> Route:
-        """Return the route from one of some entrances into a stall, by its name, and out to one of some exits.
+    def route_of(self, stall: str | None, *, entrances: Sequence[Portal], exits: Sequence[Portal]) -> Route:
+        """Return the route from one of some entrances into a stall, and out to one of some exits.
+
+        Parameters
+        ----------
+        stall, entrances, exits
+            As for `drive`, the portals by themselves.
 
         Raises
         ------
         ConfigError
-            If no such route is found.
+            If the stall does not exist, or no such route is found.
         """
-        route = self.router.route(self._driven[stall], entrances=entrances, exits=exits)
-        if not isinstance(route, Route):
-            raise ConfigError("stall", stall, _lack(route))
-        return route
+        lack = "a garage with a stall that a drive is found for"
+        for candidate in self._in_order() if stall is None else [self._stall(stall)]:
+            route = self.router.route(candidate, entrances=entrances, exits=exits)
+            if isinstance(route, Route):
+                return route
+            if stall is not None:
+                lack = _lack(route)
+        raise ConfigError("stall", stall, lack)
 
     def drive(
         self,
@@ -135,17 +144,11 @@ class DrivePlanner:
         ConfigError
             If the stall, entrance or exit does not exist, or no drive connects them.
         """
-        entrances = self._chosen("entrance", entrance, LaneKind.ENTRANCE)
-        exits = self._chosen("exit", exit, LaneKind.EXIT)
-        candidates = self._in_order() if stall is None else [self._stall(stall)]
-        route: Route | StallProof | None = None
-        for candidate in candidates:
-            route = self.router.route(candidate, entrances=entrances, exits=exits)
-            if isinstance(route, Route):
-                break
-        if not isinstance(route, Route):
-            lack = "a garage with a stall that a drive is found for" if stall is None or route is None else _lack(route)
-            raise ConfigError("stall", stall, lack)
+        route = self.route_of(
+            stall,
+            entrances=portals_asked("entrance", entrance, self.router.portals(LaneKind.ENTRANCE)),
+            exits=portals_asked("exit", exit, self.router.portals(LaneKind.EXIT)),
+        )
         return Drive(route, leg, self._motion(route, leg), self._car, self._settings)
 
     def _motion(self, route: Route, leg: Leg) -> Motion:
@@ -169,13 +172,20 @@ class DrivePlanner:
         """Order the stalls for cars as in the garage, free ones first."""
         return sorted((self._driven[name] for name in self._outlines), key=lambda stall: stall.name in self._taken)
 
-    def _chosen(self, field: str, number: int | None, use: LaneKind) -> tuple[Portal, ...]:
-        portals = self.router.portals(use)
-        if number is None:
-            return portals
-        if not 1 <= number <= len(portals):
-            raise ConfigError(field, number, f"1 to {len(portals)}" if len(portals) > 1 else "1")
-        return (portals[number - 1],)
+
+def portals_asked(field: str, number: int | None, portals: Sequence[Portal]) -> tuple[Portal, ...]:
+    """Return the entrance or exit of a number from 1 on, or all of them.
+
+    Raises
+    ------
+    ConfigError
+        If none has the number; it names `field`.
+    """
+    if number is None:
+        return tuple(portals)
+    if not 1 <= number <= len(portals):
+        raise ConfigError(field, number, f"1 to {len(portals)}" if len(portals) > 1 else "1")
+    return (portals[number - 1],)
 
 
 def _names(stall: Stall) -> list[str]:

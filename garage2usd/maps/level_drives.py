@@ -1,9 +1,10 @@
 """Drives through a garage of several levels: from the street over ramps into a stall, and back to the street."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from garage2usd.as_built.driven_floor import BEYOND_TOP_M
 from garage2usd.as_built.levels import BuiltLevels
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.spelling import find_named
@@ -15,13 +16,16 @@ from garage2usd.driving.road import FloorSpan
 from garage2usd.driving.route import Route
 from garage2usd.driving.timing import timed
 from garage2usd.garage import LaneKind, Stall
-from garage2usd.maps.drives import Drive, DrivePlanner
+from garage2usd.maps.drives import Drive, DrivePlanner, portals_asked
 
 __all__ = ["LevelsDrivePlanner"]
 
 _NAMED = 6
-_BEYOND_TOP_M, _BEYOND_FOOT_M = 1.0, 2.0
+_BEYOND_FOOT_M = 2.0
 _RISE_M = 0.01
+
+_Street = Mapping[LaneKind, tuple[Portal, ...]]
+"""Entrances and exits to the street that a drive may use."""
 
 
 @dataclass(frozen=True)
@@ -69,34 +73,53 @@ class LevelsDrivePlanner:
         self._garage, self._settings, self._car = garage, settings or DriveConfig(), car or DesignCar()
         self._planners: dict[int, DrivePlanner] = {}
 
-    def drive(self, stall: str, *, leg: Leg = Leg.BOTH) -> Drive:
+    def drive(
+        self,
+        stall: str | None = None,
+        *,
+        entrance: int | None = None,
+        exit: int | None = None,  # noqa: A002 - the garage's word
+        leg: Leg = Leg.BOTH,
+    ) -> Drive:
         """Plan the drive to a stall and away from it.
 
         Parameters
         ----------
         stall
-            Name of the stall, or its number with its level, ``U2/B2-07``; case-insensitive.
+            Name of the stall, or its number with its level, ``U2/B2-07``; case-insensitive. If left out, the first free
+            stall of the lowest level with a feasible drive, or else the first stall of that level with one.
+        entrance, exit
+            Numbers of the portals to the street, from 1 in the order of the squares, by rows; if left out, those of the
+            shortest route.
         leg
             Leg to drive: to the stall, away from it, or both.
 
         Raises
         ------
         ConfigError
-            If there is no such stall, or no drive to it and away is found.
+            If the stall, entrance or exit does not exist, or no drive connects them.
         """
-        found = self._stall(stall)
-        level = found.level
+        street = {
+            kind: portals_asked(field, number, self._ends(0, kind, from_above=True))
+            for kind, field, number in (
+                (LaneKind.ENTRANCE, "entrance", entrance),
+                (LaneKind.EXIT, "exit", exit),
+            )
+        }
+        found = None if stall is None else self._stall(stall)
+        level = len(self._garage.levels) - 1 if found is None else found.level
         planner = self._planner(level)
         route = planner.route_of(
-            found.name.partition("/")[2],
-            entrances=self._ends(level, LaneKind.ENTRANCE, from_above=True),
-            exits=self._ends(level, LaneKind.EXIT, from_above=True),
+            None if found is None else found.name.partition("/")[2],
+            entrances=self._to_street(level, LaneKind.ENTRANCE, street),
+            exits=self._to_street(level, LaneKind.EXIT, street),
         )
-        into, entrance = self._led(level, route.entrance, _Part(route.arrival.pieces, level), is_in=True)
-        out, exit_ = self._led(level, route.exit, _Part(route.departure.pieces, level), is_in=False)
-        arrival = Path(entrance.pose, tuple(piece for part in into for piece in part.pieces))
+        into, start = self._led(level, route.entrance, _Part(route.arrival.pieces, level), street, is_in=True)
+        out, end = self._led(level, route.exit, _Part(route.departure.pieces, level), street, is_in=False)
+        arrival = Path(start.pose, tuple(piece for part in into for piece in part.pieces))
         departure = Path(route.departure.start, tuple(piece for part in out for piece in part.pieces))
-        whole = Route(found.name, route.nose, entrance, exit_, arrival, departure, route.is_full)
+        name = f"{self._garage.levels[level].place.name}/{route.stall}"
+        whole = Route(name, route.nose, start, end, arrival, departure, route.is_full)
         parts = {Leg.IN: into, Leg.OUT: out, Leg.BOTH: [*into, *out]}[leg]
         path = {Leg.IN: arrival, Leg.OUT: departure, Leg.BOTH: arrival.then(departure.pieces)}[leg]
         parked_after = len(arrival.pieces) if leg is Leg.BOTH else None
@@ -126,6 +149,10 @@ class LevelsDrivePlanner:
             portal for portal in portals if (portal.name in garage.landings and portal.name in names) is not from_above
         )
 
+    def _to_street(self, level: int, kind: LaneKind, street: _Street) -> tuple[Portal, ...]:
+        """Return the portals of a level that lead towards the street: of the top level, the chosen ones."""
+        return self._ends(level, kind, from_above=True) if level else street[kind]
+
     def _below(self, level: int) -> frozenset[str]:
         """Return the names of the landings of a level at the heads of ramps from and to the level below."""
         lanes = self._garage.lanes
@@ -137,7 +164,9 @@ class LevelsDrivePlanner:
                 names.add(node.name.rpartition("/")[2])
         return frozenset(names)
 
-    def _led(self, level: int, portal: Portal, part: _Part, *, is_in: bool) -> tuple[list[_Part], Portal]:
+    def _led(
+        self, level: int, portal: Portal, part: _Part, street: _Street, *, is_in: bool
+    ) -> tuple[list[_Part], Portal]:
         """Lead a path on from a level's landing to the street, or from the street to it."""
         parts, end = [part], portal
         for upper in range(level - 1, -1, -1):
@@ -145,9 +174,9 @@ class LevelsDrivePlanner:
             pose = end.pose
             if is_in:
                 exits = self._ends(upper, LaneKind.EXIT, from_above=False)
-                entrances = self._ends(upper, LaneKind.ENTRANCE, from_above=True)
+                entrances = self._to_street(upper, LaneKind.ENTRANCE, street)
             else:
-                exits = self._ends(upper, LaneKind.EXIT, from_above=True)
+                exits = self._to_street(upper, LaneKind.EXIT, street)
                 entrances = self._ends(upper, LaneKind.ENTRANCE, from_above=False)
             found = [
                 (path, entrance, exit_)
@@ -204,7 +233,7 @@ class LevelsDrivePlanner:
         if upper is not None:
             foot_m = self._garage.levels[upper + 1].place.floor_m
             ramps += [
-                _lifted(ramp, foot_m, float(ramp.runs_m[-1]) + _BEYOND_TOP_M)
+                _lifted(ramp, foot_m, float(ramp.runs_m[-1]) + BEYOND_TOP_M)
                 for ramp in self._planner(upper + 1).road.ramps
             ]
         return FloorSpan(end_m, own_m, tuple(ramps))

@@ -78,7 +78,7 @@ def write_scenario(
         x, y = map_point(other.middle_m)
         heading, back_m = heading_rad(other.yaw_rad), _wheelbase_m(other) / 2
         x, y = x - back_m * elementary.cos(heading), y - back_m * elementary.sin(heading)
-        place = xosc.WorldPosition(_number(x), _number(y), 0.0, _number(heading), 0.0, 0.0)
+        place = xosc.WorldPosition(_number(x), _number(y), _number(other.floor_m), _number(heading), 0.0, 0.0)
         init.add_init_action(other.name, xosc.TeleportAction(place))
     times = [_number(time) for time in trajectory.time_s.tolist()]
     way = xosc.Trajectory(name, closed=False)

@@ -2,17 +2,18 @@
 
 import math
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
 
 from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.levels import BuiltLevels
 from garage2usd.as_built.placed_pieces import placed_pieces
 from garage2usd.native import elementary
 from garage2usd.objects import CAR_LABELS
 
-__all__ = ["ParkedCar", "parked_cars"]
+__all__ = ["ParkedCar", "parked_cars", "parked_cars_of_levels"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +30,8 @@ class ParkedCar:
         Right-handed about +Y; at 0 its nose looks to -Z.
     length_m, width_m, height_m
         Size of the body.
+    floor_m
+        Height of the floor that it stands on.
     """
 
     name: str
@@ -37,6 +40,25 @@ class ParkedCar:
     length_m: float
     width_m: float
     height_m: float
+    floor_m: float = 0.0
+
+
+def parked_cars_of_levels(garage: BuiltLevels, *, free: Collection[str] = ()) -> list[ParkedCar]:
+    """Return the parked cars of all levels, at the heights of their floors, as `parked_cars`.
+
+    Parameters
+    ----------
+    garage
+        The garage.
+    free
+        Names of stalls whose cars are ignored; they begin with the name of the level.
+    """
+    cars = [
+        replace(car, floor_m=level.place.floor_m)
+        for level in garage.levels
+        for car in parked_cars(level.garage, free=level.own_names(free))
+    ]
+    return [replace(car, name=f"Car_{number}") for number, car in enumerate(cars, 1)]
 
 
 def parked_cars(garage: BuiltGarage, *, free: Collection[str] = ()) -> list[ParkedCar]:

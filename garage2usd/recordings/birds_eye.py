@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
@@ -53,8 +52,8 @@ class BirdsEyeViews:
 
     Attributes
     ----------
-    views, hidden
-        The views, and the ids of the objects hidden from each.
+    views, hidden, unseen
+        The views, the ids of the objects hidden from each, and of the objects of other levels that each looks through.
     """
 
     def __init__(
@@ -65,6 +64,7 @@ class BirdsEyeViews:
         self._ego_mask = f"{ego_folder}/{_NAME}.png"
         self.views = [self._view(number, pose) for number, pose in enumerate(way.poses)]
         self.hidden = [[*looked_through(labels, settings), *left_out]] * len(self.views)
+        self.unseen = [way.unseen_from_above(pose, labels) for pose in way.poses]
 
     def write_masks(self, finished: Path, car: CarBody) -> Path:
         """Write the free-space masks of the bird's-eye views, and the mask of the vehicle.
@@ -93,6 +93,7 @@ class BirdsEyeViews:
             "sensor": _NAME,
             "pose": number,
             **pose.facts,
+            **self._way.level_facts(pose),
             "size_px": list(view.size_px),
             "ego_mask": self._ego_mask,
             "free_space": f"{FREE_FOLDER}/{view.name}.png",
@@ -114,14 +115,14 @@ class BirdsEyeViews:
         """Return the drivable surface of the garage, without the hidden objects."""
         from garage2usd.sensors.rays.driven_surface import DrivenSurface  # noqa: PLC0415 - of an extra
 
-        return DrivenSurface(self._way.garage, self._labels, without=self._way.absent(self._labels))
+        without = self._way.absent(self._labels)
+        return DrivenSurface(self._way.stage, self._way.floors, self._labels, without=without)
 
     def _cars_m(self, pose: VehiclePose) -> list[NDArray[np.float64]]:
         """Return the footprints of nearby parked cars in the vehicle's frame."""
         to_vehicle = np.linalg.inv(pose.vehicle_to_world) @ self._way.to_stage
-        grounds = (ground for name, (ground, _) in self._way.garage.cars.items() if name not in self._way.left_out)
-        corners = [np.asarray(shapely.get_coordinates(ground)) for ground in grounds]
-        return [np.insert(each, 1, 0.0, axis=1) @ to_vehicle[:2, :3].T + to_vehicle[:2, 3] for each in corners]
+        corners = self._way.grounds_of_cars(pose)
+        return [each @ to_vehicle[:2, :3].T + to_vehicle[:2, 3] for each in corners]
 
 
 def _outlines_m(car: CarBody) -> list[NDArray[np.float64]]:

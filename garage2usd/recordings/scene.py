@@ -64,6 +64,12 @@ class Scene:
         ]
         return [*shots, *(self.birds_eye.hidden if self.birds_eye else ())]
 
+    def unseen(self) -> list[list[int]]:
+        """Return for each view the ids of objects of other levels that it looks through; empty for one level."""
+        if self._way.levels is None or self.birds_eye is None:
+            return []
+        return [*([] for _ in self.shots), *self.birds_eye.unseen]
+
     def needed(self, kinds: Collection[Picture]) -> tuple[Picture, ...]:
         """Return the kinds of pictures to render, including those that colour is developed from."""
         blurs = Picture.COLOUR in kinds and any(view.shows_motion for view in self.views)
@@ -111,6 +117,7 @@ class Scene:
             frozenset({self._ego_id}),
             moved,
             device,
+            unseen=self.unseen(),
         )
 
     def recording(self, path: Path, folder: Path, kinds: Sequence[Picture]) -> Recording:
@@ -183,6 +190,7 @@ class Scene:
             "effects": [None if view.effects is None else view.effects.model_dump(mode="json") for view in self.views],
             "motion": [None if view.twist is None else view.twist.facts for view in self.views if view.shows_motion],
             "hidden": self.hidden(),
+            "unseen": self.unseen(),
             "car": [self._rig.car, self._rig.models.sha256 if self._rig.models else ""],
             "lamps": self._rig.lamps,
             "kinds": kinds,

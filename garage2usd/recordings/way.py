@@ -6,15 +6,20 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 from pxr import Usd
 
+from garage2usd.as_built.driven_floor import DrivenFloor
 from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.levels import BuiltLevel, BuiltLevels, built_levels
 from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.maps import DriveConfig, Leg
 from garage2usd.garage import Stall
 from garage2usd.maps.drives import DrivePlanner
+from garage2usd.maps.level_drives import LevelsDrivePlanner
+from garage2usd.objects.ramp import KIND as RAMP
 from garage2usd.reading.labels import Labels
 from garage2usd.render.cameras import find_views
 from garage2usd.sensors.rig.columns import column_to_y_up
@@ -34,6 +39,8 @@ class Way:
 
     Attributes
     ----------
+    stage
+        The stage.
     poses
         The poses.
     has_vehicle
@@ -46,6 +53,7 @@ class Way:
         Transform from metres with Y up to the stage's axes; shape (4, 4).
     """
 
+    stage: Usd.Stage
     poses: list[VehiclePose]
     has_vehicle: bool
     stall: Stall | None
@@ -53,7 +61,7 @@ class Way:
     to_stage: Matrix
 
     def __init__(self, stage: Usd.Stage, path: Path, along: str | None, every_m: float, settings: DriveConfig) -> None:
-        self._stage, self._source = stage, str(path)
+        self.stage, self._source = stage, str(path)
         self.to_stage = y_up_to_stage(stage)
         self.stall = None
         self.has_vehicle = along is not None
@@ -68,23 +76,72 @@ class Way:
             self._follow(along, every_m)
 
     @cached_property
+    def levels(self) -> BuiltLevels | None:
+        """The levels of a garage of several; None of a garage of one level."""
+        return built_levels(self.stage, self._source)
+
+    @cached_property
     def garage(self) -> BuiltGarage:
-        """The garage as read from the stage."""
-        return garage_of_stage(self._stage, source=self._source)
+        """The garage of one level as read from the stage."""
+        return garage_of_stage(self.stage, source=self._source)
+
+    @cached_property
+    def floors(self) -> tuple[DrivenFloor, ...]:
+        """The floor of each level, with the ramps up from it, in metres with Y up."""
+        if self.levels is None:
+            return (DrivenFloor.of(self.garage.lanes, self.garage.things),)
+        return DrivenFloor.of_levels([level.place for level in self.levels.levels], self.levels.things)
+
+    def level_at(self, pose: VehiclePose) -> BuiltLevel | None:
+        """Return the level that a vehicle is on, which changes half way on a ramp; None in a garage of one level."""
+        if self.levels is None:
+            return None
+        height_m = float((np.linalg.inv(self.to_stage) @ pose.vehicle_to_world)[1, 3])
+        return min(self.levels.levels, key=lambda level: abs(level.place.floor_m - height_m))
+
+    def grounds_of_cars(self, pose: VehiclePose) -> list[NDArray[np.float64]]:
+        """Return the corners of the cars parked on the level of a vehicle, in metres with Y up; each shape (n, 3)."""
+        level = self.level_at(pose)
+        garage, floor_m = (self.garage, 0.0) if level is None else (level.garage, level.place.floor_m)
+        left_out = {*self.left_out}
+        grounds = (
+            ground
+            for name, (ground, _) in garage.cars.items()
+            if (name if level is None else level.path_in_whole(name)) not in left_out
+        )
+        return [np.insert(shapely.get_coordinates(ground), 1, floor_m, axis=1) for ground in grounds]
+
+    def unseen_from_above(self, pose: VehiclePose, labels: Labels) -> list[int]:
+        """Return the ids of the objects of other levels, but for the ramps that lead down from the vehicle's own."""
+        own = self.level_at(pose)
+        if own is None or self.levels is None:
+            return []
+        number = self.levels.levels.index(own)
+        below = self.levels.levels[number + 1 : number + 2]
+        shown = {f"{own.place.path}/", *(f"{level.place.path}/{RAMP.group}/" for level in below)}
+        within = f"{own.place.path.rpartition('/')[0]}/"
+        return [
+            each
+            for path, each in labels.ids.items()
+            if path.startswith(within) and not any(path.startswith(start) for start in shown)
+        ]
 
     def _drive_to(self, stall: str, entrance: str, along: str, every_m: float, settings: DriveConfig) -> None:
         if not stall or not (entrance.isdecimal() or not entrance):
             raise ConfigError("along", along, "ENTRANCE:STALL as 1:A1-08, or the name of a camera that moves")
-        planner = DrivePlanner(self.garage, settings)
+        planner = (
+            DrivePlanner(self.garage, settings) if self.levels is None else LevelsDrivePlanner(self.levels, settings)
+        )
         drive = planner.drive(stall, entrance=int(entrance) if entrance else None, leg=Leg.IN)
-        self.stall = next(each for each in self.garage.stalls if each.name == drive.route.stall)
+        stalls = self.garage.stalls if self.levels is None else self.levels.stalls
+        self.stall = next(each for each in stalls if each.name == drive.route.stall)
         self.poses = poses_along(drive.motion, every_m, to_stage=self.to_stage)
         self.about = {"along": along, "every_m": every_m, **drive.facts}
 
     def _follow(self, camera: str, every_m: float) -> None:
         """Follow a moving camera as a vehicle, with the rear axle on the floor below the camera."""
-        first, last = self._stage.GetStartTimeCode(), self._stage.GetEndTimeCode()
-        views = find_views(self._stage, cameras=[camera], frames=f"{first:g}:{max(first, last):g}x1")
+        first, last = self.stage.GetStartTimeCode(), self.stage.GetEndTimeCode()
+        views = find_views(self.stage, cameras=[camera], frames=f"{first:g}:{max(first, last):g}x1")
         if views[0].frame is None:
             raise ConfigError("along", camera, "ENTRANCE:STALL as 1:A1-08, or the name of a camera that moves")
         to_y_up = np.linalg.inv(self.to_stage)
@@ -114,8 +171,15 @@ class Way:
         return fixed
 
     def vehicle_facts(self, pose: VehiclePose) -> dict[str, object]:
-        """Return the time and distance of the vehicle's pose, or nothing without a vehicle."""
-        return {"vehicle_to_world": pose.vehicle_to_world.tolist()} if self.has_vehicle else {}
+        """Return the vehicle's pose, with its level in a garage of several; nothing without a vehicle."""
+        if not self.has_vehicle:
+            return {}
+        return {"vehicle_to_world": pose.vehicle_to_world.tolist(), **self.level_facts(pose)}
+
+    def level_facts(self, pose: VehiclePose) -> dict[str, object]:
+        """Return the name of the level that a vehicle is on; nothing in a garage of one level."""
+        level = self.level_at(pose)
+        return {} if level is None else {"level": level.place.name}
 
     def car_moved(self, pose: VehiclePose) -> Matrix:
         """Return the ego car's transform from its place in `garage2usd.stage.ego_car` to a pose, in stage axes."""
@@ -131,7 +195,13 @@ class Way:
     def _column(self) -> Matrix:
         if self.stall is None:
             raise ConfigError("along", self._along, "ENTRANCE:STALL, for sensors on a column, which watch it")
-        matrix: Matrix = self.to_stage @ column_to_y_up(self.garage, self.stall)
+        if self.levels is None:
+            column = column_to_y_up(self.garage, self.stall)
+        else:
+            level = self.levels.levels[self.stall.level]
+            column = column_to_y_up(level.garage, self.stall)
+            column[1, 3] += level.place.floor_m
+        matrix: Matrix = self.to_stage @ column
         return matrix
 
     @cached_property
@@ -139,11 +209,19 @@ class Way:
         """Paths of the cars parked in the target stall."""
         if self.stall is None:
             return []
-        return [name for name, (_, home) in self.garage.cars.items() if home is not None and home == self.stall]
+        if self.levels is None:
+            return [name for name, (_, home) in self.garage.cars.items() if home is not None and home == self.stall]
+        level = self.levels.levels[self.stall.level]
+        (own,) = level.own_names([self.stall.name])
+        return [
+            level.path_in_whole(name)
+            for name, (_, home) in level.garage.cars.items()
+            if home is not None and home.name == own
+        ]
 
     def absent(self, labels: Labels) -> list[str]:
         """Return the paths of objects ignored by all sensors: the cars left out, and a car that drives in the stage."""
-        roots = self._stage.GetPseudoRoot().GetChildren()
+        roots = self.stage.GetPseudoRoot().GetChildren()
         driving = [str(root.GetPath().AppendChild(CAR_NAME)) for root in roots]
         return [*labels.with_plates(self.left_out), *driving]
 

@@ -278,14 +278,15 @@ def _move(moving: list[tuple[bpy.types.Object, Matrix]], moved: list[list[float]
 
 def _hide(drawn: list[_Drawn], frame: dict[str, Any], *, is_dark: bool) -> None:
     """Hide objects from a frame's camera, though hidden lamps still shine; in the dark hide the lights."""
-    looked_through, from_above = set(frame["hidden"]), frame["from_above"]
+    looked_through, unseen, from_above = set(frame["hidden"]), set(frame["unseen"]), frame["from_above"]
     for item, number, hangs, is_for_above in drawn:
         is_hidden = is_dark if item.type == "LIGHT" else number in looked_through
         is_hidden |= is_for_above not in {None, from_above}
         if item.hide_render != is_hidden:  # Blender reads the scene anew, even where it stays the same
             item.hide_render = is_hidden
-        if hangs and item.visible_camera == from_above:
-            item.visible_camera = not from_above
+        is_seen = not (hangs and from_above) and number not in unseen
+        if item.visible_camera != is_seen:
+            item.visible_camera = is_seen
 
 
 def _set_up(scene: bpy.types.Scene, *, samples: int, seed: int) -> None:

@@ -78,6 +78,8 @@ class Drawing:
     moved
         Rigid transform of the moving objects in each view, from their pose in the stage, in the stage's axes and
         metres; shape (4, 4). None for a view that hides them. Empty if nothing moves.
+    unseen
+        Ids of the objects that each view looks through, though light does not; empty if there are none.
     device
         Device that renders colour; all other pictures are rendered by the processor.
     is_draft
@@ -97,6 +99,7 @@ class Drawing:
     moved: Sequence[NDArray[np.float64] | None] = ()
     device: ComputeDevice = CPU
     is_draft: bool = False
+    unseen: Sequence[Sequence[int]] = ()
 
     def draw(self, work: Path, progress: Progress, announce: Announce = unheard) -> list[list[VisibleInstance] | None]:
         """Render the unfinished frames.
@@ -129,8 +132,12 @@ class Drawing:
         scene = read_drawn_prims(self.stage, self.labels.ids)
         digits = 1 + int(scene.instance.max(initial=0) >= INDEX_LIMIT)
         moved = self.moved or [None] * len(self.views)
-        frames = zip(self.views, self.hidden, moved, strict=True)
-        jobs = [{**self._frame_job(view, hide, work, digits), "moved": _listed(place)} for view, hide, place in frames]
+        unseen = self.unseen or [()] * len(self.views)
+        frames = zip(self.views, self.hidden, unseen, moved, strict=True)
+        jobs = [
+            {**self._frame_job(view, hide, work, digits), "unseen": list(through), "moved": _listed(place)}
+            for view, hide, through, place in frames
+        ]
         order = self._order()
         total = len(self.views) * (self.samples * self._has_colour + self._has_data)
         left = sum(self.samples * bool(job["colour"]) + bool(job["data"]) for job in jobs)
@@ -216,8 +223,10 @@ class Drawing:
     def _order(self) -> list[int]:
         """Order the views for rendering by lens, since changing the lens is slow."""
         groups: dict[str, list[int]] = {}
-        for number, (view, hide) in enumerate(zip(self.views, self.hidden, strict=True)):
-            groups.setdefault(json.dumps([view.lens_job(), view.size_px, list(hide)]), []).append(number)
+        unseen = self.unseen or [()] * len(self.views)
+        for number, (view, hide, through) in enumerate(zip(self.views, self.hidden, unseen, strict=True)):
+            key = json.dumps([view.lens_job(), view.size_px, list(hide), list(through)])
+            groups.setdefault(key, []).append(number)
         return [number for group in groups.values() for number in group]
 
     @property
@@ -293,7 +302,7 @@ class Drawing:
     def _overhead(self, scene: DrawnPrims) -> Overhead:
         """Find the overhead objects to hide from bird's-eye views, if there are such views."""
         if any(isinstance(view.lens, Orthographic) for view in self.views):
-            return find_overhead(self.stage, scene)
+            return find_overhead(self.stage, scene, self.labels.ids)
         return Overhead(np.zeros(len(scene.shape), dtype=bool), np.full(len(scene.shape), np.nan))
 
     def _described(self, jobs: Sequence[Mapping[str, Any]]) -> str:

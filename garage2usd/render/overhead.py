@@ -1,5 +1,6 @@
 """Overhead geometry: prims above the height of a car, which bird's-eye views hide."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,7 @@ from garage2usd.as_built.contents import read_contents
 from garage2usd.as_built.driven_floor import DrivenFloor
 from garage2usd.as_built.driven_ground import CAR_HEIGHT_M
 from garage2usd.reading.lanes import read_lanes
+from garage2usd.reading.levels import StageLevel, levels_of
 from garage2usd.reading.meshes import DRAWN_TYPES, Triangles, triangles_of
 from garage2usd.render.drawn_prims import DrawnPrims
 from garage2usd.sensors.rig.poses import y_up_to_stage
@@ -39,7 +41,7 @@ class Overhead:
     cut_m: NDArray[np.float64]
 
 
-def find_overhead(stage: Usd.Stage, scene: DrawnPrims) -> Overhead:
+def find_overhead(stage: Usd.Stage, scene: DrawnPrims, ids: Mapping[str, int]) -> Overhead:
     """Find geometry that hangs high enough for the design car to drive under, on ramps too.
 
     Parameters
@@ -48,8 +50,12 @@ def find_overhead(stage: Usd.Stage, scene: DrawnPrims) -> Overhead:
         The stage.
     scene
         Drawn prims of the stage.
+    ids
+        Instance ids by prim path, which tell the level of an object; each hangs over the floor of its own level.
     """
-    floor = DrivenFloor.of(read_lanes(stage).graph, read_contents(stage).things)
+    levels, things = levels_of(stage), read_contents(stage).things
+    floors = DrivenFloor.of_levels(levels, things) if levels else (DrivenFloor.of(read_lanes(stage).graph, things),)
+    level = _levels(levels, scene, ids)
     to_y_up = np.linalg.inv(y_up_to_stage(stage))
     hangs, cut_m = np.zeros(len(scene.shape), dtype=bool), np.full(len(scene.shape), np.nan)
     for number, path in enumerate(scene.shapes):
@@ -60,10 +66,21 @@ def find_overhead(stage: Usd.Stage, scene: DrawnPrims) -> Overhead:
         rows = np.flatnonzero(scene.shape == number)
         places = to_y_up @ scene.to_world[rows]
         high = _heights(shape, places).max(axis=1)
-        is_high = high >= floor.level_m + CAR_HEIGHT_M
+        is_high = high >= np.array([floor.level_m for floor in floors])[level[rows]] + CAR_HEIGHT_M
         for row, place in zip(rows[is_high].tolist(), places[is_high], strict=True):
-            hangs[row], cut_m[row] = _over_the_ground(shape, place, floor)
+            hangs[row], cut_m[row] = _over_the_ground(shape, place, floors[level[row]])
     return Overhead(hangs, cut_m)
+
+
+def _levels(levels: Sequence[StageLevel], scene: DrawnPrims, ids: Mapping[str, int]) -> NDArray[np.int64]:
+    """Return the level of each drawn prim; 0 without levels, and for what belongs to none."""
+    found = {
+        number: index
+        for path, number in ids.items()
+        for index, level in enumerate(levels)
+        if path.startswith(f"{level.path}/")
+    }
+    return np.array([found.get(number, 0) for number in scene.instance.tolist()], dtype=np.int64)
 
 
 def _heights(shape: Triangles, places: NDArray[np.float64]) -> NDArray[np.float64]:

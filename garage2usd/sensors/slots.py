@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 from typing import Any
 
@@ -14,6 +14,7 @@ from pxr import Usd, UsdGeom
 from garage2usd.common.errors import StageError
 from garage2usd.garage import LaneNode, Stall
 from garage2usd.reading.lanes import read_lanes
+from garage2usd.reading.levels import levels_of
 from garage2usd.reading.values import metres_y_up
 from garage2usd.sensors.rays.outline import outline_in_picture, polygons_of
 
@@ -54,10 +55,13 @@ class Slot:
         The stall.
     corners_m
         The slot's `CORNERS` on the floor, in the stage's axes and in metres; float64, shape (4, 3).
+    level
+        Name of its level in a garage of several.
     """
 
     stall: Stall
     corners_m: Points
+    level: str | None = None
 
     @property
     def facts(self) -> dict[str, object]:
@@ -65,6 +69,7 @@ class Slot:
         stall = self.stall
         return {
             "name": stall.name,
+            **({} if self.level is None else {"level": self.level}),
             "number": stall.number,
             "use": str(stall.use),
             "type": str(stall.kind),
@@ -205,7 +210,11 @@ def read_slots(stage: Usd.Stage) -> Slots:
     to_metres = metres_y_up(stage)
     turn = to_metres[:3, :3] / np.linalg.norm(to_metres[0, :3])  # for row vectors, from the stage's axes to Y up
     up = UsdGeom.GetStageUpAxis(stage)
-    slots = tuple(_slot(stall, lanes.nodes[stall.access], turn) for stall in lanes.stalls)
+    levels = [level.name for level in levels_of(stage)]
+    slots = tuple(
+        replace(_slot(stall, lanes.nodes[stall.access], turn), level=levels[stall.level] if levels else None)
+        for stall in lanes.stalls
+    )
     return Slots(slots, _GROUND_AXES[up], _UP_AXES[up])
 
 

@@ -7,6 +7,7 @@ turns by 0.8 degrees. ESMINI is its program, built without graphics, as docs/gui
 """
 
 import math
+import os
 import subprocess
 import sys
 import tempfile
@@ -22,6 +23,8 @@ from garage2usd.maps.openscenario import EGO
 from support.sample_files import SAMPLES
 from support.trajectory_judge import OpenWorld
 
+ESMINI = os.environ.get("GARAGE2USD_ESMINI")
+"""The program for tests, which has to be compiled; None where there is none."""
 STEP_S, MOST_M, MOST_DEG = 0.03, 0.02, 1.0
 LOOK = 2
 """Steps from one pose to the next between which the ground that the car sweeps is looked at."""

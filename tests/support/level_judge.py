@@ -2,6 +2,7 @@
 
 import networkx as nx
 import numpy as np
+import shapely
 import trimesh
 from pxr import Usd, UsdGeom
 
@@ -9,6 +10,46 @@ from support.rays import fans
 
 WHEELBASE_M, CLEARANCE_M, CAR_LENGTH_M, REAR_OVERHANG_M = 2.9, 0.12, 5.0, 0.95
 """Of a large car."""
+GROUND = (
+    "crossing",
+    "drain",
+    "floor",
+    "hatching",
+    "lane_arrow",
+    "lane_line",
+    "parking_stall",
+    "ramp",
+    "stall_line",
+    "stall_number",
+    "stall_symbol",
+)
+"""Classes of the floor, and of the paint that is let into it."""
+ON_M = 1e-4
+"""Distance from a triangle, seen from above, within which a place counts as on it."""
+
+
+class Ground:
+    """Triangles of a stage that one can stand on."""
+
+    def __init__(self, triangles):
+        normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+        lengths = np.linalg.norm(normals, axis=1)
+        is_up = normals[:, 1] > 0.5 * lengths
+        self.corners, self.normals = triangles[is_up], normals[is_up] / lengths[is_up, None]
+        self.tree = shapely.STRtree(shapely.polygons(self.corners[:, :, [0, 2]]))
+
+    def nearest(self, places):
+        """Heights under places of the surface nearest to each, NaN for none, and the normal of that surface."""
+        places = np.asarray(places, dtype=float)
+        place, triangle = self.tree.query(shapely.points(places[:, [0, 2]]), predicate="dwithin", distance=ON_M)
+        first, normal = self.corners[triangle, 0], self.normals[triangle]
+        away = places[place] - first
+        heights = first[:, 1] - (away[:, 0] * normal[:, 0] + away[:, 2] * normal[:, 2]) / normal[:, 1]
+        order = np.lexsort([np.abs(heights - places[place, 1]), place])
+        found, at = np.unique(place[order], return_index=True)
+        result, normals = np.full(len(places), np.nan), np.zeros((len(places), 3))
+        result[found], normals[found] = heights[order][at], normal[order][at]
+        return result, normals
 
 
 def label_of(prim):
@@ -74,6 +115,11 @@ class LevelJudge:
         ]
         corners = np.concatenate(parts).reshape(-1, 3)
         return trimesh.Trimesh(corners, np.arange(len(corners)).reshape(-1, 3), process=False, validate=False)
+
+    def ground(self):
+        """The floors of all levels, their paint and the ramps."""
+        parts = [part for (_, label), own in self.triangles.items() if label in GROUND for part in own]
+        return Ground(np.concatenate(parts))
 
     def unreached(self):
         """Ids of stalls without a route from a street entrance and to a street exit."""

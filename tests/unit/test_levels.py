@@ -9,6 +9,7 @@ from pxr import Usd
 
 import garage2usd
 from garage2usd import ConfigError, GarageConfig, GenerationError
+from garage2usd.as_built.driven_levels import floors_of_stalls, prove_levels
 from garage2usd.as_built.levels import built_levels
 from garage2usd.checks import RULES
 from garage2usd.checks.levels import check_levels, read_stage
@@ -17,6 +18,7 @@ from garage2usd.environment import LanesEnvironment
 from garage2usd.maps.level_drives import LevelsDrivePlanner
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.levels_report import read_levels_report
+from garage2usd.stage.driving_layer import write_driving_layer
 from garage2usd.structure.building import Building, Flight, level_cells
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.stalls import Edge
@@ -189,11 +191,48 @@ def test_a_drive_goes_down_the_ramp_into_a_stall_and_back_to_the_street(built):
         planner.drive("B2-07")
 
 
+def test_every_stall_of_all_levels_is_proven_and_its_way_lies_on_the_floor_of_its_level(built, tmp_path):
+    files = {end: tmp_path / f"ways.{end}" for end in ("json", "usda")}
+    whole = built_levels(open_stage(built.stage), built.stage)
+    ran = CliRunner().invoke(main, ["drive", str(built.stage), "-o", str(files["json"])])
+    assert ran.exit_code == 0, ran.output
+    write_driving_layer(files["usda"], prove_levels(whole), floors_m=floors_of_stalls(whole))
+    floors = {stall.name: -3.6 * stall.level for stall in whole.stalls if stall.takes_cars}
+    ways = {stall["name"]: stall for stall in json.loads(files["json"].read_text())["stalls"]}
+    assert {name: way["floor_m"] for name, way in ways.items()} == pytest.approx(floors)
+    assert all(way["proven"] for way in ways.values())
+    # each way ends in its own stall
+    for stall in (stall for stall in whole.stalls if stall.takes_cars):
+        x, z = ways[stall.name]["in"]["poses"][-1][1:3]
+        assert np.hypot(x - stall.centre[0], z - stall.centre[1]) < 3.0
+    layer = Usd.Stage.Open(str(files["usda"]))
+    curves = layer.GetPrimAtPath("/Garage/Ways/In")
+    names, counts = (list(curves.GetAttribute(name).Get()) for name in ("garage:way:stall", "curveVertexCounts"))
+    heights = np.split(np.array(curves.GetAttribute("points").Get())[:, 1], np.cumsum(counts)[:-1])
+    for name, height in zip(names, heights, strict=True):
+        assert height == pytest.approx(np.full(len(height), floors[name] + 0.06), abs=1e-5)
+
+
+def test_below_a_ramp_that_leads_nowhere_no_stall_is_proven(built):
+    stage = open_stage(built.stage)
+    stage.SetEditTarget(stage.GetSessionLayer())
+    edges, nodes = (stage.GetPrimAtPath(f"/Garage/LaneGraph/{name}") for name in ("Edges", "Nodes"))
+    levels = nodes.GetAttribute("garage:lane:level").Get()
+    starts, ends = (list(edges.GetAttribute(f"garage:lane:{name}").Get()) for name in ("from", "to"))
+    for number, (one, other) in enumerate(zip(starts, ends, strict=True)):
+        if levels[one] > levels[other]:
+            ends[number] = one
+    edges.GetAttribute("garage:lane:to").Set(ends)
+    whole = built_levels(stage, built.stage)
+    shut = prove_levels(whole)
+    assert {proof.stall.partition("/")[0] for proof in shut if not proof.is_proven} == {"U2"}
+    assert {proof.stall.partition("/")[0] for proof in shut if proof.is_proven} == {"U1"}
+
+
 @pytest.mark.parametrize(
     "arguments",
     [
-        ("drive", "{stage}"),
-        ("export", "{stage}", "-o", "a.xosc"),
+        ("export", "{stage}", "-o", "a.add.xml"),
         ("plan", "{stage}", "--stall", "U2/A1-01"),
         ("check", "{report}"),
         ("export", "{report}", "-o", "a.xodr"),

@@ -17,7 +17,7 @@ HAND_DRAWN = REPOSITORY / "samples" / "hand_drawn.toml"
 def found_in(stage, ids):
     """Whether each drawn prim hangs, and the height that it is cut at, by the path of its shape; the first of each."""
     scene = read_drawn_prims(stage, ids)
-    overhead = find_overhead(stage, scene)
+    overhead = find_overhead(stage, scene, {})
     rows = {str(scene.shapes[shape]): row for row, shape in reversed(list(enumerate(scene.shape.tolist())))}
     return {path: (bool(overhead.hangs[row]), float(overhead.cut_m[row])) for path, row in rows.items()}
 
@@ -75,7 +75,7 @@ def test_portals_and_ramps_are_open_from_above_in_every_form(builds, form):
 def test_a_garage_that_stands_elsewhere_is_open_at_the_same_places(builds, tmp_path):
     stage = Usd.Stage.Open(str(builds(HAND_DRAWN, "usdc", "instanced").stage))
     over = held_aloft(stage, tmp_path)
-    plain, lifted = (find_overhead(each, read_drawn_prims(each, {})) for each in (stage, over))
+    plain, lifted = (find_overhead(each, read_drawn_prims(each, {}), {}) for each in (stage, over))
     assert plain.hangs.sum() > 100
     assert lifted.hangs.tolist() == plain.hangs.tolist()
     assert lifted.cut_m == pytest.approx(plain.cut_m + 4.5, nan_ok=True, abs=1e-4)

@@ -56,12 +56,11 @@ def dmpr_ps(records: Sequence[SlotRecord], slots: Slots) -> dict[str, Any]:
     marks: list[list[float]] = []
     numbers: dict[tuple[int, int], int] = {}
     found = []
-    corners_m = np.stack([slot.corners_m[:2][:, list(slots.ground_axes)] for slot in slots.slots])
+    corners_m = np.stack([slot.corners_m[:2] for slot in slots.slots])
 
     def number_of(record: SlotRecord, corner: int) -> int:
         """Return the number of the mark at a corner of a slot's entry, adding the mark if it is new."""
-        place = record.slot.corners_m[corner, list(slots.ground_axes)]
-        near = np.linalg.norm(corners_m - place, axis=2) < _SAME_M
+        near = np.linalg.norm(corners_m - record.slot.corners_m[corner], axis=2) < _SAME_M
         stall, end = (int(first[0]) for first in np.nonzero(near))
         key = (stall, end)
         if key not in numbers:

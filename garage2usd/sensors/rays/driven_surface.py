@@ -1,13 +1,13 @@
 """The drivable surface of a garage: the floor and the floors of ramps with enough headroom for a car."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from pxr import Usd
 
 from garage2usd.as_built.driven_floor import DrivenFloor
 from garage2usd.as_built.driven_ground import CAR_HEIGHT_M
-from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.reading.labels import Labels
 from garage2usd.sensors.rays.ray_scene import read_ray_scene
 from garage2usd.sensors.rig.poses import y_up_to_stage
@@ -25,20 +25,22 @@ class DrivenSurface:
 
     Parameters
     ----------
-    garage
-        The garage, read from a stage.
+    stage
+        The stage of the garage.
+    floors
+        Its floors, one for each level.
     labels
         Table of labels of the stage.
     without
         Paths of prims that are ignored, with all their descendants.
     """
 
-    def __init__(self, garage: BuiltGarage, labels: Labels, *, without: Collection[str] = ()) -> None:
-        if garage.stage is None:
-            raise ValueError(garage.kind)
-        self._floor = DrivenFloor.of(garage.lanes, garage.things)
-        self._solids = read_ray_scene(garage.stage, labels, without=without)
-        self._to_stage = y_up_to_stage(garage.stage)
+    def __init__(
+        self, stage: Usd.Stage, floors: Sequence[DrivenFloor], labels: Labels, *, without: Collection[str] = ()
+    ) -> None:
+        self._floors = tuple(floors)
+        self._solids = read_ray_scene(stage, labels, without=without)
+        self._to_stage = y_up_to_stage(stage)
 
     def is_free(self, points_m: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Test if a car can drive at each point: on the drivable surface, with free headroom above.
@@ -54,7 +56,13 @@ class DrivenSurface:
             bool, shape (n,).
         """
         places = points_m @ self._to_stage[:3, :3]  # by the inverse of a turn
-        floor_m = self._floor.heights_m(places[:, 0], places[:, 2])
+        is_free = np.zeros(len(places), dtype=np.bool_)
+        for floor in self._floors:
+            is_free |= self._is_free_on(floor, places)
+        return is_free
+
+    def _is_free_on(self, floor: DrivenFloor, places: NDArray[np.float64]) -> NDArray[np.bool_]:
+        floor_m = floor.heights_m(places[:, 0], places[:, 2])
         with np.errstate(invalid="ignore"):
             is_free: NDArray[np.bool_] = np.abs(places[:, 1] - floor_m) < _STEP_M
         begins = places[is_free]
