@@ -48,7 +48,9 @@ def wells(layout: Layout, sheet: Sheet) -> Iterator[Region | Line | Text]:
         wings = [line.at(tip - _WING_M, -_WING_M), line.at(tip, 0), line.at(tip - _WING_M, _WING_M)]
         yield Line(wings, INK, _STROKE_M, "direction")
         word = ("down" if is_down else "up") + layout.well.way_in_words(is_down=is_down)
-        yield Text(line.at(run / 2, _WORD_ASIDE_M), word, sheet.letters_m, INK, kind="ramp")
+        # inside a turn, or beside the arrow
+        place = line.middle if math.dist(line.middle, line.at(run / 2, 0)) > lane.width_m else None
+        yield Text(place or line.at(run / 2, _WORD_ASIDE_M), word, sheet.letters_m, INK, kind="ramp")
 
 
 class _Line:
@@ -66,6 +68,13 @@ class _Line:
     @property
     def length_m(self) -> float:
         return float(self._runs[-1])
+
+    @property
+    def middle(self) -> Point:
+        """Mean of the places along the line."""
+        steps = np.diff(self._runs)[:, None]
+        x, z = ((self._points[:-1] + self._points[1:]) / 2 * steps).sum(axis=0) / self.length_m
+        return float(x), float(z)
 
     def beside(self, aside: float) -> list[Point]:
         """Return the corners of the line moved to the right."""
