@@ -299,7 +299,7 @@ def _ramps_and_tapes(site: Structure, config: GarageConfig, tape: str | None) ->
     if tape is None:
         return draw_ramps(site, config), [None] * levels
     links, *tapes = tape.split(_TAPE_JOINT)
-    wanted = f"the {config.building.ramps} ramps as their tape and the tapes of {levels} levels, joined by {_TAPE_JOINT}"
+    wanted = f"the tape of {config.building.ramps} ramps and the tapes of {levels} levels, joined by {_TAPE_JOINT}"
     try:
         ramps = ramps_of_tape(links, config)
     except (ValueError, KeyError):

@@ -72,7 +72,12 @@ def check_levels(garage: BuiltLevels, profile: Profile, rules: tuple[Rule, ...])
         for rule in rules
         for finding in rule.findings(level.garage, profile)
     ]
-    found += [*_routes(garage), *_portals(garage, profile), *_ramp_clearances(garage, profile), *_ramp_bends(garage, profile)]
+    found += [
+        *_routes(garage),
+        *_portals(garage, profile),
+        *_ramp_clearances(garage, profile),
+        *_ramp_bends(garage, profile),
+    ]
     return sorted(found, key=Finding.sort_key)
 
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from garage2usd.native import elementary
 
-__all__ = ["CoilLine", "CoilPlaces"]
+__all__ = ["CoilLine", "CoilPlaces", "heights_along"]
 
 _TURN_RAD = 1.5 * math.pi
 _BESIDE_M = 0.3
@@ -182,3 +182,10 @@ class CoilLine:
         cuts = np.unique(np.round(np.concatenate([runs, circle]), 6))
         kept: Floats = cuts[(cuts >= runs[0]) & (cuts <= runs[-1])]
         return kept
+
+
+def heights_along(profile: tuple[tuple[float, float], ...], run_m: ArrayLike) -> Floats:
+    """Return the heights of a profile of (distance, height) pairs at distances along a line; their shape."""
+    runs, heights = zip(*profile, strict=True)
+    found: Floats = np.interp(np.asarray(run_m, dtype=np.float64), runs, heights)
+    return found

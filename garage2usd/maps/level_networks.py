@@ -117,9 +117,9 @@ def _round(bend: Bend, start: Point, end: Point) -> ReferenceLine:
     """Return the line of a helix from one point on its straights to another, in the frame of the map."""
     crossing, way_in, way_out = (map_point(each) for each in (bend.crossing, bend.way_in, bend.way_out))
     heading = math.atan2(way_in[1], way_in[0])
-    turned = math.copysign(1.5 * math.pi, 1.0 if bend.is_left else -1.0)
+    curvature = (1.0 if bend.is_left else -1.0) / bend.radius_m
     lead = Arc(start, heading, math.dist(start, crossing) + bend.radius_m)
-    circle = Arc(lead.at(lead.length_m)[:2], heading, 1.5 * math.pi * bend.radius_m, math.copysign(1 / bend.radius_m, turned))
+    circle = Arc(lead.at(lead.length_m)[:2], heading, 1.5 * math.pi * bend.radius_m, curvature)
     out = math.atan2(way_out[1], way_out[0])
     tail = Arc(circle.at(circle.length_m)[:2], out, math.dist(crossing, end) + bend.radius_m)
     return ReferenceLine((lead, circle, tail))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from garage2usd.assets.faces import box_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
-from garage2usd.garage.coil_line import CoilLine, CoilPlaces
+from garage2usd.garage.coil_line import CoilLine, CoilPlaces, heights_along
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Point, Polygon
 from garage2usd.objects.ramp import RampSpec
@@ -91,8 +91,7 @@ class CoilSpec(Spec, kind=RampSpec.kind):
 
     @cached_property
     def _heights(self) -> Floats:
-        heights: Floats = np.interp(self._runs, *zip(*self.profile, strict=True))
-        return heights
+        return heights_along(self.profile, self._runs)
 
     def _points(self, inwards_m: float, over_m: float | Floats) -> Floats:
         """Return the points of the stations at a distance inwards and a height over the floor; shape (n, 3)."""
@@ -119,7 +118,7 @@ class CoilSpec(Spec, kind=RampSpec.kind):
     def _inwards(self, side: float) -> tuple[float, float, float]:
         """Return the horizontal direction at the first station towards the inside, or the outside for a side of -1."""
         places = self._places
-        return -side * -1.0 * self.turn * float(places.along_u[0]), 0.0, -side * float(places.along_v[0])
+        return side * self.turn * float(places.along_u[0]), 0.0, -side * float(places.along_v[0])
 
     def _tops(self) -> Floats:
         """Height of the walls over the floor at each station."""
@@ -154,7 +153,7 @@ class CoilSpec(Spec, kind=RampSpec.kind):
         def from_edge(corners: Floats, _normals: Floats) -> Floats:
             runs, inwards = self.line.foot(corners[:, 2], self.turn * corners[:, 0])
             outwards = side * (inwards - inner)
-            down = np.interp(runs, *zip(*self.profile, strict=True)) + _KERB_HEIGHT_M - corners[:, 1]
+            down = heights_along(self.profile, runs) + _KERB_HEIGHT_M - corners[:, 1]
             return np.stack([runs, np.maximum(outwards, down)], axis=1)
 
         return make_part(name, faces, "hazard", collider=Collider.MESH, project=from_edge)

@@ -36,8 +36,7 @@ def wells(layout: Layout, sheet: Sheet) -> Iterator[Region | Line | Text]:
         half, run = lane.width_m / 2, line.length_m
         left, right = line.beside(-half), line.beside(half)
         yield from (
-            Region([a, b, c, d], RAMP, "ramp")
-            for (a, b), (d, c) in zip(pairwise(left), pairwise(right), strict=True)
+            Region([a, b, c, d], RAMP, "ramp") for (a, b), (d, c) in zip(pairwise(left), pairwise(right), strict=True)
         )
         for number in range(1, math.ceil(run / _TREAD_M)):
             tread = [line.at(number * _TREAD_M, -half), line.at(number * _TREAD_M, half)]

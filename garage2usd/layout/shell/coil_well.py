@@ -13,7 +13,7 @@ import numpy as np
 
 from garage2usd.config import FittingsConfig
 from garage2usd.config.look import WallsLook
-from garage2usd.garage.coil_line import CoilLine
+from garage2usd.garage.coil_line import CoilLine, heights_along
 from garage2usd.layout.ceiling.lamps import TUBE
 from garage2usd.layout.placement import Placement, edge_yaw_rad, placed, rounded, to_world
 from garage2usd.layout.shell.well import SLAB_M, Well, WellLane
@@ -200,7 +200,7 @@ class CoilWell(Well):
             start, end = profile[1][0], profile[-2][0]
             count = max(1, round((end - start) / _LAMP_PITCH_M))
             runs = start + (np.arange(count) + 0.5) * (end - start) / count
-            places, heights = one.line.at(runs), np.interp(runs, *zip(*profile, strict=True))
+            places, heights = one.line.at(runs), heights_along(profile, runs)
             for number, (u, v, along_u, along_v, rise) in enumerate(zip(*places, heights, strict=True), start=1):
                 over = under if self.is_top else under + float(rise)
                 found.append(
@@ -222,7 +222,7 @@ class CoilWell(Well):
             profile = one.profile(building.storey_m, building.ramp_transition_m)
             inner = one.line.stations_m(profile, step_rad=_STEP_RAD)
             runs = np.concatenate([[0.0], inner, [one.line.length_m]])
-            heights = np.interp(runs, *zip(*profile, strict=True)).round(6)
+            heights = heights_along(profile, runs).round(6)
             places = one.line.at(runs)
             points = [
                 (x, float(height), z)

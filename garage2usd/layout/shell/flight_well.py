@@ -179,7 +179,9 @@ class FlightWell(Well):
         for lane in sorted(self._lanes(structure), key=lambda lane: lane.name != "Down"):
             points = [(frame.to_world((lane.middle_m, -run)), height) for run, height in profile]
             along = points[::-1] if lane.name == "Down" else points
-            found.append(WellLane(tuple((x, height, z) for (x, z), height in along), lane.width_m, profile[-1][0], slope))
+            found.append(
+                WellLane(tuple((x, height, z) for (x, z), height in along), lane.width_m, profile[-1][0], slope)
+            )
         return found
 
     def _lanes(self, structure: Structure) -> tuple[_Lane, _Lane]:
