@@ -28,7 +28,7 @@ def settings(number):
         plan={"episodes": 40, "starts": 1},
         parking={"occupancy": 0.0},
         fittings={"floor_stain_rate": 0.0, **dict.fromkeys(("beams", "ducts", "cable_trays", "sprinklers"), False)},
-        bay={} if number == 1 else {"square_side_m": 8.1},
+        bay={"dimensioned": True} if number == 1 else {"square_side_m": 8.1},
     )
 
 

@@ -15,10 +15,9 @@ from garage2usd.maps.level_drives import LevelsDrivePlanner
 from garage2usd.profiles import load_profile, read_profile
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.levels_report import read_levels_report
-from garage2usd.site import make_site
 from garage2usd.site.level_ramps import with_ramps_room
 from garage2usd.structure.building import level_cells
-from garage2usd.structure.grid import Cell
+from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.helix import Helix
 from garage2usd.structure.stalls import Edge
 
@@ -101,8 +100,8 @@ def test_helices_that_are_too_steep_or_have_no_place_are_refused_by_name():
 
 
 def test_chosen_sides_are_lengthened_until_the_circle_is_round_and_gentle():
-    settings = config(bay={}, site={"width_cells": 12, "height_cells": 12})
-    site = make_site(settings.site, bay=settings.bay, seed=settings.seed, fittings=settings.fittings)
+    settings = config(bay={"dimensioned": True})
+    site = Structure.from_arrays(np.zeros((12, 12), dtype=np.int8), 6.0, 6.0)
     helix = Helix((5, 3), Edge.DOWN, Edge.RIGHT, 3)
     wide = with_ramps_room(site, helix, settings)
     rows, cols = [5, 6, 7], [3, 4, 5, 6, 7, 8]
@@ -136,8 +135,8 @@ def test_check_finds_nothing_and_a_stricter_clause_finds_both_helices(made):
     strict = read_profile({"name": "strict", "curved_ramp_slope": clause})
     found = [each for each in check_levels(garage, strict, ()) if each.rule == "ramp-bend"]
     assert len(found) == 2
-    # 9.0 % at a radius of 6.7 m
-    assert all(each.measured == pytest.approx(9.0, abs=0.2) and each.required == 6 for each in found)
+    # 7.0 % on the middle line of 8.8 m, whose inner wall has 6.7 m
+    assert [each.measured for each in found] == pytest.approx([7.008 * 8.8 / 6.7] * 2, abs=0.05)
 
 
 def test_the_report_tells_helices(made):
@@ -157,8 +156,8 @@ def test_a_drive_turns_down_the_helix_and_back_to_the_street(made):
     moved = np.sqrt(np.diff(states.x_m) ** 2 + np.diff(states.y_m) ** 2 + np.diff(states.z_m) ** 2)
     assert np.abs(moved - np.diff(states.arc_m)).max() < 1e-3
     between = (states.y_m < -0.2) & (states.y_m > -3.4)
-    # never more than the slope on the middle line, 6.9 %, and one way down and one up
-    assert np.abs(np.tan(states.pitch_rad[between])).max() == pytest.approx(0.069, abs=0.003)
+    # 7.0 % on the middle line of 8.8 m, inside which the rear axle runs
+    assert np.abs(np.tan(states.pitch_rad[between])).max() == pytest.approx(0.07 * 8.8 / 8.5, abs=0.002)
     turned = np.where(between[1:], np.diff(states.yaw_rad), 0.0)
     assert np.degrees(turned.sum()) > 2 * 200
     assert np.abs(states.speed_m_s[between]).min() > 0.5
@@ -176,9 +175,8 @@ def test_opendrive_has_a_road_with_an_arc_for_each_helix(made, tmp_path):
         ]
         if any(abs(turn) > 4 for turn in turns):
             heights = [float(each.get("a")) for each in road.iter("elevation")]
-            arcs.append(
-                (turns, max(heights) - min(heights), road.find("link/predecessor"), road.find("link/successor"))
-            )
+            neighbours = [road.find(f"link/{name}") for name in ("predecessor", "successor")]
+            arcs.append((turns, max(heights) - min(heights), neighbours))
     assert len(arcs) == 2
     for turns, rise, neighbours in arcs:
         assert turns == [pytest.approx(1.5 * np.pi, abs=1e-4)]

@@ -1,7 +1,10 @@
 """Wells of all kinds of ramps between levels."""
 
+from collections.abc import Callable
+from typing import Any
+
 from garage2usd.config import GarageConfig
-from garage2usd.config.building import LinkKind
+from garage2usd.config.building import BuildingConfig, LinkKind
 from garage2usd.layout.shell.coil_well import CoilWell
 from garage2usd.layout.shell.flight_well import FlightWell
 from garage2usd.layout.shell.well import Well
@@ -9,7 +12,10 @@ from garage2usd.structure.building import Ramps
 
 __all__ = ["make_well"]
 
-_WELLS = {LinkKind.STRAIGHT: FlightWell, LinkKind.HELIX: CoilWell}
+_WELLS: dict[LinkKind, Callable[[Any, int, int, BuildingConfig, float], Well]] = {
+    LinkKind.STRAIGHT: FlightWell,
+    LinkKind.HELIX: CoilWell,
+}
 
 
 def make_well(pair: Ramps, level: int, config: GarageConfig) -> Well:
