@@ -10,7 +10,7 @@ HALF_WIDTH_M, INWARDS_M = 0.95, 0.3
 """Of a large car, whose rear axle runs inside the middle of the lane."""
 _STEP_M = 0.1
 _NEAR_M = 1.5
-_HEIGHTS_M = (0.08, 0.3, 1.0, 1.8)
+_HEIGHTS_M = (0.08, 0.3, 1.5)
 """Over the floor: beside kerbs, and beside walls."""
 _CLASSES = {
     *("ramp", "wall", "floor", "ceiling", "column", "lamp", "hatching", "crossing"),
@@ -47,6 +47,10 @@ class CoilJudge:
         headings = np.unwrap(np.arctan2(ways[:, 1], ways[:, 0]))
         return abs(np.degrees(headings[-1] - headings[0]))
 
+    def floor_m(self, places):
+        """Height of the first surface below each place."""
+        return _under(self.triangles, places)
+
     def drive(self, ramp):
         line, ahead = _sampled(ramp)
         sign = 1.0 if np.cross(ahead[:-1], ahead[1:]).sum() > 0 else -1.0
@@ -63,7 +67,7 @@ class CoilJudge:
         to_wall = _first_beside(mesh, line[on_circle][::10], inwards[on_circle][::10], 1.0)
         slope = np.abs(np.gradient(line[:, 1], _STEP_M)).max()
         inner = radius - np.median(to_wall)
-        places = range(int(REAR_OVERHANG_M / _STEP_M) + 5, len(line) - int(CAR_LENGTH_M / _STEP_M) - 5, 10)
+        places = range(int(REAR_OVERHANG_M / _STEP_M) + 5, len(line) - int(CAR_LENGTH_M / _STEP_M) - 5, 20)
         belly = headroom = beside = np.inf
         for at in places:
             rear = line[at] + np.array([inwards[at][0], 0, inwards[at][1]]) * INWARDS_M
