@@ -14,7 +14,6 @@ from pxr import Usd
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.shapes import Body, Thing
 from garage2usd.as_built.stage_reader import garage_of_stage
-from garage2usd.common.errors import StageError
 from garage2usd.garage import LaneGraph, Point, Stall
 from garage2usd.reading.lanes import Lanes, read_lanes
 from garage2usd.reading.levels import StageLevel, level_stage, levels_of
@@ -55,44 +54,52 @@ class RampLine(NamedTuple):
         Numbers of its lane nodes in the direction of driving, from landing to landing.
     places
         (x, height, z) of these; float64, shape (n, 3).
+    sloped
+        Numbers of those between which it rises or falls.
     width_m
         Width of its carriageway.
     """
 
     nodes: tuple[int, ...]
     places: NDArray[np.float64]
+    sloped: tuple[int, ...]
     width_m: float
 
     @property
-    def bend(self) -> Bend | None:
-        """The bend of a helix; None for a straight ramp.
-
-        Raises
-        ------
-        StageError
-            If it is neither straight nor three quarters of a circle.
-        """
-        x, z = self.places[:, 0], self.places[:, 2]
-        in_x, in_z = _unit(x[1] - x[0], z[1] - z[0])
-        out_x, out_z = _unit(x[-1] - x[-2], z[-1] - z[-2])
-        turned = out_x * in_z - out_z * in_x
-        if abs(turned) < _STRAIGHT_SIN and in_x * out_x + in_z * out_z > 0:
-            return None
-        # the last straight lies beside the first place by as much as the crossing lies ahead of it
-        ahead = ((x[-1] - x[0]) * out_z - (z[-1] - z[0]) * out_x) / (in_x * out_z - in_z * out_x or math.inf)
-        crossing = x[0] + ahead * in_x, z[0] + ahead * in_z
-        far = float(((x - crossing[0]) * in_x + (z - crossing[1]) * in_z).max())
-        middle = crossing[0] + far / 2 * (in_x - out_x), crossing[1] + far / 2 * (in_z - out_z)
-        # it must come back to the crossing round a circle
-        bends = np.hypot(x[_ENDS:-_ENDS] - middle[0], z[_ENDS:-_ENDS] - middle[1]) < far / 2 * (1 + _ROUND)
-        if abs(turned) < 1 - _STRAIGHT_SIN or far <= 0 or bends.sum() < _LEAST_PLACES:
-            raise StageError(self.name, "a ramp between levels is neither straight nor three quarters of a circle")
-        return Bend(crossing, (in_x, in_z), (out_x, out_z), far / 2, is_left=bool(turned < 0))
+    def slope(self) -> NDArray[np.float64]:
+        """(x, height, z) of the nodes between which it rises or falls; float64, shape (n, 3)."""
+        first = self.nodes.index(self.sloped[0])
+        return self.places[first : first + len(self.sloped)]
 
     @property
-    def name(self) -> str:
-        """Name of the line, by its first node."""
-        return f"lane node {self.nodes[0]}"
+    def is_straight(self) -> bool:
+        """True if its ends lie in one line."""
+        (in_x, in_z), (out_x, out_z) = self._ways
+        return abs(out_x * in_z - out_z * in_x) < _STRAIGHT_SIN and in_x * out_x + in_z * out_z > 0
+
+    @property
+    def bend(self) -> Bend | None:
+        """The bend of a helix; None for a straight ramp, and for one that is no three quarters of a circle."""
+        x, z = self.places[:, 0], self.places[:, 2]
+        (in_x, in_z), (out_x, out_z) = self._ways
+        turned = out_x * in_z - out_z * in_x
+        if abs(turned) < 1 - _STRAIGHT_SIN:
+            return None
+        # the crossing lies ahead of the first place, in line with the last straight
+        ahead = ((x[-1] - x[0]) * out_z - (z[-1] - z[0]) * out_x) / (in_x * out_z - in_z * out_x)
+        crossing = float(x[0] + ahead * in_x), float(z[0] + ahead * in_z)
+        radius = float(((x - crossing[0]) * in_x + (z - crossing[1]) * in_z).max()) / 2
+        middle = crossing[0] + radius * (in_x - out_x), crossing[1] + radius * (in_z - out_z)
+        away = np.hypot(x - middle[0], z - middle[1])
+        if radius <= 0 or (np.abs(away - radius) < _ROUND * radius).sum() < _LEAST_PLACES:
+            return None
+        return Bend(crossing, (in_x, in_z), (out_x, out_z), radius, is_left=bool(turned < 0))
+
+    @property
+    def _ways(self) -> tuple[Point, Point]:
+        """Unit vectors (x, z) along its first and its last piece."""
+        x, z = self.places[:, 0], self.places[:, 2]
+        return _unit(x[1] - x[0], z[1] - z[0]), _unit(x[-1] - x[-2], z[-1] - z[-2])
 
 
 class BuiltLevel(NamedTuple):
@@ -164,13 +171,14 @@ class BuiltLevels:
         for part in sorted(map(sorted, nx.weakly_connected_components(ways.subgraph(sloped)))):
             graph = ways.subgraph(part)
             order = list(nx.topological_sort(graph)) if nx.is_directed_acyclic_graph(graph) else part
+            inner = tuple(order)
             for _ in range(2):  # the level part at the end, and the landing
                 order = [*[*ways.predecessors(order[0])][:1], *order, *[*ways.successors(order[-1])][:1]]
             places = np.array(
                 [(node.position[0], node.height_m, node.position[1]) for node in map(lanes.nodes.__getitem__, order)]
             )
             width_m = min(edge.width_m for edge in lanes.edges if edge.start in sloped and edge.start in part)
-            found.append(RampLine(tuple(order), places, width_m))
+            found.append(RampLine(tuple(order), places, inner, width_m))
         return tuple(found)
 
     @cached_property
@@ -190,7 +198,7 @@ class BuiltLevels:
 _RISE_M = 0.01
 _STRAIGHT_SIN = 0.02
 _ROUND = 0.02
-_ENDS, _LEAST_PLACES = 2, 6
+_LEAST_PLACES = 6
 
 
 def _unit(x: float, z: float) -> Point:

@@ -119,7 +119,7 @@ def _portals(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
 def _ramp_clearances(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
     """Yield the lowest place and the narrowest place of each ramp between levels that misses the requirement."""
     for ramp in garage.ramp_lines:
-        name, points = garage.lanes.nodes[ramp.nodes[1]].name, _sampled(ramp.places[1:-1])
+        name, points = garage.lanes.nodes[ramp.sloped[0]].name, _sampled(ramp.slope)
         caster, corners = _caster(garage, points)
         ahead = np.diff(points, axis=0, append=points[-1:] * 2 - points[-2:-1])[:, [0, 2]]
         ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
@@ -176,7 +176,7 @@ def _ramp_bends(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
             yield Finding(
                 "ramp-bend",
                 clause.severity,
-                garage.lanes.nodes[ramp.nodes[1]].name,
+                garage.lanes.nodes[ramp.sloped[0]].name,
                 "the helix between levels is too steep along its inner edge",
                 (float(places[steepest, 0]), float(places[steepest, 2])),
                 round(percent, 2),

@@ -186,6 +186,9 @@ class LevelsDrivePlanner:
                 bend = line.bend
                 if bend is not None:
                     return _Part(_round(bend, one, other), upper, is_ramp=True, is_bent=True)
+                if not line.is_straight:
+                    wanted = "a garage whose ramps between levels are straight or three quarters of a circle"
+                    raise ConfigError("stall", landings[0], wanted)
         run_m = math.hypot(other.x_m - one.x_m, other.z_m - one.z_m)
         return _Part((Piece(Gear.FORWARD, run_m),), upper, is_ramp=True)
 

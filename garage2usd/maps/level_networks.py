@@ -86,6 +86,9 @@ def level_networks(garage: BuiltLevels) -> tuple[LevelNetwork, ...]:
         if bend is not None:
             first += 1
             _add_bent(garage, found, line, bend, first)
+        elif not line.is_straight:
+            place = garage.lanes.nodes[line.nodes[0]].name
+            raise StageError(garage.source, f"the ramp at {place} is neither straight nor three quarters of a circle")
     return tuple(found)
 
 
