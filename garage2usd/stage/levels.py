@@ -203,6 +203,7 @@ def _level_text(level: LevelLayout, layers: str) -> str:
     off = "".join(f'over "{name}" (\nactive = false\n)\n{{\n}}\n' for name in (Path(LANE_GRAPH_FILE).stem, _PHYSICS))
     return (
         f'def "{level.name}" (\nprepend references = @{anchored(f"{layers}{level.name}.usdc")}@\n)\n{{\n'
+        f'custom token garage:level = "{level.name}"\n'
         f"float3 xformOp:translate = (0, {level.floor_m}, 0)\n"
         f'uniform token[] xformOpOrder = ["xformOp:translate"]\n{off}}}\n'
     )

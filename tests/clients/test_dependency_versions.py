@@ -19,6 +19,9 @@ import garage2usd
 from garage2usd.datasets import load_recipe
 
 PYTHONS = pythons()
+BY_AGE = sorted(PYTHONS, key=lambda version: int(version.partition(".")[2]))
+EXTREMES = {(BY_AGE[0], "lowest-direct"), (BY_AGE[-1], "highest")}
+"""Environments in which data sets and recordings are made too, which take longer than all else."""
 SETTINGS = "seed = 3\n[site]\nwidth_cells = 5\nheight_cells = 5\n[plan]\nepisodes = 100\n"
 RECIPE = """
 name = "small"
@@ -120,11 +123,14 @@ def test_all_commands_make_the_same_in_a_fresh_environment(version, resolution, 
     folder = tmp_path / "work"
     folder.mkdir()
     run = runner(environment / "bin", folder)
-    for command in (*GARAGE, *MANY):
+    for command in GARAGE:
         run("garage2usd", *command.split())
     run("python", "-c", PLAN_BY_AN_AGENT)
     assert made(folder) == expected
-
+    if (version, resolution) not in EXTREMES:
+        return
+    for command in MANY:
+        run("garage2usd", *command.split())
     rows = [json.loads(line) for line in (folder / "set" / "manifest.jsonl").read_text().splitlines()]
     recipe = load_recipe(folder / "recipe.toml")
     planned = [garage2usd.generate(recipe.drawn(row["seed"])[0]).plan.structure.digest() for row in rows]

@@ -27,15 +27,13 @@ from support.glb_reader import Glb
 from support.gltf_validator import VALIDATOR_VERSION, find_node, find_validator, validated
 from support.pictures import difference, read_png, store, stored
 from support.places import MILLIMETRE
-from support.sample_files import REPOSITORY, SAMPLES, each_sample
+from support.sample_files import REPOSITORY, each_sample, each_small_sample
 
 from garage2usd.config.look import ColumnSection
 from garage2usd.maps.glb import write_glb
 
 pytestmark = pytest.mark.client
 NO_BLENDER = importlib.util.find_spec("bpy") is None
-SMALL_SAMPLES = [sample for sample in SAMPLES if sample.stem != "large_20x30"]
-each_small_sample = pytest.mark.parametrize("sample", SMALL_SAMPLES, ids=lambda path: path.stem)
 LARGEST_DIFFERENCE = 1.0
 
 
@@ -101,7 +99,7 @@ def in_three(builds, files, tmp_path_factory):
     return load
 
 
-@each_sample
+@each_small_sample
 @pytest.mark.skipif(find_browser() is None or find_three() is None, reason="no browser or no three.js")
 def test_three_agrees(sample, files, in_three):
     glb, scene = Glb(files(sample).read_bytes()), in_three(sample)

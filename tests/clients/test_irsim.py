@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import shapely
 from support.map_judges import JUDGES, has
-from support.sample_files import each_sample
+from support.sample_files import each_small_sample
 
 from garage2usd.checks import read_garage
 from garage2usd.config.maps import GridConfig
@@ -44,7 +44,7 @@ def distances(tree, place, angles):
     return np.array(found)
 
 
-@each_sample
+@each_small_sample
 def test_the_lidar_sees_what_stands_there(sample, builds, tmp_path):
     subject, _ = read_garage(builds(sample, "usdc").stage)
     write_grid(subject, tmp_path / "map.yaml", GridConfig())

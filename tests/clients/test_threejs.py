@@ -12,7 +12,7 @@ from pxr import Usd
 from support.browser import THREE_VERSION, find_browser, find_three, load_in_three
 from support.pictures import coarse, difference, read_png, store, stored
 from support.places import MILLIMETRE, assert_same_places
-from support.sample_files import REPOSITORY, SAMPLES
+from support.sample_files import REPOSITORY, each_small_sample
 from support.stage_textures import texture_names
 
 from garage2usd.assets import MATERIALS
@@ -58,10 +58,9 @@ def uses_of_textures(layout, quality):
 
 # three.js shares nothing between references, and asks for each texture of each instance at once: of the 20x30 garage's
 # the browser refuses 1294 for want of resources
-SMALL_SAMPLES = [sample for sample in SAMPLES if sample.stem != "large_20x30"]
 
 
-@pytest.mark.parametrize("sample", SMALL_SAMPLES, ids=lambda path: path.stem)
+@each_small_sample
 def test_three_agrees_with_the_layout(sample, builds, tmp_path):
     build = builds(sample, "usdz")
     layout = build.garage.layout

@@ -1,4 +1,4 @@
-"""Plans over 1000 seeds and mixed sizes, and what turning or mirroring a plan leaves as it is."""
+"""Plans over 400 seeds and mixed sizes, and what turning or mirroring a plan leaves as it is."""
 
 import networkx as nx
 import numpy as np
@@ -10,7 +10,7 @@ from garage2usd.planning import evaluate, is_feasible, plan_lanes, play, princip
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import build_lane_graph
 
-SEEDS, BLOCK = 1000, 50
+SEEDS, BLOCK = 400, 50
 LARGE_EVERY = 25
 """Every so many seeds the site is a large one."""
 

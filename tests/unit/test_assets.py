@@ -1,4 +1,5 @@
 from collections import Counter, defaultdict
+from functools import cache
 
 import networkx as nx
 import numpy as np
@@ -11,12 +12,22 @@ from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.pipeline import generate
 from garage2usd.stage.prototypes import asset_of
 
-CASES = {name: spec.asset() for name, spec in SPECS.items()}
-each_part = pytest.mark.parametrize(
-    ("case", "part"),
-    [(name, part) for name, asset in CASES.items() for part in asset.parts],
-    ids=lambda v: getattr(v, "name", v),
-)
+
+@cache
+def asset_of_case(case):
+    return SPECS[case].asset()
+
+
+def each_part(check):
+    """Make a test of each object from a check of one of its parts."""
+
+    @pytest.mark.parametrize("case", SPECS)
+    def test(case):
+        for part in asset_of_case(case).parts:
+            check(case, part)
+
+    test.__name__ = check.__name__
+    return test
 
 
 def loops(part):
@@ -24,7 +35,7 @@ def loops(part):
 
 
 def material_of(case, part):
-    return finished(part.material, CASES[case].finishes).material
+    return finished(part.material, asset_of_case(case).finishes).material
 
 
 @each_part
@@ -41,7 +52,7 @@ def test_arrays_fit_each_other(case, part):
     assert np.isfinite(part.points).all()
     assert np.isfinite(part.st).all()
     assert len(np.unique(part.points, axis=0)) == len(part.points)
-    assert part.material in {*MATERIALS, *CASES[case].finishes}
+    assert part.material in {*MATERIALS, *asset_of_case(case).finishes}
     assert part.face_counts.min() >= 3
 
 
@@ -50,9 +61,8 @@ def test_faces_have_area_and_look_where_their_normals_do(case, part):
     start = 0
     for loop in loops(part):
         corners = part.points[loop].astype(float)
-        normal = sum(
-            np.cross(a - corners[0], b - corners[0]) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)
-        )
+        spokes = corners - corners[0]
+        normal = np.cross(spokes, np.roll(spokes, -1, axis=0)).sum(axis=0)
         assert np.linalg.norm(normal) > 1e-8
         assert (part.normals[part.normal_indices[start : start + len(loop)]] @ normal > 0).all()
         start += len(loop)
@@ -71,10 +81,15 @@ def test_meshes_are_manifold(case, part):
     for index, loop in enumerate(loops(part)):
         for first, second in zip(loop, np.roll(loop, -1), strict=True):
             edges[frozenset((int(first), int(second)))].append(index)
+    neighbours = defaultdict(list)
+    for edge, pair in edges.items():
+        if len(pair) == 2:
+            for vertex in edge:
+                neighbours[vertex].append(pair)
     for vertex, faces in around.items():
         fan = nx.Graph()
         fan.add_nodes_from(faces)
-        fan.add_edges_from(pair for edge, pair in edges.items() if vertex in edge and len(pair) == 2)
+        fan.add_edges_from(neighbours[vertex])
         assert nx.is_connected(fan), part.points[vertex]
 
 
@@ -99,21 +114,21 @@ def signed_volume(part):
     ],
 )
 def test_closed_bodies_have_their_volume(case, name, volume):
-    (part,) = [part for part in CASES[case].parts if part.name == name]
+    (part,) = [part for part in asset_of_case(case).parts if part.name == name]
     assert signed_volume(part) == pytest.approx(volume, rel=1e-5)
 
 
 def test_a_speed_bump_has_the_standard_s_section():
-    points = np.concatenate([part.points for part in CASES["bump"].parts])
+    points = np.concatenate([part.points for part in asset_of_case("bump").parts])
     assert np.ptp(points, axis=0) == pytest.approx([7.2, 0.05, 0.35], abs=1e-6)
     assert points[:, 1].min() == 0
-    stop = np.concatenate([part.points for part in CASES["stop"].parts])
+    stop = np.concatenate([part.points for part in asset_of_case("stop").parts])
     assert np.ptp(stop, axis=0) == pytest.approx([1.65, 0.1, 0.15], abs=1e-6)
 
 
 @pytest.mark.parametrize("body", CAR_BODIES, ids=lambda body: body.name)
 def test_cars_keep_their_measures_and_stand_on_their_wheels(body):
-    asset = CASES[f"car_{body.name}"]
+    asset = asset_of_case(f"car_{body.name}")
     parts = {part.name: part for part in asset.parts}
     points = np.concatenate([part.points for part in asset.parts])
     low, high = points.min(axis=0), points.max(axis=0)
@@ -136,7 +151,7 @@ def test_cars_keep_their_measures_and_stand_on_their_wheels(body):
 def test_a_panel_is_partitioned_exactly():
     area, painted = defaultdict(float), defaultdict(float)
     shapes = []
-    for part in CASES["floor"].parts:
+    for part in asset_of_case("floor").parts:
         assert (part.points[:, 1] == 0).all()
         assert (part.normals == (0, 1, 0)).all()
         for loop in loops(part):
@@ -153,7 +168,7 @@ def test_a_panel_is_partitioned_exactly():
 
 def test_texture_coordinates_run_on_under_the_paint():
     by_point = {}
-    for part in CASES["floor"].parts:
+    for part in asset_of_case("floor").parts:
         repeat = MATERIALS[part.material].repeat_m
         for point, place in zip(part.points[part.face_indices], part.st[part.st_indices] * repeat, strict=True):
             known = by_point.setdefault(tuple(point.tolist()), place)
@@ -161,12 +176,13 @@ def test_texture_coordinates_run_on_under_the_paint():
 
 
 def test_colliders_are_on_what_can_be_touched():
-    for case, asset in CASES.items():
+    for case in SPECS:
+        asset = asset_of_case(case)
         kind = SPECS[case].kind
         is_floor = kind.name in {"floor", "stall"}
         assert (kind.is_solid or is_floor) == any(part.collider for part in asset.parts), case
-    assert {part.collider for part in CASES["floor"].parts} == {Collider.MESH}
-    assert {part.collider for part in CASES["stop"].parts} == {Collider.CONVEX_HULL}
+    assert {part.collider for part in asset_of_case("floor").parts} == {Collider.MESH}
+    assert {part.collider for part in asset_of_case("stop").parts} == {Collider.CONVEX_HULL}
 
 
 def test_every_spec_of_a_garage_has_an_asset():

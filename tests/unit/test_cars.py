@@ -231,7 +231,7 @@ def silhouette(body, axes):
     """What of a plane the triangles of a car cover, seen along the third axis."""
     corners = triangles(*car(body).parts)[:, :, axes].round(4)
     faces = shapely.polygons(corners)
-    return shapely.union_all(shapely.buffer(faces[shapely.area(faces) > 1e-6], 0.002)).simplify(0.002)
+    return shapely.union_all(shapely.buffer(faces[shapely.area(faces) > 1e-6], 0.002, quad_segs=1)).simplify(0.002)
 
 
 def test_no_two_bodies_look_alike_from_the_side():

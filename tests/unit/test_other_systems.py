@@ -19,7 +19,17 @@ from garage2usd.common.output import check_file, check_name
 PACKAGE = REPOSITORY / "garage2usd"
 OTHERS = ("win32", "darwin")
 PLAN = ".....\nE===X\n.....\n"
-RECIPE = 'name = "two"\ncount = 2\n[garage.site]\nwidth_cells = 5\nheight_cells = 5\n[make]\nexports = ["xodr"]\n'
+RECIPE = """
+name = "two"
+count = 2
+[garage.site]
+width_cells = 4
+height_cells = 4
+[garage.plan]
+episodes = 60
+[make]
+exports = ["xodr"]
+"""
 
 
 @pytest.fixture(params=OTHERS)
@@ -113,7 +123,7 @@ def test_what_windows_lacks_is_not_there(code, tmp_path):
 
 def test_a_stage_that_another_program_holds_open_is_tried_again(tmp_path):
     code = """
-import threading, time
+import threading
 from pathlib import Path
 from garage2usd.common.output import publish_at
 Path("new").write_text("new")
@@ -121,11 +131,11 @@ Path("old").write_text("old")
 {hold}
 publish_at({{Path("new"): Path("old")}})
 """
-    held = "file = open('old'); threading.Timer({}, file.close).start()"
-    closed = evaluate_as_on("win32", tmp_path, code.format(hold=held.format(0.4)))
+    held = "file = open('old')"
+    closed = evaluate_as_on("win32", tmp_path, code.format(hold=f"{held}; threading.Timer(0.4, file.close).start()"))
     assert closed.returncode == 0, closed.stderr
     assert (tmp_path / "old").read_text() == "new"
-    kept = evaluate_as_on("win32", tmp_path, code.format(hold=held.format(60) + "; import atexit, os"))
+    kept = evaluate_as_on("win32", tmp_path, code.format(hold=held))
     assert "close the program that has it open" in kept.stderr
     assert (tmp_path / "old").read_text() == "old"
     assert {path.name for path in tmp_path.iterdir()} == {"new", "old"}

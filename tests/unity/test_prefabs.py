@@ -13,7 +13,7 @@ import pytest
 from pxr import Usd, UsdGeom, UsdPhysics, UsdShade
 from support.label_tables import labelled_objects
 from support.places import assert_same_places
-from support.sample_files import SAMPLES
+from support.sample_files import SAMPLES, SMALL_SAMPLES
 from support.unity.layer import axes_of, from_usd, place_of, world_vertices
 
 from garage2usd.assets.mesh import Collider
@@ -22,12 +22,15 @@ from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import asset_of
 
 SAMPLE = {sample.stem: sample for sample in SAMPLES}
+IN_ALL_FORMS = SAMPLE["irregular"], SAMPLE["mixed_stalls"]
 FORMS = [("usda", None), ("usdc", "nested"), ("usdz", None), ("usdc", "flat")]
 IMPORTS = [
     pytest.param(sample, *form, id="-".join(map(str, (sample.stem, *form))))
-    for sample, form in [*itertools.product(SAMPLES, FORMS), (SAMPLE["paper_7x9"], ("usdz", "flat"))]
-    # to flatten the large one takes pxr most of a minute, and shows nothing that the others do not
-    if (sample.stem, form[1]) != ("large_20x30", "flat")
+    for sample, form in [
+        *itertools.product(IN_ALL_FORMS, FORMS),
+        *((sample, ("usdc", "nested")) for sample in SMALL_SAMPLES if sample not in IN_ALL_FORMS),
+        (SAMPLE["paper_7x9"], ("usdz", "flat")),
+    ]
 ]
 INSTANCERS = tuple(f"/{kind.scattered}" for kind in KINDS if kind.scattered)
 COLLIDERS = {

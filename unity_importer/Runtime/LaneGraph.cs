@@ -20,6 +20,9 @@ namespace Garage.Unity
         /// <summary>Column of its square.</summary>
         public int column;
 
+        /// <summary>Number of its level, 0 at the top; 0 in a garage of one level.</summary>
+        public int level;
+
         /// <summary>Metres of carriageway along the stage's x and z.</summary>
         public Vector2 widths;
     }

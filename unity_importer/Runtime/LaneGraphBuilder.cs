@@ -59,7 +59,8 @@ namespace Garage.Unity
             UsdValue square = prim.Value("garage:stall:square"), corners = prim.Value("garage:stall:corners");
             int[] place = square == null ? new int[0] : square.Ints();
             Vector2Int own = place.Length == 2 ? new Vector2Int(place[0], place[1]) : new Vector2Int(-1, -1);
-            stall.Set(prim.Text("garage:stall:id", ""), prim.Text("garage:stall:number", ""),
+            string level = LevelOf(prim), number = prim.Text("garage:stall:number", "");
+            stall.Set(level + prim.Text("garage:stall:id", ""), number == "" ? "" : level + number,
                 prim.Text("garage:stall:type", ""), prim.Text("garage:stall:use", "standard"),
                 prim.Text("garage:stall:entryEdge", ""), own, prim.Truth("garage:stall:occupied", false));
             UsdValue angle = prim.Value("garage:stall:angleRad");
@@ -80,6 +81,13 @@ namespace Garage.Unity
                 points[3 * i + 2] = numbers[2 * i + 1];
             }
             withoutGraph.Add(new KeyValuePair<Stall, Vector3[]>(stall, Points(points)));
+        }
+
+        // what ids and numbers of a garage of several levels begin with, "U2/"; stalls' prims have those of their level
+        static string LevelOf(UsdPrim prim)
+        {
+            while (prim != null && prim.Value("garage:level") == null) { prim = prim.Parent; }
+            return prim == null ? "" : prim.Text("garage:level", "") + "/";
         }
 
         /// <summary>Notes the curves below an object that are a lane graph.</summary>
@@ -131,10 +139,11 @@ namespace Garage.Unity
 
         // where tiles share prototypes, stalls have no prims that say who they are: the second stall of a tile is
         // called as its car is, "Stall_2" and "Car_2", and "Stall_r03_c07_2" stands on "Row_r03/Tile_r03_c07", there
-        // in the part "Parking", which earlier stages lack
+        // in the part "Parking", which earlier stages lack; "U2/Stall_r03_c07_2" does so below "Levels/U2"
         static void ParkOnTile(Stall stall, Transform garage)
         {
             string[] parts = stall.Id.Split('_');
+            if (garage != null && stall.Level != "") { garage = garage.Find("Levels/" + stall.Level); }
             if (garage == null || parts.Length != 4) { return; }
             string tile = "Row_" + parts[1] + "/Tile_" + parts[1] + "_" + parts[2];
             string car = "/Car_" + parts[3];
@@ -183,6 +192,7 @@ namespace Garage.Unity
             Vector3[] points = Points(curves.Curves.Points);
             string[] kinds = Texts(curves, "garage:lane:kind", count);
             int[] rows = Ints(curves, "garage:lane:row", count), columns = Ints(curves, "garage:lane:column", count);
+            int[] levels = Ints(curves, "garage:lane:level", count);
             float[] widths = Floats(curves, "garage:lane:widths", 2 * count);
             float metres = (float)basis.MetersPerUnit;
             var nodes = new LaneNode[count];
@@ -194,6 +204,7 @@ namespace Garage.Unity
                 nodes[i] = new LaneNode
                 {
                     position = sum / Mathf.Max(1, corners), kind = kinds[i], row = rows[i], column = columns[i],
+                    level = levels[i],
                     widths = new Vector2(widths[2 * i] * metres, widths[2 * i + 1] * metres),
                 };
             }

@@ -22,13 +22,20 @@ namespace Garage.Unity
         [SerializeField] int accessNode = -1;
         [SerializeField] Vector3[] corners = new Vector3[0];
 
-        /// <summary>"Stall_r03_c07_2": the second one on the square in row 3, column 7.</summary>
+        /// <summary>"Stall_r03_c07_2": the second one on the square in row 3, column 7; on a level of several
+        /// "U2/Stall_r03_c07_2".</summary>
         public string Id
         {
             get { return id; }
         }
 
-        /// <summary>As painted, with its zone: "B2-07"; empty where nobody parks.</summary>
+        /// <summary>Name of its level, "U2"; empty in a garage of one level.</summary>
+        public string Level
+        {
+            get { return id.Substring(0, id.IndexOf('/') + 1).TrimEnd('/'); }
+        }
+
+        /// <summary>As painted, with its zone, "B2-07", after its level, "U2/B2-07"; empty where nobody parks.</summary>
         public string Number
         {
             get { return number; }

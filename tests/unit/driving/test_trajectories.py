@@ -10,7 +10,7 @@ import shapely
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from support.driving_simulation import outlines
-from support.sample_files import SAMPLES
+from support.sample_files import each_small_sample
 from support.trajectory_judge import OpenWorld, faults
 
 import garage2usd
@@ -72,7 +72,7 @@ def longest_stand(rows):
     return starts[longest], ends[longest]
 
 
-@pytest.mark.parametrize("sample", SAMPLES, ids=lambda path: path.stem)
+@each_small_sample
 def test_every_ninth_stall_is_driven_into_and_out_of_within_the_settings_without_a_touch(sample, builds, tmp_path):
     garage = builds(sample, "usdc").garage
     planner, world = DrivePlanner(subject_of(garage)), OpenWorld(garage)

@@ -13,7 +13,7 @@ from pxr import Usd
 from support.driving_simulation import outlines
 from support.openscenario_checker import issues_of, needs_checker
 from support.openscenario_reader import OpenScenario
-from support.sample_files import each_sample
+from support.sample_files import each_small_sample
 from support.small_garage import PLAN, SETTINGS, with_trolley
 from support.trajectory_judge import OpenWorld
 
@@ -168,7 +168,7 @@ def test_without_the_extra_it_is_refused_before_a_garage_is_made(tmp_path, monke
 
 
 @needs_checker
-@each_sample
+@each_small_sample
 def test_the_scenario_of_a_sample_is_sound_and_touches_nothing(sample, builds, tmp_path):
     made = builds(sample, "usdc")
     scenario, road = garage2usd.export(made.stage, [tmp_path / "s.xosc"])

@@ -26,6 +26,7 @@ namespace Garage.Unity.Dump
                 json.Number(node.row);
                 json.Number(node.column);
                 json.Close(']');
+                Number(json, "level", node.level);
                 json.Key("widths");
                 json.Open('[');
                 json.Number(node.widths.x);

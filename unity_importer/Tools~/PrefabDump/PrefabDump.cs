@@ -267,6 +267,7 @@ namespace Garage.Unity.Dump
             json.Key("stall");
             json.Open('{');
             Text("id", stall.Id);
+            Text("level", stall.Level);
             Text("number", stall.Number);
             Text("type", stall.Type);
             Text("use", stall.Use);
