@@ -24,7 +24,8 @@ from garage2usd.common.version import VERSION
 from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.config.building import BuildingConfig
 from garage2usd.garage.joined_levels import JoinedLevels, LevelLanes, RampLane, join_levels, unreached_stalls
-from garage2usd.layout.shell.wells import SLAB_M, Well, flight_profile
+from garage2usd.layout.shell.well import SLAB_M
+from garage2usd.layout.shell.wells import make_well
 from garage2usd.pipeline import Garage, laid_out, planned, stage_metadata
 from garage2usd.planning import Plan, evaluate, tape_of
 from garage2usd.planning.dimensions import aisle_side_mm, lines_with_aisles
@@ -32,13 +33,12 @@ from garage2usd.reading.levels_report import LevelReport, LevelsReport, Reported
 from garage2usd.reading.report import UnmetClause
 from garage2usd.report import make_report
 from garage2usd.site import make_site
-from garage2usd.site.flights import draw_flight, flight_is_free, with_run
+from garage2usd.site.level_ramps import draw_ramps, ramps_are_free, ramps_of_tape, with_ramps_room
 from garage2usd.site.room import check_room
 from garage2usd.stage import StageFormat, shared_folder
 from garage2usd.stage.levels import LevelLayout, write_level_labels, write_levels_stage
-from garage2usd.structure.building import Building, Flight, level_cells, level_name
+from garage2usd.structure.building import Building, Ramps, level_cells, level_name
 from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.stalls import Edge
 from garage2usd.view.plan_picture import draw_plan
 from garage2usd.view.raster import to_image, write_png
 
@@ -92,9 +92,7 @@ class LevelsGarage:
     @property
     def tape(self) -> str:
         """Canonical random process of the garage: the ramps, then the tape of each level, with slashes between."""
-        flight = self.building.flight
-        links = f"{flight.head[0]},{flight.head[1]},{flight.way.name},{flight.length}"
-        return _TAPE_JOINT.join([links, *(tape_of(structure) for structure in self.building.levels)])
+        return _TAPE_JOINT.join([self.building.ramps.tape, *(tape_of(structure) for structure in self.building.levels)])
 
     @property
     def parking_stalls(self) -> int:
@@ -257,15 +255,15 @@ def _generate(
     check_room(site, config.bay)
     if (site.cells == Cell.LANE).any():
         raise ConfigError("site.structure", str(site), "no lanes with building.levels of 2 or more: they are planned")
-    flight, tapes = _flight_and_tapes(site, config, tape)
+    ramps, tapes = _ramps_and_tapes(site, config, tape)
     clock.append(time.perf_counter())
-    plans = _plans(site, config, flight, tapes, progress)
-    building = Building(tuple(plan.structure for plan, _ in plans), flight, config.building.storey_m)
+    plans = _plans(site, config, ramps, tapes, progress)
+    building = Building(tuple(plan.structure for plan, _ in plans), ramps, config.building.storey_m)
     clock.append(time.perf_counter())
     levels = []
     for number, (plan, of_level) in enumerate(plans):
-        well = Well(flight, number, config.building.levels, config.building, config.fittings.wall_thickness_m)
-        static = plan.structure.with_cells(level_cells(site.cells, flight, number, config.building.levels))
+        well = make_well(ramps, number, config)
+        static = plan.structure.with_cells(level_cells(site.cells, ramps, number, config.building.levels))
         levels.append(laid_out(static, plan, of_level, well=well, progress=progress))
     garage = LevelsGarage(config, building, tuple(levels))
     unreached = unreached_stalls(garage.joined)
@@ -295,26 +293,24 @@ def check_levels(config: GarageConfig) -> None:
             raise ConfigError(field, list(given), "nothing with building.levels of 2 or more: it names no level")
 
 
-def _flight_and_tapes(site: Structure, config: GarageConfig, tape: str | None) -> tuple[Flight, list[str | None]]:
+def _ramps_and_tapes(site: Structure, config: GarageConfig, tape: str | None) -> tuple[Ramps, list[str | None]]:
     """Draw the ramps, or read them and the tapes of the levels from the tape of the whole garage."""
-    keeps_left, levels = config.standard.drives_on_left, config.building.levels
+    levels = config.building.levels
     if tape is None:
-        flight = draw_flight(site, building=config.building, bay=config.bay, seed=config.seed, keeps_left=keeps_left)
-        return flight, [None] * levels
+        return draw_ramps(site, config), [None] * levels
     links, *tapes = tape.split(_TAPE_JOINT)
-    wanted = f"the ramps as row,column,direction,squares and the tapes of {levels} levels, joined by {_TAPE_JOINT}"
+    wanted = f"the tape of {config.building.ramps} ramps and the tapes of {levels} levels, joined by {_TAPE_JOINT}"
     try:
-        row, col, way, length = links.split(",")
-        flight = Flight((int(row), int(col)), Edge[way], int(length), keeps_left)
+        ramps = ramps_of_tape(links, config)
     except (ValueError, KeyError):
         raise ConfigError("tape", tape, wanted) from None
-    if len(tapes) != levels or not flight_is_free(site.cells, flight, levels):
+    if len(tapes) != levels or not ramps_are_free(site.cells, ramps, levels):
         raise ConfigError("tape", tape, f"{wanted}, on free squares of the site")
-    return flight, list(tapes)
+    return ramps, list(tapes)
 
 
 def _plans(
-    site: Structure, config: GarageConfig, flight: Flight, tapes: list[str | None], progress: Progress
+    site: Structure, config: GarageConfig, ramps: Ramps, tapes: list[str | None], progress: Progress
 ) -> list[tuple[Plan, GarageConfig]]:
     """Plan all levels, the lower ones on R and C of the top one; each comes with its settings.
 
@@ -327,12 +323,12 @@ def _plans(
         changes = {"seed": seed, "building": BuildingConfig(), "bay": bay}
         of_level = config.model_copy(update=changes)
         sides = found[0][0].structure if found else site
-        static = sides.with_cells(level_cells(site.cells, flight, level, config.building.levels))
+        static = sides.with_cells(level_cells(site.cells, ramps, level, config.building.levels))
         plan = planned(static, of_level, tape=tape, progress=progress)
         if not found:
             bay = _fixed(bay, plan.structure)
         found.append((plan, of_level))
-    sides = with_run(_with_aisles([plan.structure for plan, _ in found], config.bay), flight, config.building)
+    sides = with_ramps_room(_with_aisles([plan.structure for plan, _ in found], config.bay), ramps, config)
     bay = _fixed(bay, sides)
     return [(_on_sides(plan, sides, bay, config), of.model_copy(update={"bay": bay})) for plan, of in found]
 
@@ -377,7 +373,7 @@ def _joined(building: Building, levels: tuple[Garage, ...]) -> JoinedLevels:
     for lower in range(1, len(levels)):
         layout = levels[lower].layout
         lanes = layout.well.lanes(layout.structure) if layout.well else ()
-        for link, lane in zip(building.flight.links, lanes, strict=True):
+        for link, lane in zip(building.ramps.links, lanes, strict=True):
             head = lower - 1, levels[lower - 1].graph.number_of[link.head]
             foot = lower, levels[lower].graph.number_of[link.foot]
             start, end = (head, foot) if link.is_down else (foot, head)
@@ -422,8 +418,6 @@ def levels_report(
         Clauses of the profile that the design of each level violates; None if unknown.
     """
     building, names = garage.building, garage.building.names()
-    profile = flight_profile(building.flight.run_m(building.levels[0]), garage.config.building)
-    slopes = [(high - low) / (end - start) for (start, low), (end, high) in pairwise(profile)]
     clear_m = min(garage.config.fittings.ceiling_height_m, building.storey_m - SLAB_M)
     links = []
     for upper, lower in pairwise(range(len(names))):
@@ -439,12 +433,12 @@ def levels_report(
                 head=link.head,
                 foot=link.foot,
                 rise_m=building.storey_m,
-                run_m=profile[-1][0],
-                steepest_percent=round(100 * max(slopes), 3),
+                run_m=round(lane.run_m, 6),
+                steepest_percent=round(100 * lane.slope, 3),
                 clear_width_m=lane.width_m,
                 clear_height_m=round(clear_m, 6),
             )
-            for link, lane in zip(building.flight.links, lanes, strict=True)
+            for link, lane in zip(building.ramps.links, lanes, strict=True)
         ]
     return LevelsReport(
         version=VERSION,

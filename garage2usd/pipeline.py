@@ -22,7 +22,7 @@ from garage2usd.driving import DesignCar, with_clutter, with_truth_of_misparked,
 from garage2usd.driving.refusal import refuse_undrivable
 from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.parking.tight import tight_stalls
-from garage2usd.layout.shell.wells import Well
+from garage2usd.layout.shell.well import Well
 from garage2usd.planning import (
     Plan,
     completed,

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -9,12 +10,12 @@ import shapely
 
 from garage2usd.as_built.driven_ground import CAR_HEIGHT_M, driven_garage, rounded
 from garage2usd.as_built.garage import BuiltGarage
-from garage2usd.as_built.openings import Door
-from garage2usd.as_built.shapes import Array, Thing
-from garage2usd.driving import DesignCar, DrivenRoad, Obstacles, Portal, Pose, RampFloor, heights_m
+from garage2usd.as_built.openings import Door, is_bent
+from garage2usd.as_built.shapes import Array, Face, Thing
+from garage2usd.driving import BentFloor, DesignCar, DrivenRoad, Obstacles, Portal, Pose, RampFloor, heights_m
 from garage2usd.garage import LaneKind, LaneNode, Point
 
-__all__ = ["Mouth", "driven_road", "floors_of_ramps", "portal_mouths"]
+__all__ = ["Mouth", "bent_floors", "driven_road", "floors_of_ramps", "portal_mouths"]
 
 _GATE, _RAMP = "barrier", "ramp"
 _ARM_FROM_M = 0.5
@@ -79,7 +80,8 @@ def driven_road(garage: BuiltGarage, *, car: DesignCar | None = None, height_m: 
     Notes
     -----
     A car starts at the top of the ramp behind a door, half a metre before its end. A door without a ramp is shut; the
-    car then starts within the portal's square, 0.3 m from the door.
+    car then starts within the portal's square, 0.3 m from the door. At the landing of a helix it starts on the level
+    floor beyond.
     """
     car = car or DesignCar()
     driven = driven_garage(garage, height_m=height_m)
@@ -123,6 +125,7 @@ def _portals(garage: BuiltGarage, ramps: Sequence[RampFloor], car: DesignCar) ->
         yaw = math.atan2(mouth.outwards[0] + 0.0, mouth.outwards[1] + 0.0)  # into the garage
         x, z = rounded(node.position)
         end_m = mouth.top_m((x, z)) - (_FROM_DOOR_M if mouth.ramp is None else _FROM_END_M)
+        end_m += garage.level_beyond_m.get(node.name, 0.0)
         axle_m = end_m - (car.rear_overhang_m if is_entrance else car.ahead_m)
         pose = Pose(x + axle_m * mouth.outwards[0], z + axle_m * mouth.outwards[1], yaw if is_entrance else _about(yaw))
         yield Portal(mouth.number, node.name, LaneKind.ENTRANCE if is_entrance else LaneKind.EXIT, pose)
@@ -183,23 +186,48 @@ def _is_behind(ramp: RampFloor, middle: Point, outwards: Point, edge_m: float) -
     return in_line > 0.99 and aside < ramp.half_width_m / 2 and abs(along - edge_m) < _RAMP_REACH_M  # noqa: PLR2004
 
 
+def bent_floors(things: Iterable[Thing]) -> tuple[BentFloor, ...]:
+    """Return the floors of all ramps among objects that bend."""
+    found = []
+    for thing in things:
+        sloping = _sloping(thing) if thing.label == _RAMP else []
+        if sloping and is_bent(*_rises(sloping)):
+            corners = (corners for _, corners in sloping)
+            fans = [np.stack([face[0], *pair]) for face in corners for pair in pairwise(face[1:])]
+            found.append(BentFloor(np.array(fans)))
+    return tuple(found)
+
+
+def _sloping(thing: Thing) -> list[Face]:
+    """Return the faces of a ramp that cars can drive over and that are not level."""
+    return [
+        face
+        for face in thing.faces()
+        if face.normal[1] > _UPRIGHT
+        and _LEVEL_SLOPE < math.hypot(face.normal[0], face.normal[2]) / face.normal[1] < _STEEPEST_SLOPE
+    ]
+
+
+def _rises(sloping: Sequence[Face]) -> tuple[Array, Array]:
+    """Return the directions downhill (x, z) of faces, as long as they are steep, and how high each reaches."""
+    return np.array([normal[[0, 2]] for normal, _ in sloping]), np.array([np.ptp(face[:, 1]) for _, face in sloping])
+
+
 def floors_of_ramps(things: Iterable[Thing]) -> tuple[RampFloor, ...]:
-    """Return the floors of all ramps among objects."""
+    """Return the floors of all straight ramps among objects."""
     floors = (_floor(thing) for thing in things if thing.label == _RAMP)
     return tuple(floor for floor in floors if floor is not None)
 
 
 def _floor(thing: Thing) -> RampFloor | None:
-    """Compute the profile of a ramp's floor from its upward faces, without grooves; None without a slope."""
-    faces = [face for face in thing.faces() if face.normal[1] > _UPRIGHT]
-    sloping = [
-        face
-        for face in faces
-        if _LEVEL_SLOPE < math.hypot(face.normal[0], face.normal[2]) / face.normal[1] < _STEEPEST_SLOPE
-    ]
+    """Compute the profile of a straight ramp's floor from its upward faces, without grooves; else None."""
+    sloping = _sloping(thing)
     if not sloping:
         return None
-    uphill = -sum(normal[[0, 2]] * np.ptp(corners[:, 1]) for normal, corners in sloping)
+    downhill, rises = _rises(sloping)
+    if is_bent(downhill, rises):
+        return None
+    uphill = -(downhill * rises[:, None]).sum(axis=0)
     uphill = np.round(uphill / np.linalg.norm(uphill), _DIGITS + 2)
     across = np.array([-uphill[1], uphill[0]])
     # the grooves of a ramp are very many faces

@@ -56,6 +56,8 @@ class BuiltGarage:
     landings
         Portals that are landings of ramps to other levels, not portals to the street: the unit vector (x, z) from each
         towards its ramp, by name.
+    level_beyond_m
+        Length of the level floor beyond the edge of landings, by name; only of ramps that bend.
     """
 
     source: str
@@ -72,6 +74,7 @@ class BuiltGarage:
     faults: tuple[Fault, ...] = ()
     stage: Usd.Stage | None = None
     landings: Mapping[str, Point] = field(default_factory=dict)
+    level_beyond_m: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def street_portals(self) -> list[int]:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from garage2usd.as_built.shapes import Array, Body, Thing
 
-__all__ = ["Door", "Ramp", "Stretch", "doors_of", "ramps_of", "section_of"]
+__all__ = ["Door", "Ramp", "Stretch", "doors_of", "is_bent", "ramps_of", "section_of"]
 
 _CUT_M = 1.0
 """Height above the floor at which a door's width is measured; metres."""
@@ -17,6 +17,8 @@ _SHEET_M = 0.1
 """Greatest thickness in metres of a door leaf or a sign, which does not narrow the opening."""
 _LEVEL_SLOPE, _STEEPEST_SLOPE, _EQUAL_SLOPES = 0.005, 0.6, 5e-4
 _STEP_M = 0.05
+_STRAIGHT = 0.9
+"""Least length of the mean direction downhill of a straight ramp's faces."""
 
 
 class Stretch(NamedTuple):
@@ -72,7 +74,7 @@ class Ramp(NamedTuple):
     position
         (x, z) of the middle of its ground in metres.
     stretches
-        Sloping parts from its foot upwards.
+        Sloping parts from its foot upwards; none of a ramp that bends.
     """
 
     name: str
@@ -88,6 +90,20 @@ def doors_of(things: Iterable[Thing]) -> Iterator[Door]:
 def ramps_of(things: Iterable[Thing]) -> Iterator[Ramp]:
     """Measure the ramps among all objects."""
     return (_ramp(thing) for thing in things if thing.label == "ramp" and thing.bodies)
+
+
+def is_bent(downhill: Array, weights: Array) -> bool:
+    """True if the faces of a ramp slope in different directions: it bends.
+
+    Parameters
+    ----------
+    downhill
+        Horizontal part (x, z) of the normals of its sloping faces; float64, shape (n, 2).
+    weights
+        How much each counts; float64, shape (n,).
+    """
+    whole = float(np.linalg.norm((downhill * weights[:, None]).sum(axis=0)))
+    return whole < _STRAIGHT * float((np.linalg.norm(downhill, axis=1) * weights).sum())
 
 
 def section_of(thing: Thing, level_m: float = _CUT_M) -> list[Array]:
@@ -173,7 +189,10 @@ def _ramp(thing: Thing) -> Ramp:
     sloping = (slopes > _LEVEL_SLOPE) & (slopes < _STEEPEST_SLOPE)
     if not sloping.any():
         return Ramp(thing.name, _point(middle), ())
-    uphill = -normals[sloping][:, [0, 2]].sum(axis=0)
+    downhill = normals[sloping][:, [0, 2]]
+    if is_bent(downhill, np.ones(len(downhill))):
+        return Ramp(thing.name, _point(middle), ())
+    uphill = -downhill.sum(axis=0)
     uphill /= np.linalg.norm(uphill) or 1.0
     across = np.array([-uphill[1], uphill[0]])
     flat = corners[np.repeat(sloping, counts)][:, [0, 2]]

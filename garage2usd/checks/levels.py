@@ -1,5 +1,6 @@
 """Check of a garage of several levels: each level by the rules of one level, ramps and routes by rules of the whole."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -28,6 +29,8 @@ _SIDE_ROOM_M = 0.5
 _STEP_M = 0.5
 _EYE_M, _AXLE_M = 0.05, 0.6
 """Heights over the ramp's floor of the rays upwards and sideways."""
+_LEAST_RUN_M = 1e-6
+_SLOPE_ROUNDING = 0.15
 _FAR_M = 4.0
 """Distance around the box of a ramp in which triangles are cast at; more clearance than this is enough anywhere."""
 
@@ -69,7 +72,12 @@ def check_levels(garage: BuiltLevels, profile: Profile, rules: tuple[Rule, ...])
         for rule in rules
         for finding in rule.findings(level.garage, profile)
     ]
-    found += [*_routes(garage), *_portals(garage, profile), *_ramp_clearances(garage, profile)]
+    found += [
+        *_routes(garage),
+        *_portals(garage, profile),
+        *_ramp_clearances(garage, profile),
+        *_ramp_bends(garage, profile),
+    ]
     return sorted(found, key=Finding.sort_key)
 
 
@@ -110,8 +118,8 @@ def _portals(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
 
 def _ramp_clearances(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
     """Yield the lowest place and the narrowest place of each ramp between levels that misses the requirement."""
-    for name, line in _ramp_lines(garage):
-        points = _sampled(line)
+    for ramp in garage.ramp_lines:
+        name, points = garage.lanes.nodes[ramp.sloped[0]].name, _sampled(ramp.slope)
         caster, corners = _caster(garage, points)
         ahead = np.diff(points, axis=0, append=points[-1:] * 2 - points[-2:-1])[:, [0, 2]]
         ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
@@ -150,15 +158,33 @@ def _ramp_clearances(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]
             )
 
 
-def _ramp_lines(garage: BuiltLevels) -> Iterator[tuple[str, NDArray[np.float64]]]:
-    """Yield the name of each ramp's first node and the (x, height, z) of its nodes in the direction of driving."""
-    lanes = garage.lanes
-    numbers = set(garage.ramp_nodes)
-    graph = nx.DiGraph((edge.start, edge.end) for edge in lanes.edges if {edge.start, edge.end} <= numbers)
-    for part in sorted(map(sorted, nx.weakly_connected_components(graph))):
-        order = list(nx.topological_sort(graph.subgraph(part))) if nx.is_directed_acyclic_graph(graph) else part
-        nodes = [lanes.nodes[number] for number in order]
-        yield nodes[0].name, np.array([(node.position[0], node.height_m, node.position[1]) for node in nodes])
+def _ramp_bends(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
+    """Yield the helices that are too steep along the inner edge of their carriageway."""
+    clause = profile.curved_ramp_slope
+    if clause is None:
+        return
+    for ramp in garage.ramp_lines:
+        bend = ramp.bend
+        if bend is None:
+            continue
+        places = ramp.places
+        runs = np.linalg.norm(np.diff(places[:, [0, 2]], axis=0), axis=1)
+        slopes = np.abs(np.diff(places[:, 1])) / np.maximum(runs, _LEAST_RUN_M)
+        steepest, inner_m = int(np.argmax(slopes)), bend.radius_m - ramp.width_m / 2
+        percent = 100 * float(slopes[steepest]) * bend.radius_m / inner_m if inner_m > 0 else math.inf
+        if percent > clause.amount + _SLOPE_ROUNDING:
+            yield Finding(
+                "ramp-bend",
+                clause.severity,
+                garage.lanes.nodes[ramp.sloped[0]].name,
+                "the helix between levels is too steep along its inner edge",
+                (float(places[steepest, 0]), float(places[steepest, 2])),
+                round(percent, 2),
+                clause.amount,
+                "%",
+                f"{clause.source} ({clause.confidence})",
+                "curved_ramp_slope",
+            )
 
 
 def _sampled(line: NDArray[np.float64]) -> NDArray[np.float64]:

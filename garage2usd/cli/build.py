@@ -142,13 +142,9 @@ def _build_levels(
         found = "" if made.findings is None else f"; check: {_counted(made.findings[number])}"
         text = f"{layout.parking_stalls} stalls, {counts['car']} with a car, {len(layout.cores)} cores{found}"
         lines.append((name, f"floor at {garage.building.floor_m(number):g} m, {text}"))
-    flight = garage.building.flight
     lines += [
         ("stalls", f"{garage.parking_stalls} on {len(garage.levels)} levels"),
-        (
-            "ramps",
-            f"one down and one up from {list(flight.head)} {flight.way.name.lower()}, {flight.length} squares each",
-        ),
+        ("ramps", garage.building.ramps.in_words),
         ("reachable", "every stall, from an entrance on the street and to an exit on it"),
         ("seed", str(garage.config.seed)),
         ("stage", str(made.stage)),

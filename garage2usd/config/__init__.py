@@ -49,7 +49,7 @@ __all__ = [
 _DIRECTIONS = ("aisles", "one_way_share", "one_way")
 """Settings of the plan that enter the digest only if they differ from their defaults, so that older digests stay valid.
 """
-_LATER_CLAUSES = ("motorcycle_stall_width", "motorcycle_stall_length")
+_LATER_CLAUSES = ("motorcycle_stall_width", "motorcycle_stall_length", "curved_ramp_slope")
 """Clauses of profiles for which the same holds."""
 
 

@@ -16,10 +16,11 @@ from garage2usd.driving.layout_garage import (
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre, Move, Waypoint
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.proof import LanePose, Limits, Outcome, Search, least_clearance_m
-from garage2usd.driving.road import DrivenRoad, Portal, RampFloor, heights_m
+from garage2usd.driving.road import BentFloor, DrivenRoad, Portal, RampFloor, heights_m
 from garage2usd.driving.way_search import find_way
 
 __all__ = [
+    "BentFloor",
     "DesignCar",
     "DrivenGarage",
     "DrivenRoad",

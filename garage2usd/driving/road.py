@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,9 +13,19 @@ from garage2usd.driving.garage import DrivenGarage
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.garage import LaneKind
 
-__all__ = ["DrivenRoad", "FloorSpan", "Portal", "RampFloor", "floor_heights_m", "heights_m"]
+__all__ = [
+    "BentFloor",
+    "DrivenRoad",
+    "FloorSpan",
+    "Portal",
+    "RampFloor",
+    "SlopedFloor",
+    "floor_heights_m",
+    "heights_m",
+]
 
 Floats = NDArray[np.float64]
+_ON_EDGE = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +48,47 @@ class Portal:
     name: str
     kind: LaneKind
     pose: Pose
+
+
+class SlopedFloor(Protocol):
+    """The floor of a ramp of any kind."""
+
+    def at(self, x_m: Floats, z_m: Floats) -> Floats:
+        """Return the heights of the ramp's floor at points, NaN beside it; float64, their shape."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class BentFloor:
+    """The floor of a ramp that bends.
+
+    Attributes
+    ----------
+    triangles
+        (x, height, z) of the corners of its triangles; float64, shape (n, 3, 3).
+    """
+
+    triangles: Floats
+
+    def at(self, x_m: Floats, z_m: Floats) -> Floats:
+        """Return the heights of the ramp's floor at points, NaN beside it; the lowest of several above one another."""
+        x, z = x_m.reshape(-1), z_m.reshape(-1)
+        found = np.full(x.shape, np.inf)
+        for corners in self.triangles:
+            (x0, y0, z0), (x1, y1, z1), (x2, y2, z2) = corners.tolist()
+            double = (x1 - x0) * (z2 - z0) - (x2 - x0) * (z1 - z0)
+            if double == 0.0:
+                continue
+            first = ((x - x0) * (z2 - z0) - (x2 - x0) * (z - z0)) / double
+            second = ((x1 - x0) * (z - z0) - (x - x0) * (z1 - z0)) / double
+            is_on = (first >= -_ON_EDGE) & (second >= -_ON_EDGE) & (first + second <= 1 + _ON_EDGE)
+            heights = y0 + first * (y1 - y0) + second * (y2 - y0)
+            found = np.where(is_on, np.minimum(found, heights), found)
+        return np.where(np.isinf(found), np.nan, found).reshape(x_m.shape)
+
+    def lifted(self, height_m: float) -> "BentFloor":
+        """Return the floor some metres higher."""
+        return BentFloor(self.triangles + np.array([0.0, height_m, 0.0]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +121,15 @@ class RampFloor:
         """(x, z) of the ramp's top on its centre line."""
         run = float(self.runs_m[-1])
         return self.foot_m[0] + run * self.uphill[0], self.foot_m[1] + run * self.uphill[1]
+
+    def at(self, x_m: Floats, z_m: Floats) -> Floats:
+        """Return the heights of the ramp's floor at points, NaN beside it; float64, their shape."""
+        away_x, away_z = x_m - self.foot_m[0], z_m - self.foot_m[1]
+        run = away_x * self.uphill[0] + away_z * self.uphill[1]
+        aside = np.abs(away_x * self.uphill[1] - away_z * self.uphill[0])
+        is_on = (aside <= self.half_width_m) & (run >= self.runs_m[0]) & (run <= self.end_m)
+        heights: Floats = np.where(is_on, np.interp(run, self.runs_m, self.heights_m), np.nan)
+        return heights
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,11 +169,11 @@ class FloorSpan(NamedTuple):
 
     end_m: float
     level_m: float
-    ramps: tuple[RampFloor, ...]
+    ramps: tuple[SlopedFloor, ...]
 
 
 def floor_heights_m(
-    ramps: Sequence[RampFloor], spans: Sequence[FloorSpan], plan_m: Floats, x_m: Floats, z_m: Floats
+    ramps: Sequence[SlopedFloor], spans: Sequence[FloorSpan], plan_m: Floats, x_m: Floats, z_m: Floats
 ) -> Floats:
     """Return the floor's heights at points on one level, or at distances along a path over several levels."""
     if not spans:
@@ -127,14 +187,11 @@ def floor_heights_m(
     return heights
 
 
-def heights_m(ramps: Sequence[RampFloor], x_m: ArrayLike, z_m: ArrayLike, *, level_m: float = 0.0) -> Floats:
+def heights_m(ramps: Sequence[SlopedFloor], x_m: ArrayLike, z_m: ArrayLike, *, level_m: float = 0.0) -> Floats:
     """Return the floor's heights at points; float64, their shape. `level_m` is the height beside ramps."""
     x, z = np.asarray(x_m, dtype=np.float64), np.asarray(z_m, dtype=np.float64)
     heights: Floats = np.full(np.broadcast(x, z).shape, level_m)
     for ramp in ramps:
-        away_x, away_z = x - ramp.foot_m[0], z - ramp.foot_m[1]
-        run = away_x * ramp.uphill[0] + away_z * ramp.uphill[1]
-        aside = np.abs(away_x * ramp.uphill[1] - away_z * ramp.uphill[0])
-        is_on = (aside <= ramp.half_width_m) & (run >= ramp.runs_m[0]) & (run <= ramp.end_m)
-        heights = np.where(is_on, np.interp(run, ramp.runs_m, ramp.heights_m), heights)
+        on_ramp = ramp.at(x, z)
+        heights = np.where(np.isnan(on_ramp), heights, on_ramp)
     return heights

@@ -50,7 +50,7 @@ from garage2usd.layout.shell.boards import with_boards
 from garage2usd.layout.shell.building import columns, corner_columns, ground_inside, outer_walls
 from garage2usd.layout.shell.mounts import mounted_objects
 from garage2usd.layout.shell.ramps import barriers, ramp_lights, with_ramps
-from garage2usd.layout.shell.wells import Well
+from garage2usd.layout.shell.well import Well
 from garage2usd.layout.shell.zone_plates import zone_plates
 from garage2usd.layout.signs import country_of, with_signs_of
 from garage2usd.layout.table import ObjectTable
@@ -366,7 +366,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         tubes = ramp_lights(walls, fittings)
         if well:
             yield (guards := well.walls(structure, fittings, look.walls))
-            yield [*well.ramps(structure), *well.ceilings(structure, fittings)]
+            yield [*well.ramps(structure, fittings), *well.ceilings(structure, fittings)]
             walls, tubes = [*walls, *well.beside_floors(guards)], [*tubes, *well.tubes(structure, fittings)]
         yield ramp_lamps(tubes, look.lights, illuminance.luminance_nit, seed=seed)
         yield (blocks := core_placements(structure, cores, ceiling, look.walls, wells))

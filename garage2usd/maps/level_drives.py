@@ -5,11 +5,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from garage2usd.as_built.driven_floor import BEYOND_TOP_M
-from garage2usd.as_built.levels import BuiltLevels
+from garage2usd.as_built.driven_road import bent_floors
+from garage2usd.as_built.levels import Bend, BuiltLevels
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.spelling import find_named
 from garage2usd.config.maps import DriveConfig, Leg
-from garage2usd.driving import DesignCar, Portal, RampFloor
+from garage2usd.driving import BentFloor, DesignCar, Portal, Pose, RampFloor
 from garage2usd.driving.manoeuvre import Gear
 from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.road import FloorSpan
@@ -23,6 +24,11 @@ __all__ = ["LevelsDrivePlanner"]
 _NAMED = 6
 _BEYOND_FOOT_M = 2.0
 _RISE_M = 0.01
+_EASING_M = 8.0
+"""Length of the clothoids on a helix between straights and circle: the car's rear then runs inside its middle line by
+about as much as its front runs outside."""
+_TURN_RAD = 1.5 * math.pi
+_HALVINGS = 60
 
 _Street = Mapping[LaneKind, tuple[Portal, ...]]
 """Entrances and exits to the street that a drive may use."""
@@ -30,7 +36,7 @@ _Street = Mapping[LaneKind, tuple[Portal, ...]]
 
 @dataclass(frozen=True)
 class _Part:
-    """A path on one level, or the straight way over a ramp between two.
+    """A path on one level, or the way over a ramp between two.
 
     Attributes
     ----------
@@ -40,11 +46,14 @@ class _Part:
         Number of the level, the upper one of a ramp.
     is_ramp
         True on a ramp.
+    is_bent
+        True on a ramp that bends: it begins and ends on landings.
     """
 
     pieces: tuple[Piece, ...]
     level: int
     is_ramp: bool = False
+    is_bent: bool = False
 
     @property
     def length_m(self) -> float:
@@ -64,7 +73,7 @@ class LevelsDrivePlanner:
     Notes
     -----
     Each level is driven by the planner of one level between its portals and landings, among the obstacles of this
-    level only. Ramps are driven straight, along the line through their landings.
+    level only. Straight ramps are driven along the line through their landings, helices on clothoids and a circle.
     """
 
     def __init__(
@@ -72,6 +81,7 @@ class LevelsDrivePlanner:
     ) -> None:
         self._garage, self._settings, self._car = garage, settings or DriveConfig(), car or DesignCar()
         self._planners: dict[int, DrivePlanner] = {}
+        self._bent: dict[int, tuple[BentFloor, ...]] = {}
 
     def drive(
         self,
@@ -171,7 +181,7 @@ class LevelsDrivePlanner:
         parts, end = [part], portal
         for upper in range(level - 1, -1, -1):
             planner = self._planner(upper)
-            pose = end.pose
+            pose, portal_name = end.pose, end.name
             if is_in:
                 exits = self._ends(upper, LaneKind.EXIT, from_above=False)
                 entrances = self._to_street(upper, LaneKind.ENTRANCE, street)
@@ -188,12 +198,28 @@ class LevelsDrivePlanner:
                 raise ConfigError("stall", portal.name, f"a garage whose level {upper + 1} is driven through")
             path, entrance, exit_ = min(found, key=lambda each: each[0].length_m)
             one, other = (path.end, pose) if is_in else (pose, path.start)
-            run_m = math.hypot(other.x_m - one.x_m, other.z_m - one.z_m)
-            between = _Part((Piece(Gear.FORWARD, run_m),), upper, is_ramp=True)
+            names = (exit_.name, portal_name) if is_in else (portal_name, entrance.name)
+            between = self._over_ramp(upper, one, other, names)
             own = _Part(path.pieces, upper)
             parts = [own, between, *parts] if is_in else [*parts, between, own]
             end = entrance if is_in else exit_
         return parts, end
+
+    def _over_ramp(self, upper: int, one: Pose, other: Pose, landings: tuple[str, str]) -> _Part:
+        """Return the way over the ramp below a level, between poses on its landings, or at its top."""
+        nodes = self._garage.lanes.nodes
+        for line in self._garage.ramp_lines:
+            ends = [nodes[number] for number in (line.nodes[0], line.nodes[-1])]
+            names = tuple(end.name.rpartition("/")[2] for end in ends)
+            if {end.level for end in ends} == {upper, upper + 1} and names == landings:
+                bend = line.bend
+                if bend is not None:
+                    return _Part(_round(bend, one, other), upper, is_ramp=True, is_bent=True)
+                if not line.is_straight:
+                    wanted = "a garage whose ramps between levels are straight or three quarters of a circle"
+                    raise ConfigError("stall", landings[0], wanted)
+        run_m = math.hypot(other.x_m - one.x_m, other.z_m - one.z_m)
+        return _Part((Piece(Gear.FORWARD, run_m),), upper, is_ramp=True)
 
     def _spans(self, parts: Sequence[_Part]) -> tuple[FloorSpan, ...]:
         """Return the floors along the parts of a path; the level changes half way on a ramp.
@@ -204,8 +230,12 @@ class LevelsDrivePlanner:
         along = 0.0
         for before, part, after in zip([None, *parts], parts, [*parts[1:], None], strict=False):
             end = along + part.length_m
-            ramps = [each for each in (before, after) if each is not None and each.is_ramp]
-            if not part.is_ramp:
+            ramps = [each for each in (before, after) if each is not None and each.is_ramp and not each.is_bent]
+            if part.is_bent and before is not None and after is not None:
+                floors = self._bent_floors(part.level + 1)
+                for end_m, level in ((along + part.length_m / 2, before.level), (end, after.level)):
+                    spans.append(FloorSpan(end_m, self._garage.levels[level].place.floor_m, floors))
+            elif not part.is_ramp:
                 upper = ramps[-1].level if ramps else None
                 if len(ramps) > 1:
                     # the ramps from above and below lie over one another: they change at the foot of the upper one
@@ -214,13 +244,21 @@ class LevelsDrivePlanner:
                     change_m = along + foot_m if is_down else end - foot_m
                     spans.append(self._span(change_m, part.level, ramps[0].level))
                 reach_m = 0.0
-                if after is not None and after.is_ramp:
+                if after is not None and after in ramps:
                     is_down = after.level == part.level
                     half_m = self._ramp_m(after.level + 1) / 2
                     reach_m = after.length_m + half_m if is_down else -half_m
                 spans.append(self._span(end + reach_m, part.level, upper))
             along = end
         return tuple(spans)
+
+    def _bent_floors(self, lower: int) -> tuple[BentFloor, ...]:
+        """Return the floors of the helices down to a level, at their heights in the garage."""
+        if lower not in self._bent:
+            level = self._garage.levels[lower]
+            floors = bent_floors(level.garage.things)
+            self._bent[lower] = tuple(floor.lifted(level.place.floor_m) for floor in floors)
+        return self._bent[lower]
 
     def _ramp_m(self, lower: int) -> float:
         """Return the length of the ramps down to a level, as seen from above."""
@@ -241,3 +279,36 @@ class LevelsDrivePlanner:
 
 def _lifted(ramp: RampFloor, floor_m: float, end_m: float) -> RampFloor:
     return replace(ramp, heights_m=ramp.heights_m + floor_m, end_m=end_m)
+
+
+def _round(bend: Bend, one: Pose, other: Pose) -> tuple[Piece, ...]:
+    """Return the pieces of the way round a bend: straight, clothoid, circle, clothoid, straight."""
+    (x, z), (in_x, in_z), (out_x, out_z) = bend.crossing, bend.way_in, bend.way_out
+    sign = 1.0 if bend.is_left else -1.0
+    low, high = bend.radius_m / 2, bend.radius_m
+    for _ in range(_HALVINGS):  # the circle of the clothoids has its middle where that of the bend is
+        radius = (low + high) / 2
+        _, aside = _middle_of(radius)
+        low, high = (low, radius) if aside > bend.radius_m else (radius, high)
+    ahead, _ = _middle_of(radius)
+    before = (x - one.x_m) * in_x + (z - one.z_m) * in_z + bend.radius_m - ahead
+    after = (other.x_m - x) * out_x + (other.z_m - z) * out_z + bend.radius_m - ahead
+    if min(before, after) < 0:
+        raise ConfigError("stall", [x, z], "a garage whose helices have room for a car's steering before their circle")
+    curvature = sign / radius
+    circle_m = _TURN_RAD * radius - _EASING_M
+    return (
+        Piece(Gear.FORWARD, before),
+        Piece(Gear.FORWARD, _EASING_M, 0.0, curvature),
+        Piece(Gear.FORWARD, circle_m, curvature, curvature),
+        Piece(Gear.FORWARD, _EASING_M, curvature, 0.0),
+        Piece(Gear.FORWARD, after),
+    )
+
+
+def _middle_of(radius: float) -> tuple[float, float]:
+    """Return how far ahead and aside of a clothoid's start the middle of the circle lies that it leads into."""
+    end = Path(Pose(0.0, 0.0, 0.0), (Piece(Gear.FORWARD, _EASING_M, 0.0, 1 / radius),)).end
+    # at yaw 0 a car looks along -Z, with its left at -X
+    turned = _EASING_M / (2 * radius)
+    return -end.z_m - radius * math.sin(turned), -end.x_m + radius * math.cos(turned)

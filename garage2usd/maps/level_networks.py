@@ -7,11 +7,12 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from garage2usd.as_built import BuiltGarage
-from garage2usd.as_built.levels import BuiltLevels
+from garage2usd.as_built.levels import Bend, BuiltLevels, RampLine
 from garage2usd.common.errors import StageError
-from garage2usd.maps.network import Neighbour, Network, Road
-from garage2usd.maps.reference_line import Point, ReferenceLine
-from garage2usd.maps.road_builder import network_of
+from garage2usd.maps.frame import map_point
+from garage2usd.maps.network import Lanes, Neighbour, Network, Road
+from garage2usd.maps.reference_line import Arc, Point, ReferenceLine
+from garage2usd.maps.road_builder import MOST_PORTAL_LANE_M, elevation, network_of
 
 __all__ = ["LevelNetwork", "level_networks"]
 
@@ -80,7 +81,64 @@ def level_networks(garage: BuiltLevels) -> tuple[LevelNetwork, ...]:
             if near is None or math.dist(near.place, top.place) > _GAP_M:
                 raise StageError(garage.source, f"the ramp at {top.place} leads to no landing of the level above")
             _join(top, near, rise_m)
+    for line in garage.ramp_lines:
+        bend = line.bend
+        if bend is not None:
+            first += 1
+            _add_bent(garage, found, line, bend, first)
+        elif not line.is_straight:
+            place = garage.lanes.nodes[line.nodes[0]].name
+            raise StageError(garage.source, f"the ramp at {place} is neither straight nor three quarters of a circle")
     return tuple(found)
+
+
+def _add_bent(garage: BuiltLevels, found: list[LevelNetwork], line: RampLine, bend: Bend, number: int) -> None:
+    """Add the road of a helix to the network of the level at its foot, from landing to landing."""
+    start, end = (garage.lanes.nodes[node] for node in (line.nodes[0], line.nodes[-1]))
+    lower = max(start.level, end.level)
+    floor_m = found[lower].floor_m
+    ends = []
+    for node, border in ((start, 1), (end, -2)):
+        place = map_point((float(line.places[border, 0]), float(line.places[border, 2])))
+        landings = [each for each in _open_ends(found[node.level].network) if abs(each.height_m) < _LEVEL_M]
+        near = min(landings, key=lambda each: math.dist(each.place, place), default=None)
+        if near is None or math.dist(near.place, place) > _GAP_M:
+            raise StageError(garage.source, f"the helix at {node.name} leads to no landing")
+        ends.append(near)
+    reference = _round(bend, ends[0].place, ends[1].place)
+    width_m = min(line.width_m, MOST_PORTAL_LANE_M)
+    lanes = Lanes(width_m / 2, 0.0, width_m)
+    profile = _heights(line, bend, reference, floor_m)
+    road = Road(number, reference, lanes, lanes, (), profile, floor_m=floor_m)
+    for own, other in ((_End(road, at_start=True), ends[0]), (_End(road, at_start=False), ends[1])):
+        _meet(own, other)
+    network = found[lower].network
+    found[lower] = found[lower]._replace(network=replace(network, roads=(*network.roads, road)))
+
+
+def _round(bend: Bend, start: Point, end: Point) -> ReferenceLine:
+    """Return the line of a helix from one point on its straights to another, in the frame of the map."""
+    crossing, way_in, way_out = (map_point(each) for each in (bend.crossing, bend.way_in, bend.way_out))
+    heading = math.atan2(way_in[1], way_in[0])
+    curvature = (1.0 if bend.is_left else -1.0) / bend.radius_m
+    lead = Arc(start, heading, math.dist(start, crossing) + bend.radius_m)
+    circle = Arc(lead.at(lead.length_m)[:2], heading, 1.5 * math.pi * bend.radius_m, curvature)
+    out = math.atan2(way_out[1], way_out[0])
+    tail = Arc(circle.at(circle.length_m)[:2], out, math.dist(crossing, end) + bend.radius_m)
+    return ReferenceLine((lead, circle, tail))
+
+
+def _heights(line: RampLine, bend: Bend, reference: ReferenceLine, floor_m: float) -> tuple[tuple[float, float], ...]:
+    """Return the elevation profile of a helix along its road, from the heights of its lane nodes."""
+    inner = line.places[1:-1]
+    apart = [math.dist(one[[0, 2]], other[[0, 2]]) for one, other in pairwise(inner)]
+    begin, finish = reference.arcs[0].length_m, reference.arcs[0].length_m + reference.arcs[1].length_m
+    runs = [math.dist(reference.arcs[0].start, map_point((float(inner[0, 0]), float(inner[0, 2]))))]
+    for far in apart:
+        is_on_circle = begin - _LEVEL_M < runs[-1] < finish - _LEVEL_M
+        runs.append(runs[-1] + (2 * bend.radius_m * math.asin(far / (2 * bend.radius_m)) if is_on_circle else far))
+    heights = (inner[:, 1] - floor_m).tolist()
+    return elevation([(0.0, heights[0]), *zip(runs, heights, strict=True), (reference.length_m, heights[-1])])
 
 
 def _numbered(network: Network, first: int, floor_m: float) -> Network:
@@ -128,6 +186,11 @@ def _join(top: _End, landing: _End, rise_m: float) -> None:
         start = landing.place if top.at_start else arc.start
         road.line = ReferenceLine((arc._replace(start=start, length_m=longer_m),))
         road.profile_m = tuple(profile)
+    _meet(top, landing)
+
+
+def _meet(top: _End, landing: _End) -> None:
+    """Make the roads of two ends each other's neighbours."""
     for one, other in ((top, landing), (landing, top)):
         sign = 1 if one.at_start != other.at_start else -1
         lanes = {lane: sign * lane for lane in one.road.lanes if sign * lane in other.road.lanes}

@@ -1,7 +1,7 @@
 """Builder of a garage's road network from its lane nodes."""
 # Over 300 lines: roads of aisles, portals and junctions share which nodes are taken and which ends meet.
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import shapely
@@ -13,9 +13,9 @@ from garage2usd.maps.network import LEFT, RIGHT, Junction, LaneLink, Lanes, Neig
 from garage2usd.maps.reference_line import Point, straight, turn
 from garage2usd.maps.road_nodes import OUTSIDE, Opening, RoadNode, road_nodes
 
-__all__ = ["network_of"]
+__all__ = ["MOST_PORTAL_LANE_M", "elevation", "network_of"]
 
-_MOST_PORTAL_LANE_M = 3.75
+MOST_PORTAL_LANE_M = 3.75
 """Greatest width of a portal's lane; wider doors and ramps keep a margin on both sides."""
 _PROFILE_M = 5e-4
 """Greatest deviation of a simplified ramp profile."""
@@ -288,7 +288,7 @@ def _passing(opening: Opening) -> Lanes:
     """Return the lanes through an opening: on the right half, or in the middle of a door."""
     if opening.towards != OUTSIDE:
         return _halves(opening.width_m, along=True, against=False)
-    width_m = min(opening.width_m, _MOST_PORTAL_LANE_M)
+    width_m = min(opening.width_m, MOST_PORTAL_LANE_M)
     return Lanes(width_m / 2, 0.0, width_m)
 
 
@@ -322,5 +322,10 @@ def _profile(ramp: RampFloor, length_m: float) -> tuple[tuple[float, float], ...
     """Return the elevation profile from the top of a ramp into the garage, piecewise linear."""
     top_m = float(ramp.runs_m[-1])
     down = [(top_m - run, height) for run, height in zip(ramp.runs_m.tolist(), ramp.heights_m.tolist(), strict=True)]
-    line = shapely.LineString([*down[::-1], (length_m, down[0][1])]).simplify(_PROFILE_M)
+    return elevation([*down[::-1], (length_m, down[0][1])])
+
+
+def elevation(heights: Sequence[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
+    """Return (s, height) pairs without those that lie on the line between others."""
+    line = shapely.LineString(heights).simplify(_PROFILE_M)
     return tuple((s, height) for s, height in shapely.get_coordinates(line).tolist())

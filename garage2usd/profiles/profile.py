@@ -108,6 +108,8 @@ class Profile(Settings):
 
     ramp_slope: Ratio | None = None
     """Greatest slope of a straight ramp."""
+    curved_ramp_slope: Ratio | None = None
+    """Greatest slope of a ramp in a bend, here taken along the inner edge."""
     ramp_transition_slope: Ratio | None = None
     """Slope above which a ramp needs transitions at its foot and its top."""
     ramp_transition_length: Length | None = None

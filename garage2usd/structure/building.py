@@ -5,28 +5,22 @@ squares of a ramp are obstacles on all levels, a landing is an exit (3) of the l
 entrance (2) of the level that they reach.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from garage2usd.common.errors import ConfigError
+from garage2usd.config.building import LinkKind
 from garage2usd.structure.grid import Cell, CellArray, Structure
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["Building", "Flight", "Link", "LinkKind", "level_cells", "level_name"]
+__all__ = ["Building", "Flight", "Link", "LinkKind", "Ramps", "Square", "level_cells", "level_name"]
 
 Square = tuple[int, int]
-
-
-class LinkKind(StrEnum):
-    """Kinds of links between two levels."""
-
-    STRAIGHT = "straight"
-    """A straight ramp."""
 
 
 class Link(NamedTuple):
@@ -42,6 +36,8 @@ class Link(NamedTuple):
         (row, col) of the landing at the top, on the upper level, and of the one at the bottom, on the lower level.
     is_down
         True if cars drive down.
+    head_way, foot_way
+        Directions from the landings to the ramp.
     """
 
     kind: LinkKind
@@ -49,10 +45,49 @@ class Link(NamedTuple):
     head: Square
     foot: Square
     is_down: bool
+    head_way: Edge
+    foot_way: Edge
+
+
+class Ramps(ABC):
+    """A ramp down and a ramp up, in the same squares between each two levels."""
+
+    @property
+    @abstractmethod
+    def links(self) -> tuple[Link, Link]:
+        """The ramp down and the ramp up."""
+
+    @property
+    @abstractmethod
+    def tape(self) -> str:
+        """What draws these ramps again, in words joined by commas."""
+
+    @property
+    @abstractmethod
+    def in_words(self) -> str:
+        """Tell where the ramps are."""
+
+    @property
+    def squares(self) -> tuple[Square, ...]:
+        """(row, col) of the squares of both ramps."""
+        return tuple(square for link in self.links for square in link.squares)
+
+    @property
+    def landings(self) -> tuple[Square, ...]:
+        """(row, col) of the four landings."""
+        return tuple(square for link in self.links for square in (link.head, link.foot))
+
+    @property
+    def approaches(self) -> tuple[Square, ...]:
+        """(row, col) of the squares ahead of the landings, which link them with the lanes."""
+        ahead = (
+            (link.head_way.opposite.beyond(link.head), link.foot_way.opposite.beyond(link.foot)) for link in self.links
+        )
+        return tuple(square for pair in ahead for square in pair)
 
 
 @dataclass(frozen=True)
-class Flight:
+class Flight(Ramps):
     """A pair of straight one-way ramps side by side, in the same squares between each two levels.
 
     Attributes
@@ -88,20 +123,14 @@ class Flight:
         return self._link(self.head, is_down=True), self._link(self.aside.beyond(self.head), is_down=False)
 
     @property
-    def squares(self) -> tuple[Square, ...]:
-        """(row, col) of the squares of both ramps."""
-        return tuple(square for link in self.links for square in link.squares)
+    def tape(self) -> str:
+        """Row and column of the head, way down, and number of squares."""
+        return f"{self.head[0]},{self.head[1]},{self.way.name},{self.length}"
 
     @property
-    def landings(self) -> tuple[Square, ...]:
-        """(row, col) of the four landings."""
-        return tuple(square for link in self.links for square in (link.head, link.foot))
-
-    @property
-    def approaches(self) -> tuple[Square, ...]:
-        """(row, col) of the squares ahead of the landings, which link them with the lanes."""
-        ahead = ((self.way.opposite.beyond(link.head), self.way.beyond(link.foot)) for link in self.links)
-        return tuple(square for pair in ahead for square in pair)
+    def in_words(self) -> str:
+        """Tell where the ramps are."""
+        return f"one down and one up from {list(self.head)} {self.way.name.lower()}, {self.length} squares each"
 
     def run_m(self, structure: Structure) -> float:
         """Length of the ramps' squares in metres."""
@@ -120,7 +149,8 @@ class Flight:
         for _ in range(self.length):
             square = self.way.beyond(square)
             squares.append(square)
-        return Link(LinkKind.STRAIGHT, tuple(squares), head, self.way.beyond(square), is_down)
+        foot = self.way.beyond(square)
+        return Link(LinkKind.STRAIGHT, tuple(squares), head, foot, is_down, self.way, self.way.opposite)
 
 
 def level_name(level: int) -> str:
@@ -128,14 +158,14 @@ def level_name(level: int) -> str:
     return f"U{level + 1}"
 
 
-def level_cells(cells: CellArray, flight: Flight, level: int, levels: int) -> CellArray:
+def level_cells(cells: CellArray, ramps: Ramps, level: int, levels: int) -> CellArray:
     """Write the ramps on the static squares of a level.
 
     Parameters
     ----------
     cells
         int8, shape (rows, cols): static squares of the top level with the portals to the street.
-    flight
+    ramps
         The ramps.
     level, levels
         Number of the level from 0, and the number of levels.
@@ -148,9 +178,9 @@ def level_cells(cells: CellArray, flight: Flight, level: int, levels: int) -> Ce
     result = cells.copy()
     if level:
         result[result >= Cell.ENTRANCE] = Cell.FREE
-    for square in flight.squares:
+    for square in ramps.squares:
         result[square] = Cell.OBSTACLE
-    for link in flight.links:
+    for link in ramps.links:
         if level < levels - 1:
             result[link.head] = Cell.EXIT if link.is_down else Cell.ENTRANCE
         if level:
@@ -166,7 +196,7 @@ class Building:
     ----------
     levels
         Structure of each level, the top one first.
-    flight
+    ramps
         The ramps between each two levels.
     storey_m
         Height from floor to floor in metres.
@@ -178,7 +208,7 @@ class Building:
     """
 
     levels: tuple[Structure, ...]
-    flight: Flight
+    ramps: Ramps
     storey_m: float
 
     def __post_init__(self) -> None:
@@ -192,7 +222,7 @@ class Building:
                 if not np.array_equal(one, other):
                     raise ConfigError(f"levels[{level}].{name}", (other / 1000).tolist(), "the sides of the top level")
         for level, structure in enumerate(self.levels):
-            for square in self.flight.squares:
+            for square in self.ramps.squares:
                 if structure.cells[square] != Cell.OBSTACLE:
                     raise ConfigError(f"levels[{level}].S", list(square), "-1 on each square of a ramp")
 

@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import shapely
 from shapely import affinity
 
@@ -12,6 +13,7 @@ from garage2usd.objects.cable_tray import CableTraySpec
 from garage2usd.objects.car import CarSpec
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.charger import ChargerSpec
+from garage2usd.objects.coil import CoilSpec, CrossingSpec
 from garage2usd.objects.column import ColumnSpec
 from garage2usd.objects.cone import ConeSpec
 from garage2usd.objects.drain import DrainSpec
@@ -57,12 +59,14 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
         case PanelSpec():
             panel = _centred(spec.width_m, spec.depth_m)
             return panel.difference(shapely.union_all([shapely.Polygon(opening) for opening in spec.openings]))
-        case CeilingSpec() | ObstacleSpec():
+        case CeilingSpec() | ObstacleSpec() | CrossingSpec():
             return _centred(spec.width_m, spec.depth_m)
         case WallSpec() | PortalSpec():
             return shapely.box(-spec.length_m / 2, -spec.thickness_m, spec.length_m / 2, 0)
         case FlightSpec():
             return shapely.box(-spec.width_m / 2, -spec.profile[-1][0], spec.width_m / 2, 0.0)
+        case CoilSpec():
+            return _coil(spec)
         case RampSpec():
             half = spec.width_m / 2 + spec.wall_m
             return shapely.box(-half, -spec.profile[-1][0], half, -spec.profile[0][0])
@@ -125,6 +129,18 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
         case NoParkingSignSpec():
             return _centred(0.5, 0.5)
     raise TypeError(spec)
+
+
+def _coil(spec):
+    """The band around a line from one corner's edge round three quarters of a circle to the other edge."""
+    line = spec.line
+    u0, v0, radius = line.last_u_m, line.first_v_m, line.radius_m
+    turn = np.linspace(-np.pi / 2, np.pi, 55)
+    circle = np.stack([u0 + radius + radius * np.cos(turn), v0 + radius + radius * np.sin(turn)], axis=1)
+    corner_u, corner_v = line.corner
+    places = [(corner_u, v0), *circle.tolist(), (u0, corner_v)]
+    band = shapely.LineString([(spec.turn * v, u) for u, v in places])
+    return band.buffer(line.width_m / 2 + spec.wall_m, cap_style="flat", join_style="mitre")
 
 
 def _centred(width, depth):

@@ -6,6 +6,7 @@ from dataclasses import replace
 from garage2usd.assets.figures import POSES
 from garage2usd.config.look import ColumnSection, Dirt, Guard
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS, VehicleClass
+from garage2usd.garage.coil_line import CoilLine
 from garage2usd.objects.bag import BagSort, BagSpec
 from garage2usd.objects.barrier import BarrierSpec
 from garage2usd.objects.beam import BeamNodeSpec, BeamSpec
@@ -15,6 +16,7 @@ from garage2usd.objects.car import CarSpec, OpenCarSpec, car_spec
 from garage2usd.objects.cardboard_box import BoxSpec
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.charger import ChargerSpec
+from garage2usd.objects.coil import CoilSpec, CrossingSpec
 from garage2usd.objects.column import Board, ColumnSpec
 from garage2usd.objects.cone import ConeSpec
 from garage2usd.objects.drain import DrainSpec
@@ -56,6 +58,7 @@ MARKINGS = (
     Marking(((0.2, 2.0), (1.0, 1.0), (2.0, 2.0)), Surface.PAINT_WHITE, Paint.HATCHING),
 )
 OPENING = ((-3.0, -3.25), (-3.0, -2.0), (-1.0, -2.0), (-1.0, -3.25))
+COIL = CoilLine(4.05, 4.05, 8.8, 4.2)
 RISE = ((0.3, 0.0), (0.8, 0.0), (4.4, 0.27), (24.1, 3.23), (27.7, 3.5), (30.2, 3.5))
 
 ROUND, RECTANGULAR = ColumnSection.ROUND, ColumnSection.RECTANGULAR
@@ -83,6 +86,9 @@ SPECS = {
     "flight": FlightSpec(
         6.0, ((0.0, 0.0), (0.3, 0.0), (3.9, 0.27), (24.3, 3.33), (27.9, 3.6), (28.2, 3.6)), slab_m=0.25
     ),
+    "coil": CoilSpec(COIL, COIL.profile(3.6, 3.6, foot_first=True), 1, 0.25, 0.2, 3.35, 7.2),
+    "top_coil": CoilSpec(COIL, COIL.profile(3.6, 3.6, foot_first=False), -1, 0.25, 0.2, 6.8, 6.8),
+    "coil_crossing": CrossingSpec(6.45, 6.45, 0.25),
     "ramp_plain": RampSpec(6.2, 0.3, 5.84, RISE, 9.3, 3.2, 4.8, dado_m=0.0, has_stripe=False),
     "sky": SkySpec(width_m=6.8, start_m=9.3, end_m=30.21, ground_m=3.45, low_m=4.8, high_m=7.8),
     "raised_barrier": BarrierSpec(arm_m=6.1, is_raised=True, elbow_m=2.75),

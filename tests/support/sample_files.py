@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 REPOSITORY = Path(__file__).parents[2]
-LEVELS_SAMPLE = REPOSITORY / "samples/two_levels.toml"
-"""A garage of several levels, which has readers and tests of its own."""
-SAMPLES = sorted({*(REPOSITORY / "samples").glob("*.toml")} - {LEVELS_SAMPLE})
+LEVELS_SAMPLE, HELIX_SAMPLE = REPOSITORY / "samples/two_levels.toml", REPOSITORY / "samples/three_levels.toml"
+"""Garages of several levels, which have readers and tests of their own."""
+SAMPLES = sorted({*(REPOSITORY / "samples").glob("*.toml")} - {LEVELS_SAMPLE, HELIX_SAMPLE})
 
 SMALL_SAMPLES = [sample for sample in SAMPLES if sample.stem != "large_20x30"]
 """All but the largest, which has no kinds of objects of its own."""

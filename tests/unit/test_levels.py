@@ -86,9 +86,9 @@ def test_levels_that_do_not_stand_above_one_another_are_refused():
 def test_the_tape_makes_the_same_garage_and_seeds_other_ramps(built):
     again = garage2usd.generate_levels(config(), tape=built.garage.tape)
     assert again.building.levels == built.garage.building.levels
-    assert again.building.flight == built.garage.building.flight
+    assert again.building.ramps == built.garage.building.ramps
     assert again.tape == built.garage.tape
-    flights = {garage2usd.generate_levels(config(), seed=seed).building.flight for seed in (1, 2, 3)}
+    flights = {garage2usd.generate_levels(config(), seed=seed).building.ramps for seed in (1, 2, 3)}
     assert len(flights) > 1
     with pytest.raises(ConfigError, match=r"tape: .*the tapes of 2 levels"):
         garage2usd.generate_levels(config(), tape="S")

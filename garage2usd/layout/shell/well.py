@@ -1,0 +1,135 @@
+"""The well of the ramps between levels, as one level has its part of it."""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from garage2usd.config import FittingsConfig
+from garage2usd.config.building import BuildingConfig
+from garage2usd.config.look import WallsLook
+from garage2usd.layout.placement import Placement
+from garage2usd.objects.outline import Point
+from garage2usd.structure.building import Ramps, level_name
+from garage2usd.structure.grid import Structure
+from garage2usd.structure.stalls import Edge
+
+__all__ = ["SLAB_M", "Well", "WellLane"]
+
+SLAB_M = 0.25
+"""Thickness of a ramp's slab."""
+
+
+class WellLane(NamedTuple):
+    """The carriageway of a ramp.
+
+    Attributes
+    ----------
+    points
+        (x, height, z) in the direction of driving: at its ends, where its slope changes, and along its bends; heights
+        over the floor at its foot.
+    width_m
+        Its width between the walls.
+    run_m
+        Its length, as seen from above.
+    slope
+        Its steepest slope; in bends along the inner wall.
+    """
+
+    points: tuple[tuple[float, float, float], ...]
+    width_m: float
+    run_m: float
+    slope: float
+
+
+@dataclass(frozen=True, eq=False)
+class Well(ABC):
+    """The part of the well that one level has.
+
+    Attributes
+    ----------
+    pair
+        The ramps.
+    level, levels
+        Number of the level from 0 at the top, and number of levels.
+    building
+        Storey, slope and transitions.
+    wall_m
+        Thickness of the walls.
+    """
+
+    pair: Ramps
+    level: int
+    levels: int
+    building: BuildingConfig
+    wall_m: float
+
+    @property
+    def name(self) -> str:
+        """Name of the level."""
+        return level_name(self.level)
+
+    def way_in_words(self, *, is_down: bool) -> str:
+        """Tell where the ramp down or up leads to or comes from, as seen from this level, after a blank."""
+        above, below = level_name(self.level - 1), level_name(self.level + 1)
+        if self.is_top:
+            return f" to {below}" if is_down else f" from {below}"
+        if self.is_bottom:
+            return f" from {above}" if is_down else f" to {above}"
+        return f" from {above}, to {below}" if is_down else f" from {below}, to {above}"
+
+    @property
+    def squares(self) -> frozenset[tuple[int, int]]:
+        """(row, col) of the squares of the ramps."""
+        return frozenset(self.pair.squares)
+
+    @property
+    def landings(self) -> dict[tuple[int, int], Point]:
+        """Unit vector (x, z) towards the ramp from each landing of this level, by (row, col)."""
+        heads = {} if self.is_bottom else {link.head: _vector(link.head_way) for link in self.pair.links}
+        feet = {} if self.is_top else {link.foot: _vector(link.foot_way) for link in self.pair.links}
+        return {**heads, **feet}
+
+    @property
+    def is_top(self) -> bool:
+        """True on the top level, which has a ceiling over the well."""
+        return self.level == 0
+
+    @property
+    def is_bottom(self) -> bool:
+        """True on the bottom level, which no ramp leaves downwards."""
+        return self.level == self.levels - 1
+
+    @abstractmethod
+    def walls(self, structure: Structure, fittings: FittingsConfig, look: WallsLook) -> list[Placement]:
+        """Place the walls around the well and between its ramps, and the edges of the slab over the openings.
+
+        Raises
+        ------
+        ConfigError
+            If a ramp is left too narrow for a car.
+        """
+
+    @abstractmethod
+    def beside_floors(self, walls: list[Placement]) -> list[Placement]:
+        """Return those of its walls that stand beside a floor, on which things can hang: not between the ramps."""
+
+    @abstractmethod
+    def ramps(self, structure: Structure, fittings: FittingsConfig) -> list[Placement]:
+        """Place the ramps whose foot is on this level, and floors of this level within the well."""
+
+    @abstractmethod
+    def ceilings(self, structure: Structure, fittings: FittingsConfig) -> list[Placement]:
+        """Place the ceiling over the well on the top level."""
+
+    @abstractmethod
+    def tubes(self, structure: Structure, fittings: FittingsConfig) -> list[Placement]:
+        """Place tube lights over ramps: on the top ceiling, else on the ramps above those with their foot here."""
+
+    @abstractmethod
+    def lanes(self, structure: Structure) -> list[WellLane]:
+        """Return the carriageways of the ramp down and of the ramp up from the level above to this one."""
+
+
+def _vector(way: Edge) -> Point:
+    down, right = way.beyond((0, 0))
+    return float(right), float(down)

@@ -1,0 +1,78 @@
+"""Garages with helices between levels, judged on their written stages by pxr, networkx and numpy."""
+
+from itertools import pairwise
+
+import networkx as nx
+import numpy as np
+import pytest
+from support.coil_judge import CoilJudge
+from support.level_judge import LevelJudge
+
+from garage2usd import GarageConfig
+from garage2usd.buildings import build_levels, generate_levels
+from garage2usd.checks import Severity
+from garage2usd.config.building import BuildingConfig
+from garage2usd.profiles import PROFILE_NAMES
+
+ALLOWED = {"personnel-exits", "exit-distance", "exit-distance-sprinklered", "column-spacing", "portal-count"}
+"""Where there is no room for more cores, and of columns around stalls across shallow rows."""
+STEEPEST_PERCENT = {"cn-jgj100": 12.0, "de-garvo": 15.0, "uk-istructe": 10.0, "us-ada": 15.0}
+
+
+def settings(number):
+    return GarageConfig(
+        seed=number,
+        profile=PROFILE_NAMES[number],
+        site={"width_cells": 10, "height_cells": 9, "obstacles": number % 2},
+        building={"levels": (2, 2, 3, 2)[number], "ramps": "helix", "storey_m": 3.6 + 0.15 * (number % 2)},
+        plan={"episodes": 40, "starts": 1},
+        parking={"occupancy": 0.0},
+        fittings={"floor_stain_rate": 0.0, **dict.fromkeys(("beams", "ducts", "cable_trays", "sprinklers"), False)},
+        bay={"dimensioned": True} if number == 1 else {"square_side_m": 8.1},
+    )
+
+
+@pytest.mark.parametrize("number", range(4))
+def test_helices_are_reached_and_a_large_car_drives_over_them(number, tmp_path):
+    config = settings(number)
+    made = build_levels(config, tmp_path / "garage.usdc")
+    found = {finding.rule for level in made.findings for finding in level if finding.severity is not Severity.INFO}
+    assert found <= ALLOWED
+    judge = LevelJudge(made.stage)
+    assert judge.unreached() == []
+    ramps = judge.ramps()
+    assert len(ramps) == 2 * (config.building.levels - 1)
+    walls = CoilJudge(judge)
+    for ramp in ramps[-2:]:
+        _a_large_car_drives_over(ramp, walls, config)
+
+
+def test_four_levels_have_a_helix_down_and_one_up_between_each_two():
+    config = settings(0).model_copy(update={"building": BuildingConfig(levels=4, ramps="helix")})
+    lanes = generate_levels(config).joined.lane_graph
+    for lower in (1, 2, 3):
+        between = [
+            number
+            for number, node in enumerate(lanes.nodes)
+            if -3.6 * lower + 0.01 < node.height_m < -3.6 * (lower - 1) - 0.01
+        ]
+        parts = [*nx.weakly_connected_components(lanes.graph.subgraph(between))]
+        assert len(parts) == 2
+        rises = [
+            [lanes.nodes[number].height_m for number in nx.topological_sort(lanes.graph.subgraph(p))] for p in parts
+        ]
+        assert {tuple(heights) == tuple(sorted(heights)) for heights in rises} == {True, False}
+
+
+def _a_large_car_drives_over(ramp, judge, config):
+    """Turn, slope at the inner wall, surface, belly and nose, headroom and swept path, on triangles alone."""
+    assert judge.turned_deg(ramp) == pytest.approx(270.0, abs=1.0)
+    drive = judge.drive(ramp)
+    assert abs(ramp[0][1] - ramp[-1][1]) == pytest.approx(config.building.storey_m, abs=1e-4)
+    assert np.abs(drive.floor_m - drive.line[:, 1]).max() < 0.01
+    assert np.abs([high - low for low, high in pairwise(drive.floor_m)]).max() < 0.02  # no step in 0.1 m
+    assert 4.0 < drive.inner_slope_percent <= STEEPEST_PERCENT[config.profile] + 0.1
+    assert drive.inner_radius_m >= 6.0 - 0.05
+    assert drive.belly_m > 0.05
+    assert drive.headroom_m >= config.fittings.clear_height_m
+    assert drive.beside_m > 0.25
