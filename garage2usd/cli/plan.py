@@ -57,7 +57,8 @@ def plan(
     """Draw the plan of a garage with dimensions, stall numbers and lanes.
 
     PATH is a configuration (.toml), the report of a build (.json), or a stage beside its report. A garage of several
-    levels has a picture for each of them, as garage_plan_U2.svg.
+    levels has a picture for each of them, as garage_plan_U2.svg, and a section along its ramps,
+    garage_plan_section.svg.
 
     \b
     Examples:
@@ -125,11 +126,12 @@ def _levels(path: Path, seed: int | None) -> "LevelsGarage | None":
 
 
 def _draw_levels(garage: "LevelsGarage", outputs: tuple[Path, ...], refused: "Mapping[str, object]") -> None:
-    """Draw a sheet for each level, named after the picture and the level; `refused` goes with one level only."""
+    """Draw a sheet for each level and a section, named after the picture; `refused` goes with one level only."""
     from garage2usd.common.errors import ConfigError  # noqa: PLC0415 - keeps --help instant
     from garage2usd.common.output import check_file, publish_at, staging_folder  # noqa: PLC0415
     from garage2usd.view.plan_picture import draw_plan  # noqa: PLC0415
     from garage2usd.view.raster import to_image, write_png  # noqa: PLC0415
+    from garage2usd.view.section import draw_section  # noqa: PLC0415
     from garage2usd.view.svg import to_svg  # noqa: PLC0415
 
     for option, value in refused.items():
@@ -141,6 +143,7 @@ def _draw_levels(garage: "LevelsGarage", outputs: tuple[Path, ...], refused: "Ma
     drawings = {
         name: draw_plan(level.layout) for name, level in zip(garage.building.names(), garage.levels, strict=True)
     }
+    drawings["section"] = draw_section(garage.layouts, storey_m=garage.building.storey_m)
     sheets = [
         (output.with_name(f"{output.stem}_{name}{output.suffix}"), drawing)
         for output in outputs
