@@ -1,5 +1,5 @@
 """Drives through a garage of several levels: from the street over ramps into a stall, and back to the street."""
-# Over 300 lines: ways over straight ramps and over helices differ in their pieces alone, and are told beside each other.
+# Over 300 lines: ways over straight ramps and helices differ in their pieces alone, so they stand beside each other.
 
 import math
 from collections.abc import Mapping, Sequence
