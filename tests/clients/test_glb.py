@@ -27,7 +27,7 @@ from support.glb_reader import Glb
 from support.gltf_validator import VALIDATOR_VERSION, find_node, find_validator, validated
 from support.pictures import difference, read_png, store, stored
 from support.places import MILLIMETRE
-from support.sample_files import REPOSITORY, each_sample, each_small_sample
+from support.sample_files import REPOSITORY, each_object_sample
 
 from garage2usd.config.look import ColumnSection
 from garage2usd.maps.glb import write_glb
@@ -76,7 +76,7 @@ def bounds_of(glb):
     return found
 
 
-@each_sample
+@each_object_sample
 @pytest.mark.skipif(
     find_node() is None or find_validator() is None, reason="environment.sh test installs the validator"
 )
@@ -99,7 +99,7 @@ def in_three(builds, files, tmp_path_factory):
     return load
 
 
-@each_small_sample
+@each_object_sample
 @pytest.mark.skipif(find_browser() is None or find_three() is None, reason="no browser or no three.js")
 def test_three_agrees(sample, files, in_three):
     glb, scene = Glb(files(sample).read_bytes()), in_three(sample)
@@ -127,7 +127,7 @@ def test_three_draws_the_stored_picture(in_three, write_pictures):
     assert difference(picture, stored("threejs_glb_inside")) < LARGEST_DIFFERENCE
 
 
-@each_small_sample
+@each_object_sample
 @pytest.mark.skipif(NO_BLENDER, reason="Blender's bpy is made for Python 3.11 only")
 def test_blender_agrees(sample, builds, files, tmp_path):
     script, output = Path(__file__).with_name("glb_blender_dump.py"), tmp_path / "dump.json"

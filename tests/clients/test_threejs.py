@@ -12,7 +12,7 @@ from pxr import Usd
 from support.browser import THREE_VERSION, find_browser, find_three, load_in_three
 from support.pictures import coarse, difference, read_png, store, stored
 from support.places import MILLIMETRE, assert_same_places
-from support.sample_files import REPOSITORY, each_small_sample
+from support.sample_files import REPOSITORY, each_object_sample
 from support.stage_textures import texture_names
 
 from garage2usd.assets import MATERIALS
@@ -60,7 +60,7 @@ def uses_of_textures(layout, quality):
 # the browser refuses 1294 for want of resources
 
 
-@each_small_sample
+@each_object_sample
 def test_three_agrees_with_the_layout(sample, builds, tmp_path):
     build = builds(sample, "usdz")
     layout = build.garage.layout

@@ -10,15 +10,19 @@ LEVELS_SAMPLE, HELIX_SAMPLE = REPOSITORY / "samples/two_levels.toml", REPOSITORY
 SAMPLES = sorted({*(REPOSITORY / "samples").glob("*.toml")} - {LEVELS_SAMPLE, HELIX_SAMPLE})
 
 SMALL_SAMPLES = [sample for sample in SAMPLES if sample.stem != "large_20x30"]
-"""All but the largest, which has no kinds of objects of its own."""
+OBJECT_SAMPLES = [sample for sample in SMALL_SAMPLES if sample.stem not in {"dimensioned", "hand_drawn"}]
+"""Samples that have all kinds of objects between them; the others differ in their plans."""
 
 each_sample = pytest.mark.parametrize("sample", SAMPLES, ids=lambda path: path.stem)
 each_small_sample = pytest.mark.parametrize("sample", SMALL_SAMPLES, ids=lambda path: path.stem)
+each_object_sample = pytest.mark.parametrize("sample", OBJECT_SAMPLES, ids=lambda path: path.stem)
 
 
 def _each_sample_as(usual):
-    """Every small sample in one format, and one in all."""
-    formats = {sample: ("usda", "usdc", "usdz") if sample.stem == "paper_7x9" else (usual,) for sample in SMALL_SAMPLES}
+    """Samples with all kinds of objects in one format, and one in all."""
+    formats = {
+        sample: ("usda", "usdc", "usdz") if sample.stem == "paper_7x9" else (usual,) for sample in OBJECT_SAMPLES
+    }
     cases = [(sample, extension) for sample, extensions in formats.items() for extension in extensions]
     return pytest.mark.parametrize(
         ("sample", "extension"), cases, ids=lambda value: value.stem if isinstance(value, Path) else value

@@ -25,7 +25,7 @@ from garage2usd.structure.grid import Cell
 
 MANY = dict.fromkeys(set(ClutterConfig.model_fields) - {"amount"}, 12.0)
 SORTS = set(MANY) - {"open_boots"}
-MANY_SEEDS = range(12)
+MANY_SEEDS = range(8)
 
 
 def garage(seed, clutter, **settings):
@@ -104,7 +104,7 @@ def test_over_many_garages_clutter_stands_on_ground_that_is_nobodys():
         assert all(place.position_m[1] == 0 for place in clutter), seed
         assert not any(shape.intersects(lane) for shape in shapes for lane in carriageways(layout)), seed
     assert len(found) == len(SORTS), found
-    assert min(found.values()) > 5, found
+    assert min(found.values()) > 3, found
 
 
 @pytest.mark.parametrize("seed", [0, 5, 7, 14, 23, 62])

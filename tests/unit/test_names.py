@@ -20,7 +20,7 @@ from garage2usd.reading.files import open_stage
 from garage2usd.view.viewer import read_scene
 
 QUICK = "[site]\nwidth_cells = 4\nheight_cells = 4\n[plan]\nepisodes = 40\n[maps.grid]\nresolution_m = 0.5\n"
-NAMES = [("[", "usdc"), ("*?]b[ q'\"{%d}%20#~$&<a>é😀", "usdz"), ("anon:a", "usdc")]
+NAMES = [("*?]b[ q'\"{%d}%20#~$&<a>é😀", "usdz"), ("anon:a", "usdc")]
 NOT_UTF8, CONTROL = "a\udcff\udcfe", "a\x01\nb\x85"
 
 

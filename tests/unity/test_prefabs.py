@@ -13,7 +13,7 @@ import pytest
 from pxr import Usd, UsdGeom, UsdPhysics, UsdShade
 from support.label_tables import labelled_objects
 from support.places import assert_same_places
-from support.sample_files import SAMPLES, SMALL_SAMPLES
+from support.sample_files import SAMPLES, OBJECT_SAMPLES
 from support.unity.layer import axes_of, from_usd, place_of, world_vertices
 
 from garage2usd.assets.mesh import Collider
@@ -28,7 +28,7 @@ IMPORTS = [
     pytest.param(sample, *form, id="-".join(map(str, (sample.stem, *form))))
     for sample, form in [
         *itertools.product(IN_ALL_FORMS, FORMS),
-        *((sample, ("usdc", "nested")) for sample in SMALL_SAMPLES if sample not in IN_ALL_FORMS),
+        *((sample, ("usdc", "nested")) for sample in OBJECT_SAMPLES if sample not in IN_ALL_FORMS),
         (SAMPLE["paper_7x9"], ("usdz", "flat")),
     ]
 ]

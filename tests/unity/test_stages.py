@@ -4,7 +4,7 @@ import json
 
 import pytest
 from pxr import Tf, Usd, UsdUtils
-from support.sample_files import SAMPLES, each_small_sample
+from support.sample_files import SAMPLES, each_object_sample
 from support.small_garage import SETTINGS
 from support.unity.agreement import STAGES, as_pxr_says, installed, same, written
 from support.unity.small_stages import SMALL_STAGES
@@ -69,7 +69,7 @@ def test_stages_of_installed_packages(usd_dump, package):
     assert read > 0.8 * len(paths)
 
 
-@each_small_sample
+@each_object_sample
 def test_sample(usd_dump, builds, sample):
     """The crate is what ``pxr`` says; text and package are the crate to the last bit, so one comparison serves all."""
     stages = {extension: builds(sample, extension).stage for extension in ("usda", "usdc", "usdz")}
