@@ -36,7 +36,7 @@ def shapes(draw):
     return affinity.translate(turned, draw(places), draw(places))
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(st.lists(moves, min_size=1, max_size=4), shapes(), st.floats(-4, 4))
 def test_the_clearance_is_never_more_than_what_a_finely_sampled_drive_keeps(driven, shape, yaw):
     way = Manoeuvre(Pose(0.0, 0.0, yaw), tuple(driven), 0.0)

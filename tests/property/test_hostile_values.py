@@ -55,7 +55,7 @@ def attempt(call, *arguments, **named):
         return None, error
 
 
-@settings(max_examples=600, deadline=None)
+@settings(max_examples=300, deadline=None)
 @given(st.sampled_from(PLACES), values)
 def test_settings_are_accepted_or_named(place, value):
     config, error = attempt(config_from_mapping, put({}, place, value))

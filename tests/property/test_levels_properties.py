@@ -28,7 +28,7 @@ def settings(seed):
     )
 
 
-@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("seed", range(5))
 def test_a_garage_of_several_levels_stands_is_reached_and_is_driven(seed, tmp_path):
     config = settings(seed)
     made = build_levels(config, tmp_path / "garage.usda")

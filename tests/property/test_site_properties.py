@@ -18,7 +18,7 @@ sites = st.builds(
 )
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(sites, st.integers(0, 2**32))
 def test_every_site_keeps_the_paper_s_rules(kwargs, seed):
     config = SiteConfig(**kwargs)

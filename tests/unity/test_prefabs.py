@@ -13,7 +13,7 @@ import pytest
 from pxr import Usd, UsdGeom, UsdPhysics, UsdShade
 from support.label_tables import labelled_objects
 from support.places import assert_same_places
-from support.sample_files import SAMPLES, OBJECT_SAMPLES
+from support.sample_files import OBJECT_SAMPLES, SAMPLES
 from support.unity.layer import axes_of, from_usd, place_of, world_vertices
 
 from garage2usd.assets.mesh import Collider
