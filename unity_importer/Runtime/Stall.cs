@@ -35,7 +35,8 @@ namespace Garage.Unity
             get { return id.Substring(0, id.IndexOf('/') + 1).TrimEnd('/'); }
         }
 
-        /// <summary>As painted, with its zone, "B2-07", after its level, "U2/B2-07"; empty where nobody parks.</summary>
+        /// <summary>As painted, with its zone: "B2-07", and after its level: "U2/B2-07"; empty where nobody
+        /// parks.</summary>
         public string Number
         {
             get { return number; }
