@@ -17,7 +17,6 @@ GRID_FIELDS = {"access_square", "lane_squares", "stall_places", "stall_rows", "s
 ALLOWED = {
     # the road from a structure to its layout, of a configuration and of a file
     "pipeline.py": {"LaneSquares", "build_lane_graph", "stall_rows"},
-    "buildings.py": {"Edge"},
     "as_built/plan_reader.py": {"build_lane_graph", "stall_rows", "unproven_lane_graph"},
 }
 NAMED_AFTER_SQUARES = {"stage/arrangement.py", "driving/layout_garage.py"}
