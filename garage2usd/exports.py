@@ -16,9 +16,8 @@ from garage2usd.common.output import check_file, check_name, drafting, publish_a
 from garage2usd.common.processes import run_in_forks, without_collector
 from garage2usd.common.progress import Progress, silent, unheard
 from garage2usd.config.maps import MapsConfig, ScenarioConfig
-from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.glb import write_glb
-from garage2usd.maps.level_drives import LevelsDrivePlanner
+from garage2usd.maps.level_drives import drive_planner
 from garage2usd.maps.level_networks import LevelNetwork, level_networks
 from garage2usd.maps.network import Network
 from garage2usd.maps.occupancy import grid_files, write_grid
@@ -181,11 +180,7 @@ def _scenario(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> 
     from garage2usd.maps.openscenario import write_scenario  # noqa: PLC0415 - other formats do without its extra
 
     driven, levels = asked.settings.scenario, source.levels
-    planner = (
-        DrivePlanner(source.garage, asked.settings.drive)
-        if levels is None
-        else LevelsDrivePlanner(levels, asked.settings.drive)
-    )
+    planner = drive_planner(source.garage if levels is None else levels, asked.settings.drive)
     drive = planner.drive(driven.stall, entrance=driven.entrance, exit=driven.exit, leg=driven.leg)
     free = [drive.route.stall]
     parked = parked_cars(source.garage, free=free) if levels is None else parked_cars_of_levels(levels, free=free)

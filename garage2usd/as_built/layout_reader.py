@@ -13,7 +13,7 @@ from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import Structure
 
-__all__ = ["garage_of_layout", "garage_without_layout"]
+__all__ = ["garage_of_layout", "garage_without_layout", "shapes_of"]
 
 
 def garage_of_layout(layout: Layout, *, source: str, kind: str, faults: tuple[Fault, ...] = ()) -> BuiltGarage:
@@ -64,13 +64,13 @@ def _things(layout: Layout) -> tuple[Thing, ...]:
     matrices = turned_about_y(objects.yaw_rad[rows], objects.position_m[rows])
     for row, number, matrix in zip(rows.tolist(), objects.spec[rows].tolist(), matrices, strict=True):
         spec = objects.specs[number]
-        bodies = tuple(Body(shape, matrix, touches) for shape, touches in _shapes(spec.shape))
+        bodies = tuple(Body(shape, matrix, touches) for shape, touches in shapes_of(spec.shape))
         things.append(Thing(paths[row], spec.kind.label, bodies))
     return tuple(things)
 
 
 @lru_cache(maxsize=1024)
-def _shapes(spec: Spec) -> tuple[tuple[MeshShape, bool], ...]:
+def shapes_of(spec: Spec) -> tuple[tuple[MeshShape, bool], ...]:
     """Return the meshes of a spec, each with a flag for its collider."""
     return tuple(
         (

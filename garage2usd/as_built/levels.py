@@ -164,9 +164,7 @@ class BuiltLevels:
     @cached_property
     def ramp_nodes(self) -> tuple[int, ...]:
         """Numbers of the lane nodes at the ends of edges that rise or fall, the landings included."""
-        nodes, edges = self.lanes.nodes, self.lanes.edges
-        sloped = [edge for edge in edges if abs(nodes[edge.start].height_m - nodes[edge.end].height_m) > _RISE_M]
-        return tuple(sorted({number for edge in sloped for number in (edge.start, edge.end)}))
+        return tuple(sorted(_sloped_nodes(self.lanes)))
 
     @cached_property
     def ramp_lines(self) -> tuple[RampLine, ...]:
@@ -252,15 +250,17 @@ def _level_beyond_m(built: BuiltLevels) -> list[dict[str, float]]:
     return found
 
 
+def _sloped_nodes(lanes: LaneGraph) -> set[int]:
+    """Return the numbers of the nodes at the ends of edges that rise or fall."""
+    nodes = lanes.nodes
+    sloped = (edge for edge in lanes.edges if abs(nodes[edge.start].height_m - nodes[edge.end].height_m) > _RISE_M)
+    return {number for edge in sloped for number in (edge.start, edge.end)}
+
+
 def _towards_ramps(lanes: LaneGraph) -> dict[tuple[float, float, int], Point]:
     """Return the unit vector from each landing towards its ramp, by the place and level of the landing."""
     nodes = lanes.nodes
-    on_ramps = {
-        number
-        for edge in lanes.edges
-        for number in (edge.start, edge.end)
-        if abs(nodes[edge.start].height_m - nodes[edge.end].height_m) > _RISE_M
-    }
+    on_ramps = _sloped_nodes(lanes)
     level_ends = on_ramps | {number for on in on_ramps for number in lanes.beside[on]}
     found = {}
     for end in level_ends:

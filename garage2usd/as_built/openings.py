@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from garage2usd.as_built.shapes import Array, Body, Thing
 
-__all__ = ["Door", "Ramp", "Stretch", "doors_of", "is_bent", "ramps_of", "section_of"]
+__all__ = ["Door", "Ramp", "Stretch", "doors_of", "face_cuts", "is_bent", "ramps_of", "section_of"]
 
 _CUT_M = 1.0
 """Height above the floor at which a door's width is measured; metres."""
@@ -108,7 +108,7 @@ def is_bent(downhill: Array, weights: Array) -> bool:
 
 def section_of(thing: Thing, level_m: float = _CUT_M) -> list[Array]:
     """Intersect an object with a level plane; return the points (x, z) of each line, float64, shapes (n, 2)."""
-    cuts = (cut for body in thing.bodies for cut in _cuts(body, np.array([0.0, 1.0, 0.0]), level_m))
+    cuts = (cut for body in thing.bodies for cut in face_cuts(body, np.array([0.0, 1.0, 0.0]), level_m))
     return [cut[:, [0, 2]] for cut in cuts]
 
 
@@ -133,20 +133,28 @@ def _door(thing: Thing) -> Door:
 
 def _spans(body: Body, axis: Array) -> Iterator[tuple[float, float]]:
     """Return the interval of each face along an axis at the height of the cut."""
-    for cut in _cuts(body, np.array([0.0, 1.0, 0.0]), _CUT_M):
+    for cut in face_cuts(body, np.array([0.0, 1.0, 0.0]), _CUT_M):
         along = cut[:, [0, 2]] @ axis
         yield float(along.min()), float(along.max())
 
 
 def _heights_over(body: Body, axis: Array, place: float) -> Iterator[float]:
     """Return the heights above the floor, from the cut upwards, of the faces over a place along an axis."""
-    for cut in _cuts(body, np.array([axis[0], 0.0, axis[1]]), place):
+    for cut in face_cuts(body, np.array([axis[0], 0.0, axis[1]]), place):
         if cut[:, 1].min() > _CUT_M:
             yield float(cut[:, 1].min())
 
 
-def _cuts(body: Body, normal: Array, level: float) -> Iterator[Array]:
-    """Return the points where the sides of each face cross a plane; float64, shape (n, 3)."""
+def face_cuts(body: Body, normal: Array, level: float) -> Iterator[Array]:
+    """Return the points where the sides of each face cross a plane; float64, shape (n, 3).
+
+    Parameters
+    ----------
+    body
+        The placed mesh.
+    normal, level
+        Unit normal of the plane, float64, shape (3,), and its distance from the origin along it.
+    """
     points = body.world_points()
     height = points @ normal - level
     edges = body.shape.edges

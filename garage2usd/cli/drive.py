@@ -120,19 +120,14 @@ def _drive_to(
     rig: str | None,
 ) -> None:
     """Drive to one stall and print the result."""
-    from garage2usd.as_built.levels import BuiltLevels  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.config.maps import Leg  # noqa: PLC0415
-    from garage2usd.maps.drives import DrivePlanner  # noqa: PLC0415
-    from garage2usd.maps.level_drives import LevelsDrivePlanner  # noqa: PLC0415
+    from garage2usd.config.maps import Leg  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.maps.level_drives import drive_planner  # noqa: PLC0415
     from garage2usd.sensors.rig.rig import read_rig  # noqa: PLC0415
 
     car = None if rig is None else read_rig(rig).body
     with Bars(sys.stderr) as progress:
         garage, settings = _garage_of(path, seed, progress)
-        planner = (
-            LevelsDrivePlanner(garage, settings) if isinstance(garage, BuiltLevels) else DrivePlanner(garage, settings)
-        )
-        driven = planner.drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
+        driven = drive_planner(garage, settings).drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
     if output is not None:
         _write_drive(output, driven, car)
     route, states = driven.route, driven.trajectory

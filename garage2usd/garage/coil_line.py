@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from garage2usd.garage.ramp_profile import ramp_profile
 from garage2usd.native import elementary
 
 __all__ = ["CoilLine", "CoilPlaces", "heights_along"]
@@ -139,19 +140,7 @@ class CoilLine:
             True if the line begins at the foot.
         """
         ends = self.corner if foot_first else self.corner[::-1]
-        sloped = self.length_m - sum(ends)
-        slope = self.slope(rise_m, gentle_m)
-        run, height = 0.0, 0.0
-        found = [(run, height)]
-        for length, grade in (
-            (ends[0], 0.0),
-            (gentle_m, slope / 2),
-            (sloped - 2 * gentle_m, slope),
-            (gentle_m, slope / 2),
-            (ends[1], 0.0),
-        ):
-            run, height = run + length, height + length * grade
-            found.append((run, height))
+        found = ramp_profile(self.length_m, rise_m, gentle_m, ends)
         pairs = found if foot_first else [(self.length_m - run, height) for run, height in found[::-1]]
         return tuple((round(run, 6), round(height, 6)) for run, height in pairs)
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from garage2usd.as_built.driven_floor import BEYOND_TOP_M
 from garage2usd.as_built.driven_road import bent_floors
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.levels import Bend, BuiltLevels
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.spelling import find_named
@@ -20,7 +21,7 @@ from garage2usd.driving.timing import timed
 from garage2usd.garage import LaneKind, Stall
 from garage2usd.maps.drives import Drive, DrivePlanner, portals_asked
 
-__all__ = ["LevelsDrivePlanner"]
+__all__ = ["LevelsDrivePlanner", "drive_planner"]
 
 _NAMED = 6
 _BEYOND_FOOT_M = 2.0
@@ -276,6 +277,15 @@ class LevelsDrivePlanner:
                 for ramp in self._planner(upper + 1).road.ramps
             ]
         return FloorSpan(end_m, own_m, tuple(ramps))
+
+
+def drive_planner(
+    garage: BuiltGarage | BuiltLevels, settings: DriveConfig | None = None
+) -> DrivePlanner | LevelsDrivePlanner:
+    """Return the planner of drives in a garage of one level or of several."""
+    if isinstance(garage, BuiltLevels):
+        return LevelsDrivePlanner(garage, settings)
+    return DrivePlanner(garage, settings)
 
 
 def _lifted(ramp: RampFloor, floor_m: float, end_m: float) -> RampFloor:

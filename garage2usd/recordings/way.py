@@ -17,8 +17,7 @@ from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.maps import DriveConfig, Leg
 from garage2usd.garage import Stall
-from garage2usd.maps.drives import DrivePlanner
-from garage2usd.maps.level_drives import LevelsDrivePlanner
+from garage2usd.maps.level_drives import drive_planner
 from garage2usd.objects.ramp import KIND as RAMP
 from garage2usd.reading.labels import Labels
 from garage2usd.render.cameras import find_views
@@ -129,9 +128,7 @@ class Way:
     def _drive_to(self, stall: str, entrance: str, along: str, every_m: float, settings: DriveConfig) -> None:
         if not stall or not (entrance.isdecimal() or not entrance):
             raise ConfigError("along", along, "ENTRANCE:STALL as 1:A1-08, or the name of a camera that moves")
-        planner = (
-            DrivePlanner(self.garage, settings) if self.levels is None else LevelsDrivePlanner(self.levels, settings)
-        )
+        planner = drive_planner(self.garage if self.levels is None else self.levels, settings)
         drive = planner.drive(stall, entrance=int(entrance) if entrance else None, leg=Leg.IN)
         stalls = self.garage.stalls if self.levels is None else self.levels.stalls
         self.stall = next(each for each in stalls if each.name == drive.route.stall)

@@ -9,9 +9,10 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.assets.mesh import Collider, Part
+from garage2usd.as_built.layout_reader import shapes_of
+from garage2usd.as_built.openings import face_cuts
+from garage2usd.as_built.shapes import Body, turned_about_y
 from garage2usd.layout import Layout, Placement
-from garage2usd.layout.placement import cos_sin
 from garage2usd.objects.kind import Spec
 from garage2usd.stage.levels import LevelLayout
 from garage2usd.stage.prototypes import asset_of
@@ -55,6 +56,20 @@ class _Plane:
     origin: Point
     along: Point
 
+    @property
+    def normal(self) -> _Array:
+        """Unit vector away from somebody who looks at it; float64, shape (3,)."""
+        return np.array([self.along[1], 0.0, -self.along[0]])
+
+    @property
+    def level(self) -> float:
+        """Distance from the origin along its normal."""
+        return self.origin[0] * self.along[1] - self.origin[1] * self.along[0]
+
+    def drawn(self, points: _Array) -> _Array:
+        """Return (along, depth below the street's floor) of points (x, height, z); shape (n, 2)."""
+        return self.local(points)[:, :2] * [1.0, -1.0]
+
     def local(self, points: _Array) -> _Array:
         """Return (along, height, behind) of points (x, height, z); shape (n, 3)."""
         x, z = points[:, 0] - self.origin[0], points[:, 2] - self.origin[1]
@@ -81,7 +96,7 @@ def draw_section(levels: Sequence[LevelLayout], *, storey_m: float) -> Drawing:
     cut: list[Region | Line] = []
     for level in levels:
         for placement in level.layout.placements:
-            away_m, reach_m = plane.local(_points_of(placement, np.zeros((1, 3)), 0.0))[0, 2], _reach_m(placement.spec)
+            away_m, reach_m = plane.local(np.array([placement.position_m]))[0, 2], _reach_m(placement.spec)
             found: list[Region | Line] = []
             if abs(away_m) < reach_m and placement.kind != _CAR:
                 found = list(_cut(placement, plane, level.floor_m))
@@ -143,28 +158,21 @@ def _reach_m(spec: Spec) -> float:
     )
 
 
-def _points_of(placement: Placement, points: _Array, floor_m: float) -> _Array:
-    """Return points of a shape in the garage."""
-    cos, sin = cos_sin(placement.yaw_rad)
+def _bodies(placement: Placement, floor_m: float) -> list[Body]:
+    """Return the meshes of a placement in the garage."""
     x, y, z = placement.position_m
-    return np.stack(
-        [
-            x + cos * points[:, 0] + sin * points[:, 2],
-            y + floor_m + points[:, 1],
-            z - sin * points[:, 0] + cos * points[:, 2],
-        ],
-        axis=1,
-    )
+    matrix = turned_about_y(placement.yaw_rad, (x, y + floor_m, z))
+    return [Body(shape, matrix, touches) for shape, touches in shapes_of(placement.spec.shape)]
 
 
 def _cut(placement: Placement, plane: _Plane, floor_m: float) -> Iterator[Region | Line]:
     """Yield the areas that the meshes of a placement close in the plane, and their lines."""
-    lines = []
-    for part in asset_of(placement.spec).parts:
-        local = plane.local(_points_of(placement, part.points.astype(np.float64), floor_m))
-        if local[:, 2].min() < 0 < local[:, 2].max():
-            lines.append(shapely.union_all(_crossings(part, local)))
-    drawn = shapely.union_all(lines)
+    found = []
+    for body in _bodies(placement, floor_m):
+        for cut in face_cuts(body, plane.normal, plane.level):
+            ends = np.round(plane.drawn(cut) / _ROUNDING_M) * _ROUNDING_M
+            found += [pair for pair in ends.reshape(-1, 2, 2) if not np.array_equal(*pair)]
+    drawn = shapely.union_all(shapely.linestrings(np.array(found).reshape(-1, 2, 2)))
     areas = drawn.convex_hull if placement.kind in _MASSIVE else shapely.polygonize([*shapely.get_parts(drawn)])
     for area in shapely.get_parts(areas):
         if isinstance(area, shapely.Polygon):
@@ -174,31 +182,11 @@ def _cut(placement: Placement, plane: _Plane, floor_m: float) -> Iterator[Region
         yield Line([(x, z) for x, z in line.coords], INK, 0.02, f"cut {placement.kind}")
 
 
-def _crossings(part: Part, local: _Array) -> NDArray[np.object_]:
-    """Return where the faces of a mesh cross the plane, as lines of (along, depth below the street's floor)."""
-    starts = np.cumsum(part.face_counts) - part.face_counts
-    found = []
-    for start, count in zip(starts.tolist(), part.face_counts.tolist(), strict=True):
-        corners = local[part.face_indices[start : start + count]]
-        away, after = corners[:, 2], np.roll(corners, -1, axis=0)
-        crosses = away * after[:, 2] < 0
-        if not crosses.any():
-            continue
-        share = (away[crosses] / (away - after[:, 2])[crosses])[:, None]
-        places = (corners[crosses] + (after[crosses] - corners[crosses]) * share)[:, :2] * [1.0, -1.0]
-        places = np.round(places / _ROUNDING_M) * _ROUNDING_M
-        found += [pair for pair in places.reshape(-1, 2, 2) if not np.array_equal(*pair)]
-    lines: NDArray[np.object_] = shapely.linestrings(np.array(found).reshape(-1, 2, 2))
-    return lines
-
-
 def _silhouettes(placement: Placement, plane: _Plane, floor_m: float) -> Iterator[Region]:
-    """Yield the outlines of the convex bodies of a placement behind the plane."""
-    parts = asset_of(placement.spec).parts
-    for part in [part for part in parts if part.collider is Collider.CONVEX_HULL] or parts:
-        local = plane.local(_points_of(placement, part.points.astype(np.float64), floor_m))
-        hull = shapely.convex_hull(shapely.multipoints(local[:, :2] * [1.0, -1.0]))
-        if isinstance(hull, shapely.Polygon):
+    """Yield the outlines of what can be touched of a placement behind the plane."""
+    for body in _bodies(placement, floor_m):
+        hull = shapely.convex_hull(shapely.multipoints(plane.drawn(body.world_points())))
+        if body.touches and isinstance(hull, shapely.Polygon):
             yield Region(list(hull.exterior.coords[:-1]), _BEHIND[placement.kind], placement.kind)
 
 

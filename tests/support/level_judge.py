@@ -6,8 +6,13 @@ import shapely
 import trimesh
 from pxr import Usd, UsdGeom
 
+from garage2usd.buildings import build_levels
+from garage2usd.checks import Severity
 from support.rays import fans
 
+ALLOWED = {"personnel-exits", "exit-distance", "exit-distance-sprinklered", "column-spacing", "portal-count"}
+"""Rules of `check` that may find something: where there is no room for more cores, and of columns around stalls across
+shallow rows."""
 WHEELBASE_M, CLEARANCE_M, CAR_LENGTH_M, REAR_OVERHANG_M = 2.9, 0.12, 5.0, 0.95
 """Of a large car."""
 GROUND = (
@@ -145,6 +150,16 @@ class LevelJudge:
                 way = [*self.lanes.predecessors(way[0])][:1] + way + [*self.lanes.successors(way[-1])][:1]
             found.append(self.places[way])
         return found
+
+
+def built_and_judged(config, path):
+    """Build a garage of several levels; `check` has nothing against it but for want of room, and all is reached."""
+    made = build_levels(config, path)
+    found = {finding.rule for level in made.findings for finding in level if finding.severity is not Severity.INFO}
+    assert found <= ALLOWED
+    judge = LevelJudge(made.stage)
+    assert judge.unreached() == []
+    return made, judge
 
 
 def above(places, height_m):

@@ -152,15 +152,17 @@ class CoilWell(Well):
             found.append(one.placed(f"Crossing_{one.name}", flat, corner_u / 2, corner_v / 2, faces=way))
             if self.is_top:
                 continue
-            top_m = building.storey_m + fittings.ceiling_height_m if self.level == 1 else math.inf
+            clear_m, top_m = building.storey_m - SLAB_M, 2 * building.storey_m
+            if self.level == 1:  # the walls end at the top ceiling
+                clear_m = top_m = building.storey_m + fittings.ceiling_height_m
             spec = CoilSpec(
                 one.line,
                 one.profile(building.storey_m, building.ramp_transition_m),
                 one.turn,
                 SLAB_M,
                 WALL_M,
-                round(top_m if self.level == 1 else building.storey_m - SLAB_M, 6),
-                round(top_m, 6) if self.level == 1 else 2 * building.storey_m,
+                round(clear_m, 6),
+                round(top_m, 6),
             )
             found.append(one.placed(f"Ramp_{one.name}", spec, 0.0, 0.0, faces=way))
         return found

@@ -13,6 +13,7 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.config import FittingsConfig
 from garage2usd.config.building import BuildingConfig
 from garage2usd.config.look import WallsLook
+from garage2usd.garage.ramp_profile import ramp_profile
 from garage2usd.layout.ceiling.lamps import TUBE
 from garage2usd.layout.placement import Placement
 from garage2usd.layout.shell.well import SLAB_M, Well, WellLane
@@ -44,19 +45,8 @@ def flight_profile(run_m: float, building: BuildingConfig) -> tuple[Point, ...]:
     building
         Storey and transitions.
     """
-    rise, gentle_m = building.storey_m, building.ramp_transition_m
-    slope = rise / (run_m - 2 * LEVEL_END_M - gentle_m)
-    run, height = 0.0, 0.0
-    profile = [(run, height)]
-    for length, grade in (
-        (LEVEL_END_M, 0.0),
-        (gentle_m, slope / 2),
-        (run_m - 2 * (LEVEL_END_M + gentle_m), slope),
-        (gentle_m, slope / 2),
-        (LEVEL_END_M, 0.0),
-    ):
-        run, height = run + length, height + length * grade
-        profile.append((run, height))
+    ends_m = (LEVEL_END_M, LEVEL_END_M)
+    profile = ramp_profile(run_m, building.storey_m, building.ramp_transition_m, ends_m)
     return tuple((round(run, 6), round(height, 6)) for run, height in profile)
 
 
