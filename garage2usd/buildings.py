@@ -24,9 +24,11 @@ from garage2usd.common.version import VERSION
 from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.config.building import BuildingConfig
 from garage2usd.garage.joined_levels import JoinedLevels, LevelLanes, RampLane, join_levels, unreached_stalls
+from garage2usd.layout.egress.exits import plan_egress
+from garage2usd.layout.egress.shafts import LevelPlan
 from garage2usd.layout.shell.well import SLAB_M
 from garage2usd.layout.shell.wells import make_well
-from garage2usd.pipeline import Garage, laid_out, planned, stage_metadata
+from garage2usd.pipeline import Garage, laid_out, lane_squares_of, planned, stage_metadata
 from garage2usd.planning import Plan, evaluate, tape_of
 from garage2usd.planning.dimensions import aisle_side_mm, lines_with_aisles
 from garage2usd.reading.levels_report import LevelReport, LevelsReport, ReportedLink
@@ -260,11 +262,15 @@ def _generate(
     plans = _plans(site, config, ramps, tapes, progress)
     building = Building(tuple(plan.structure for plan, _ in plans), ramps, config.building.storey_m)
     clock.append(time.perf_counter())
+    graphs = [lane_squares_of(plan, of_level) for plan, of_level in plans]
+    egresses = plan_egress(
+        [LevelPlan(plan.structure, graph, of) for (plan, of), graph in zip(plans, graphs, strict=True)], ramps.squares
+    )
     levels = []
-    for number, (plan, of_level) in enumerate(plans):
+    for number, ((plan, of_level), graph, egress) in enumerate(zip(plans, graphs, egresses, strict=True)):
         well = make_well(ramps, number, config)
         static = plan.structure.with_cells(level_cells(site.cells, ramps, number, config.building.levels))
-        levels.append(laid_out(static, plan, of_level, well=well, progress=progress))
+        levels.append(laid_out(static, plan, of_level, graph, well=well, egress=egress, progress=progress))
     garage = LevelsGarage(config, building, tuple(levels))
     unreached = unreached_stalls(garage.joined)
     if unreached:

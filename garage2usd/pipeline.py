@@ -21,6 +21,7 @@ from garage2usd.config.plan import UnreachableStalls
 from garage2usd.driving import DesignCar, with_clutter, with_truth_of_misparked, without_unreachable
 from garage2usd.driving.refusal import refuse_undrivable
 from garage2usd.layout import Layout, lay_out
+from garage2usd.layout.egress.exits import Egress
 from garage2usd.layout.parking.tight import tight_stalls
 from garage2usd.layout.shell.well import Well
 from garage2usd.planning import (
@@ -150,7 +151,7 @@ def generate(
 def generate_plan(config: GarageConfig, *, progress: Progress = silent) -> Plan:
     """Make a garage as far as its plan, directions and stalls included; raises as `generate`, which goes on from it."""
     plan = planned(_site(config), config, tape=None, progress=progress)
-    _graph(plan, config)
+    lane_squares_of(plan, config)
     return plan
 
 
@@ -262,7 +263,7 @@ def _generate(
     if plan is None:
         plan = planned(site, config, tape=tape, progress=progress)
     clock.append(time.perf_counter())
-    garage = laid_out(site, plan, config, progress=progress)
+    garage = laid_out(site, plan, config, lane_squares_of(plan, config), progress=progress)
     clock.append(time.perf_counter())
     steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
     return garage, {step: end - start for step, (start, end) in steps}
@@ -281,11 +282,21 @@ def planned(site: Structure, config: GarageConfig, *, tape: str | None, progress
 
 
 def laid_out(
-    site: Structure, plan: Plan, config: GarageConfig, *, well: Well | None = None, progress: Progress = silent
+    site: Structure,
+    plan: Plan,
+    config: GarageConfig,
+    graph: LaneSquares,
+    *,
+    well: Well | None = None,
+    egress: Egress | None = None,
+    progress: Progress = silent,
 ) -> Garage:
-    """Lay out a plan as a garage; `well` has the ramps to other levels. Errors as for `generate`."""
-    graph = _graph(plan, config)
-    layout = lay_out(plan.structure, graph, config, well=well)
+    """Lay out a plan as a garage.
+
+    `graph` is from `lane_squares_of`; `well` has the ramps to other levels, `egress` the stair cores that this level
+    shares with them. Errors as for `generate`.
+    """
+    layout = lay_out(plan.structure, graph, config, well=well, egress=egress)
     layout = _driven(layout, config, progress)
     if config.clutter.is_any:
         layout = with_clutter(layout, config, cars=(DesignCar(), design_car(config.standard)), progress=progress)
@@ -299,7 +310,8 @@ def _site(config: GarageConfig) -> Structure:
     return site
 
 
-def _graph(plan: Plan, config: GarageConfig) -> LaneSquares:
+def lane_squares_of(plan: Plan, config: GarageConfig) -> LaneSquares:
+    """Return the lanes and rows of stalls of a plan. Errors as for `generate`."""
     graph = build_lane_graph(plan.structure, config.bay, plan.runs, plan.directions)
     if not graph.stall_rows:
         raise ConfigError(

@@ -18,8 +18,8 @@ _HEIGHTS_M = (1.9, 2.5)
 _WIDTHS_M = (0.7, 2.0)
 _THICKEST_M = 0.3
 _FLOOR_M = 0.05
-_STEP_OUT_M = 1.0
-"""Greatest distance in metres from a core door to a lane."""
+_STEPS_OUT_M = (1.0, 1.8, 2.6, 3.4, 4.2)
+"""Distances in metres from a core door at which a lane is looked for, along a passage between stalls."""
 
 
 class CoreDoor(NamedTuple):
@@ -44,7 +44,7 @@ def core_doors(garage: BuiltGarage) -> list[CoreDoor]:
     """Detect the doors of stair cores onto lanes, one for each core and lane, in models of any origin.
 
     A door is a thin upright piece of an obstacle, from the floor to 1.9 to 2.5 m and 0.7 to 2 m wide, on a side of the
-    obstacle with a lane within a metre.
+    obstacle with a lane within a metre, or at the end of a passage of up to four metres without stalls.
     """
     pieces: dict[str, list[Solid]] = defaultdict(list)
     for solid in garage.solids.standing(_LABEL):
@@ -56,13 +56,13 @@ def core_doors(garage: BuiltGarage) -> list[CoreDoor]:
             step = _step_out(part, (block.x, block.y))
             if step is None:
                 continue
-            for node in _lanes_at((part.footprint.centroid.x + step[0], part.footprint.centroid.y + step[1]), garage):
+            for node in _lanes_beyond(part, step, garage):
                 doors.setdefault((name, node), CoreDoor(name, part.centre, node))
     return list(doors.values())
 
 
 def _step_out(part: Solid, block: Point) -> Point | None:
-    """Return the direction out of a core door, if a piece is one."""
+    """Return the unit vector (x, z) out of a core door, if a piece is one."""
     if part.bottom_m > _FLOOR_M or not _HEIGHTS_M[0] <= part.top_m <= _HEIGHTS_M[1]:
         return None
     box = part.footprint.minimum_rotated_rectangle
@@ -76,8 +76,18 @@ def _step_out(part: Solid, block: Point) -> Point | None:
         return None
     across = np.array([-sides[along][1], sides[along][0]]) / lengths[along]
     outwards = np.array([part.footprint.centroid.x, part.footprint.centroid.y]) - block
-    x, z = (across * np.copysign(_STEP_OUT_M, across @ outwards)).tolist()
+    x, z = (across * np.copysign(1.0, across @ outwards)).tolist()
     return x, z
+
+
+def _lanes_beyond(part: Solid, step: Point, garage: BuiltGarage) -> Iterator[int]:
+    """Yield the lanes at the end of the passage before a door; none if stalls lie between."""
+    for far_m in _STEPS_OUT_M:
+        place = part.footprint.centroid.x + far_m * step[0], part.footprint.centroid.y + far_m * step[1]
+        nodes = list(_lanes_at(place, garage))
+        if nodes or len(garage.stall_grounds.tree.query(shapely.Point(place), predicate="intersects")):
+            yield from nodes
+            return
 
 
 def _lanes_at(place: Point, garage: BuiltGarage) -> Iterator[int]:

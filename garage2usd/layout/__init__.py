@@ -25,7 +25,8 @@ from garage2usd.layout.ceiling.signs_and_mirrors import exit_signs, lane_signs, 
 from garage2usd.layout.clearance import check_carriageways
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress.cores import Core, core_placements
-from garage2usd.layout.egress.exits import plan_egress
+from garage2usd.layout.egress.exits import Egress, plan_egress
+from garage2usd.layout.egress.shafts import LevelPlan
 from garage2usd.layout.fittings import cones, speed_bumps, tube_lights
 from garage2usd.layout.floor.drains import drains
 from garage2usd.layout.floor.panels import drawn_markings_of, floor_panels
@@ -108,6 +109,8 @@ class Layout:
         Those of them for which the search for ways ended at its bound.
     well
         The ramps to other levels of the building; None without any.
+    shafts
+        The shafts of lower levels' stair cores that have no door on this level.
     reaching
         Name of the stall of each car whose body stands over a line, and of the one beside that it reaches into.
     misparked
@@ -135,6 +138,7 @@ class Layout:
     blocked: Mapping[str, str] = field(default_factory=dict)
     undecided: frozenset[str] = frozenset()
     well: Well | None = None
+    shafts: tuple[Core, ...] = ()
 
     @property
     def matrices(self) -> Structure | None:
@@ -154,7 +158,8 @@ class Layout:
     @property
     def again(self) -> "partial[Layout]":
         """Lay the same plan out again: `lay_out` with its structure and lane squares given."""
-        return partial(lay_out, self.structure, self.lane_squares, well=self.well)
+        egress = Egress(self.compartments, self.cores, self.shafts)
+        return partial(lay_out, self.structure, self.lane_squares, well=self.well, egress=egress)
 
     def node_squares(self) -> NDArray[np.int32]:
         """Return the (row, col) by which files name each lane node; int32, shape (nodes, 2)."""
@@ -261,6 +266,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     kept_clear: shapely.Geometry | None = None,
     open_boots: Collection[str] = (),
     well: Well | None = None,
+    egress: Egress | None = None,
 ) -> Layout:
     """Place every object of a garage.
 
@@ -284,6 +290,8 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         Names of the stalls whose cars have their boots open.
     well
         The ramps to other levels.
+    egress
+        Fire compartments and stair cores; planned for this level alone if left out.
 
     Returns
     -------
@@ -299,8 +307,9 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     bay, fittings, seed, look = config.bay, config.fittings, config.seed, drawn_look(config.look, config.seed)
     levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
     wells = well.squares if well else ()
-    compartments, cores = plan_egress(structure, graph, config, sprinklered=levels.pipe_drop_m is not None, wells=wells)
-    grid = TileGrid(structure, graph, bay, left_out=_left_out(cores, config, unreachable))
+    compartments, cores, shafts = egress or plan_egress([LevelPlan(structure, graph, config)], wells)[0]
+    built = [*cores, *shafts]
+    grid = TileGrid(structure, graph, bay, left_out=_left_out(built, config, unreachable))
     if not grid.stall_places:
         raise ConfigError("plan.unreachable_stalls", "drop", "a plan that leaves a stall that cars get into")
     check_carriageways(grid)
@@ -310,7 +319,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
 
     zones = Zones(structure) if fittings.zones else None
     stalls = with_numbers(_used_stalls(grid, graph, cores, config, unreachable), zones)
-    core_on = {core.square: core for core in cores if core.recess_m}
+    core_on = {core.square: core for core in built if core.recess_m or not core.has_door}
     installed = installed_lamps(tube_lights(grid, fittings, levels, core_on), look.lights, draws, seed=seed)
     lamps, illuminance = light_up(
         installed,
@@ -349,7 +358,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield stall_numbers(stalls, grid, look, fittings)
         yield (charging := chargers(stalls))
         yield bumps
-        yield (signs := no_parking_signs(grid, shell, cores, fittings, seed=seed))
+        yield (signs := no_parking_signs(grid, shell, built, fittings, seed=seed))
 
         yield (ceiling_panel(tile, fittings) for tile in grid)
         yield lamps
@@ -369,7 +378,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
             yield [*well.ramps(structure, fittings), *well.ceilings(structure, fittings)]
             walls, tubes = [*walls, *well.beside_floors(guards)], [*tubes, *well.tubes(structure, fittings)]
         yield ramp_lamps(tubes, look.lights, illuminance.luminance_nit, seed=seed)
-        yield (blocks := core_placements(structure, cores, ceiling, look.walls, wells))
+        yield (blocks := core_placements(structure, built, ceiling, look.walls, wells))
         hung = mounted_objects(grid, pillars, walls, blocks, stalls, cores, [*closing, *signs], config)
         yield with_boards(pillars, hung)
         yield zone_plates(pillars, walls, blocks, stalls, zones) if zones else ()
@@ -385,7 +394,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         StallTable(stalls),
         fittings.ceiling_height_m,
         illuminance,
-        tuple(cores),
+        cores,
         compartments,
         look,
         frozenset(unreachable),
@@ -393,6 +402,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         parked.misparked,
         frozenset(held_back),
         well=well,
+        shafts=shafts,
     )
 
 

@@ -48,8 +48,9 @@ def tube_lights(
         if core is not None and tile.square not in grid.stall_places:
             continue
         beside_m = core.beside_m(tile.half_x_m if core.along_x else tile.half_z_m) if core else 0.0
-        count = fittings.tubes_per_cell if tile.cell is Cell.LANE else min(1, fittings.tubes_per_cell)
         along_x = _tube_along_x(tile, grid)
+        along_m, across_m = (beside_m, 0.0) if core is None or core.along_x is along_x else (0.0, beside_m)
+        count = fittings.tubes_per_cell if tile.cell is Cell.LANE else min(1, fittings.tubes_per_cell)
         length = tile.width_m if along_x else tile.depth_m
         is_crossed = tile.axis_is_x is None and levels.lines_beside_tubes
         room = length - 2 * (grid.setback_m + (LINES_REACH_M if is_crossed else 0.0)) - TUBE.length_m
@@ -59,9 +60,9 @@ def tube_lights(
         if tile.axis_is_x is None:
             pitch = min(pitch, 2 * _JUNCTION_TUBE_OFFSET_M)
         for index in range(count):
-            offset = beside_m + (index - (count - 1) / 2) * max(pitch, least_pitch)
-            x = tile.x_m + (offset if along_x else 0.0)
-            z = tile.z_m + (0.0 if along_x else offset)
+            offset = along_m + (index - (count - 1) / 2) * max(pitch, least_pitch)
+            x = tile.x_m + (offset if along_x else across_m)
+            z = tile.z_m + (across_m if along_x else offset)
             yaw, height = 0.0 if along_x else _QUARTER_TURN, fittings.ceiling_height_m
             name = f"Tube_{index + 1}"
             lights.append(placed(name, TUBE, (x, z), height_m=height, yaw_rad=yaw, square=tile.square))

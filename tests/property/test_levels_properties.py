@@ -1,5 +1,7 @@
 """Garages of several levels, judged on their written stages by pxr, networkx and trimesh."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from support.level_judge import above, belly_m, built_and_judged, first_hits, floors_under
@@ -31,6 +33,7 @@ def test_a_garage_of_several_levels_stands_is_reached_and_is_driven(seed, tmp_pa
     assert judge.names == [f"U{number + 1}" for number in range(config.building.levels)]
     assert len(set(judge.numbers) - {""}) == sum(number != "" for number in judge.numbers)
     _columns_stand_above_one_another(judge, made.garage)
+    _stairs_lead_up_to_the_street(judge)
     _a_ray_down_each_stall_meets_one_floor(judge, config)
     ramps = judge.ramps()
     assert len(ramps) == 2 * (config.building.levels - 1)
@@ -57,6 +60,16 @@ def _columns_stand_above_one_another(judge, garage):
             col = np.argmin(abs(structure.column_edges_m - corners[missing][0]))
             row = np.argmin(abs(structure.row_edges_m - corners[missing][1]))
             assert (structure.cells[row - 1 : row + 1, col - 1 : col + 1] > 0).all()
+
+
+def _stairs_lead_up_to_the_street(judge):
+    """Each core stands below one of the level above, on the same ground, with or without a door there."""
+    assert any(judge.shafts[judge.names[-1]])
+    for upper, lower in pairwise(judge.names):
+        above_it = np.array([*judge.shafts[upper].values()])
+        for ground in judge.shafts[lower].values():
+            assert np.abs(above_it - ground).max(axis=1).min() < 1e-3
+    assert not any(name.startswith("Shaft_") for name in judge.shafts[judge.names[-1]])
 
 
 def _a_ray_down_each_stall_meets_one_floor(judge, config):

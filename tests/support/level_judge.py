@@ -1,5 +1,7 @@
 """Judge of garages of several levels by their written stages: pxr, networkx and trimesh, not garage2usd's readers."""
 
+import re
+
 import networkx as nx
 import numpy as np
 import shapely
@@ -99,6 +101,7 @@ class LevelJudge:
     def _read(self):
         cache = UsdGeom.XformCache()
         self.triangles, self.columns = {}, {name: [] for name in self.names}
+        self.shafts = {name: {} for name in self.names}
         for prim in self.stage.Traverse(Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)):
             level = str(prim.GetPath()).split("/")[3] if "/Levels/" in str(prim.GetPath()) else ""
             if prim.GetName().startswith("Column_") and prim.GetTypeName() == "Xform" and level:
@@ -109,6 +112,10 @@ class LevelJudge:
             place = np.array(cache.GetLocalToWorldTransform(prim))
             points = np.array(mesh.GetPointsAttr().Get()) @ place[:3, :3] + place[3, :3]
             self.triangles.setdefault((level, label_of(prim)), []).append(points[fans(mesh)])
+            shaft = re.search("/((?:Core|Shaft)_[^/]+)/", str(prim.GetPath()))
+            if shaft and label_of(prim) == "obstacle" and prim.GetName() == "Core":
+                ground = points[:, [0, 2]]
+                self.shafts[level][shaft[1]] = np.concatenate([ground.min(axis=0), ground.max(axis=0)])
 
     def mesh(self, *labels, level=None):
         """The triangles of some classes, or of all."""

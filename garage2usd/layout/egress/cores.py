@@ -30,10 +30,19 @@ from garage2usd.structure.lane_graph import LaneSquares, Square
 from garage2usd.structure.stall_shapes import StallShape
 from garage2usd.structure.stalls import Edge, StallRow
 
-__all__ = ["Core", "core_candidates", "core_placements", "obstacle_cores"]
+__all__ = [
+    "RECESS_M",
+    "Core",
+    "core_candidates",
+    "core_placements",
+    "gap_to_stalls_m",
+    "is_wide_enough",
+    "names_of_rows",
+    "obstacle_cores",
+]
 
 RECESS_M = 0.5
-"""Setback of a core's door from the lane, so that nobody steps into traffic."""
+"""Least setback of a core's door from the lane, so that nobody steps into traffic."""
 _FROM_REAR_M = 0.2
 _FROM_COLUMN_M = 0.08
 """Gap for the zone plates of the adjacent column."""
@@ -65,6 +74,8 @@ class Core:
         Distance from that edge back to the door.
     stalls
         Ids of the stalls that it replaces.
+    has_door
+        False where a shaft passes a level without a door.
     """
 
     square: Square
@@ -75,6 +86,7 @@ class Core:
     along_m: float = 0.0
     recess_m: float = 0.0
     stalls: tuple[str, ...] = ()
+    has_door: bool = True
 
     @property
     def lane(self) -> Square:
@@ -138,7 +150,7 @@ def _blocks(structure: Structure, wells: Collection[Square]) -> list[Square]:
 def core_placements(
     structure: Structure, cores: list[Core], height_m: float, look: WallsLook, wells: Collection[Square] = ()
 ) -> list[Placement]:
-    """Place a concrete block on every obstacle inside the contour, with a door if it is a core, and all other cores.
+    """Place all cores and shafts, and a concrete block on every other obstacle inside the contour.
 
     The squares of ramps' wells have none.
     """
@@ -154,9 +166,9 @@ def core_placements(
             placements.append(Placement(f"Obstacle_r{row:02d}_c{col:02d}", spec, position))
     for core in cores:
         row, col = core.square
-        kind = "Core" if core.recess_m else "Obstacle"
+        kind = "Core" if core.recess_m else "Obstacle" if core.has_door else "Shaft"
         name = f"{kind}_r{row:02d}_c{col:02d}" + (f"_{core.edge.name.capitalize()}" if core.recess_m else "")
-        spec = ObstacleSpec(core.width_m, core.depth_m, height_m, dado_m=dado_m)
+        spec = ObstacleSpec(core.width_m, core.depth_m, height_m, has_door=core.has_door, dado_m=dado_m)
         placements.append(placed(name, spec, core.centre_m, yaw_rad=edge_yaw_rad(core.edge)))
     return placements
 
@@ -166,7 +178,7 @@ def core_candidates(structure: Structure, graph: LaneSquares, config: GarageConf
 
     A candidate replaces as many stalls as it needs; the car in the next stall keeps its clearance from the wall.
     """
-    named = _named_rows(graph)
+    named = names_of_rows(graph)
     leaning = _leaning_grounds(structure, named)
     for core in _candidates(structure, graph, named, config):
         others = [stall for name, stall in leaning.items() if name not in core.stalls]
@@ -177,7 +189,7 @@ def core_candidates(structure: Structure, graph: LaneSquares, config: GarageConf
 _NamedRows = Mapping[tuple[Square, Edge], tuple[StallRow, tuple[str, ...]]]
 
 
-def _named_rows(graph: LaneSquares) -> _NamedRows:
+def names_of_rows(graph: LaneSquares) -> _NamedRows:
     """Rows by square and edge, with the names of their stalls."""
     ordinals: Counter[Square] = Counter()
     named = {}
@@ -227,7 +239,7 @@ def _in_row(structure: Structure, row: StallRow, names: tuple[str, ...], config:
     low, high, depth_m = room
     taken, width_m = min(_MOST_STALLS, row.count), row.shape.width_m
     start = -row.count * width_m / 2
-    gap = _gap_to_stalls_m(width_m, config.standard)
+    gap = gap_to_stalls_m(width_m, config.standard)
     spans: tuple[tuple[float, float, tuple[str, ...]], ...] = ((low, high, names),)
     if taken < row.count:
         spans = (
@@ -257,7 +269,7 @@ def _across_rows(
     width = min(high - low, _MOST_WIDTH_M)
     if width < _LEAST_WIDTH_M:
         return
-    gap = _gap_to_stalls_m(row.shape.width_m, config.standard)
+    gap = gap_to_stalls_m(row.shape.width_m, config.standard)
     spans = list(_spans_m(structure, row, named, RECESS_M + depth_m))
     for left in dict.fromkeys((low, high - width)):
         touched = tuple(name for name, start, end in spans if start < left + width + gap and end > left - gap)
@@ -306,7 +318,12 @@ def _core(structure: Structure, row: StallRow, place: tuple[float, float, float]
     return Core(row.square, row.edge, centre, round(width, 6), round(depth, 6), round(middle, 6), RECESS_M, stalls)
 
 
-def _gap_to_stalls_m(stall_width_m: float, profile: Profile) -> float:
+def gap_to_stalls_m(stall_width_m: float, profile: Profile) -> float:
     """Gap between a core and the next stall's line that keeps the clearance of a centred car."""
     wall_m = profile.wall_clearance.amount if profile.wall_clearance else _WALL_CLEARANCE_M
     return max(wall_m - (stall_width_m - profile.car_width_m) / 2, 0.0)
+
+
+def is_wide_enough(width_m: float, depth_m: float) -> bool:
+    """True if stairs or a lift fit into a core."""
+    return width_m >= _LEAST_WIDTH_M and depth_m >= _LEAST_DEPTH_M

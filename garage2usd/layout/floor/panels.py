@@ -97,7 +97,8 @@ class _Panels:
             return (*self._strips(tile), *self._portal(tile))
         places = self.grid.stall_places.get(tile.square, [])
         if core is not None:
-            return (*self._row_ends(tile, places), *stripes(*core.landing(tile)))
+            landing = stripes(*core.landing(tile)) if core.has_door else ()
+            return (*self._row_ends(tile, places), *landing)
         if self.grid.is_bare(tile):
             return hatching(tile.half_x_m, tile.half_z_m)
         hatched = row_end_hatching(tile, places, self.look) if self.look.hatching else ()

@@ -1,0 +1,169 @@
+"""Stair shafts: cores above one another on all levels, each with a door to a lane of its level."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from garage2usd.config import GarageConfig
+from garage2usd.layout.egress.cores import (
+    RECESS_M,
+    Core,
+    core_candidates,
+    gap_to_stalls_m,
+    is_wide_enough,
+    names_of_rows,
+)
+from garage2usd.layout.placement import point_inside, rounded
+from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.lane_graph import LaneSquares
+from garage2usd.structure.stalls import Edge, StallRow
+
+__all__ = ["LevelPlan", "Shaft", "has_doors", "shaft_candidates"]
+
+_LONGEST_PASSAGE_M = 3.6
+"""Greatest distance from the door of a core to the lane, between stalls."""
+_TOUCH_M = 1e-3
+
+
+class LevelPlan(NamedTuple):
+    """The plan of a level: S with R and C, its lanes and rows of stalls, and its settings."""
+
+    structure: Structure
+    graph: LaneSquares
+    config: GarageConfig
+
+
+Shaft = tuple[Core | None, ...]
+"""The core of each level from the top, some of them without a door; None below the shaft."""
+
+
+def has_doors(shaft: Shaft) -> bool:
+    """True if a shaft has a door on every level."""
+    return all(core is not None and core.has_door for core in shaft)
+
+
+def shaft_candidates(levels: Sequence[LevelPlan]) -> Iterator[Shaft]:
+    """Yield the candidate places of shafts, from the top level to the lowest one that they have a door on.
+
+    The ground is that of a candidate for one level alone, also with room for doors on its other sides. On the other
+    levels, a passage of up to 3.6 m leads from its door to a lane; it has no door on a level above without such a lane.
+    It replaces all stalls there that it leaves too narrow.
+    """
+    if len(levels) == 1:
+        yield from ((core,) for core in core_candidates(*levels[0]))
+        return
+    sites = [_ShaftSite(level) for level in levels]
+    seen: set[tuple[float, ...]] = set()
+    for number, level in enumerate(levels):
+        for core in _with_slender(core_candidates(*level), level.structure):
+            box = tuple(np.round(_block(core).bounds, 3).tolist())
+            if box not in seen:
+                parts: list[Core | None] = []
+                for other, site in enumerate(sites):
+                    part = core if other == number else site.core_at(core)
+                    if part is None:
+                        break
+                    parts.append(part)
+                while parts and parts[-1] is not None and not parts[-1].has_door:
+                    parts.pop()
+                if len(parts) > number:
+                    seen.add(box)
+                    yield (*parts, *[None] * (len(levels) - len(parts)))
+
+
+def _with_slender(cores: Iterable[Core], structure: Structure) -> Iterator[Core]:
+    """Yield cores, and each again with room for a door on all of its sides."""
+    for core in cores:
+        yield core
+        row, col = core.square
+        sides_m = float(structure.column_widths_mm[col]) / 1000, float(structure.row_depths_mm[row]) / 1000
+        side_m, across_m = sides_m if core.along_x else sides_m[::-1]
+        low = max(core.along_m - core.width_m / 2, RECESS_M - side_m / 2)
+        high = min(core.along_m + core.width_m / 2, side_m / 2 - RECESS_M)
+        depth_m = min(core.depth_m, across_m - RECESS_M - core.recess_m)
+        if is_wide_enough(high - low, depth_m) and (high - low, depth_m) != (core.width_m, core.depth_m):
+            along_m = (low + high) / 2
+            middle = point_inside(structure, core.square, core.edge, along_m, core.recess_m + depth_m / 2)
+            yield replace(
+                core,
+                centre_m=rounded(middle),
+                width_m=round(high - low, 6),
+                depth_m=round(depth_m, 6),
+                along_m=round(along_m, 6),
+            )
+
+
+def _block(core: Core) -> shapely.Polygon:
+    """Outline (x, z) of a core without the floor in front of its door."""
+    return replace(core, recess_m=0.0).ground
+
+
+class _ShaftSite:
+    """A level that the shafts of other levels pass through."""
+
+    def __init__(self, level: LevelPlan) -> None:
+        self._level = level
+        names: list[str] = []
+        grounds: list[shapely.Polygon] = []
+        for row, of_row in names_of_rows(level.graph).values():
+            names += of_row
+            grounds += _widened_grounds(level, row)
+        self._names, self._stalls = names, shapely.STRtree(grounds)
+
+    def core_at(self, core: Core) -> Core | None:
+        """Return the core on the same ground, with the door that replaces the fewest stalls or without one.
+
+        None if the ground is not free on this level.
+        """
+        structure, graph, _ = self._level
+        if structure.cell_at(core.square) is not Cell.FREE:
+            return None
+        found = []
+        for edge in Edge:
+            lane = edge.beyond(core.square)
+            if lane in graph.graph and structure.cells[lane] == Cell.LANE:
+                door = self._with_door(core, edge)
+                if door is not None:
+                    found.append(door)
+        closed = replace(core, recess_m=0.0, has_door=False)
+        return min(
+            found,
+            key=lambda door: (len(door.stalls), door.recess_m, door.edge),
+            default=replace(closed, stalls=self._replaced(closed)),
+        )
+
+    def _replaced(self, core: Core) -> tuple[str, ...]:
+        """Ids of the stalls that a core and its passage leave no room for."""
+        touched = self._stalls.query(core.ground.buffer(-_TOUCH_M, join_style="mitre"), predicate="intersects")
+        return tuple(self._names[index] for index in sorted(touched.tolist()))
+
+    def _with_door(self, core: Core, edge: Edge) -> Core | None:
+        structure, _, config = self._level
+        origin, along, inside = (
+            np.array(point_inside(structure, core.square, edge, *at)) for at in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
+        )
+        off = np.array(core.centre_m) - origin
+        along_m, middle_m = float(off @ (along - origin)), float(off @ (inside - origin))
+        turned = core.along_x is not edge.along_x
+        width_m, depth_m = (core.depth_m, core.width_m) if turned else (core.width_m, core.depth_m)
+        recess_m = round(middle_m - depth_m / 2, 6)
+        row, col = core.square
+        side_mm = structure.column_widths_mm[col] if edge.along_x else structure.row_depths_mm[row]
+        reach_m = abs(along_m) + width_m / 2 + config.bay.column_size_m / 2
+        if not RECESS_M <= recess_m <= _LONGEST_PASSAGE_M or reach_m > side_mm / 2000:
+            return None
+        found = Core(core.square, edge, core.centre_m, width_m, depth_m, round(along_m, 6), recess_m)
+        return replace(found, stalls=self._replaced(found))
+
+
+def _widened_grounds(level: LevelPlan, row: StallRow) -> Iterator[shapely.Polygon]:
+    """Yield the outlines (x, z) of the stalls of a row, with the room beside them that their cars need at a wall."""
+    shape, gap_m = row.shape, gap_to_stalls_m(row.shape.width_m, level.config.standard)
+    lean_m = row.lean * shape.slope * shape.depth_m
+    for start in row.starts_m:
+        low, high = start - gap_m, start + shape.pitch_m + gap_m
+        corners = ((low, 0.0), (high, 0.0), (high + lean_m, shape.depth_m), (low + lean_m, shape.depth_m))
+        yield shapely.Polygon([point_inside(level.structure, row.square, row.edge, *at) for at in corners])
