@@ -1,4 +1,4 @@
-"""The floor for driving: level in the garage, and sloping on its ramps."""
+"""The floor for driving: level in the garage, and sloping on its ramps, straight or bent."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from garage2usd.as_built.driven_road import floors_of_ramps
+from garage2usd.as_built.driven_road import bent_floors, floors_of_ramps
 from garage2usd.as_built.shapes import Thing
-from garage2usd.driving import RampFloor, heights_m
+from garage2usd.driving import SlopedFloor, heights_m
 from garage2usd.garage import LaneGraph
 from garage2usd.reading.levels import StageLevel
 
@@ -31,7 +31,7 @@ class DrivenFloor:
     """
 
     level_m: float
-    ramps: tuple[RampFloor, ...]
+    ramps: tuple[SlopedFloor, ...]
 
     @classmethod
     def of(cls, lanes: LaneGraph, things: Iterable[Thing]) -> "DrivenFloor":
@@ -44,10 +44,11 @@ class DrivenFloor:
         named = list(things)
         floors = []
         for number, level in enumerate(levels):
-            ramps = floors_of_ramps(thing for thing in named if thing.name.startswith(f"{level.path}/"))
+            own = [thing for thing in named if thing.name.startswith(f"{level.path}/")]
+            ramps = floors_of_ramps(own)
             if number:  # those of the top level lead to the street and go on
                 ramps = tuple(replace(ramp, end_m=float(ramp.runs_m[-1]) + BEYOND_TOP_M) for ramp in ramps)
-            floors.append(cls(level.floor_m, ramps))
+            floors.append(cls(level.floor_m, (*ramps, *bent_floors(own))))
         return tuple(floors)
 
     def heights_m(self, x_m: ArrayLike, z_m: ArrayLike) -> NDArray[np.float64]:

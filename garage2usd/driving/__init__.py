@@ -16,7 +16,7 @@ from garage2usd.driving.layout_garage import (
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre, Move, Waypoint
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.proof import LanePose, Limits, Outcome, Search, least_clearance_m
-from garage2usd.driving.road import BentFloor, DrivenRoad, Portal, RampFloor, heights_m
+from garage2usd.driving.road import BentFloor, DrivenRoad, Portal, RampFloor, SlopedFloor, heights_m
 from garage2usd.driving.way_search import find_way
 
 __all__ = [
@@ -36,6 +36,7 @@ __all__ = [
     "Pose",
     "RampFloor",
     "Search",
+    "SlopedFloor",
     "StallProof",
     "Waypoint",
     "find_way",

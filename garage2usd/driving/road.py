@@ -72,19 +72,25 @@ class BentFloor:
 
     def at(self, x_m: Floats, z_m: Floats) -> Floats:
         """Return the heights of the ramp's floor at points, NaN beside it; the lowest of several above one another."""
-        x, z = x_m.reshape(-1), z_m.reshape(-1)
+        order = np.argsort(x_m, axis=None, kind="stable")
+        x, z = x_m.reshape(-1)[order], z_m.reshape(-1)[order]
         found = np.full(x.shape, np.inf)
         for corners in self.triangles:
             (x0, y0, z0), (x1, y1, z1), (x2, y2, z2) = corners.tolist()
             double = (x1 - x0) * (z2 - z0) - (x2 - x0) * (z1 - z0)
-            if double == 0.0:
+            low, high = np.searchsorted(x, [min(x0, x1, x2) - _ON_EDGE, max(x0, x1, x2) + _ON_EDGE])
+            if double == 0.0 or low == high:
                 continue
-            first = ((x - x0) * (z2 - z0) - (x2 - x0) * (z - z0)) / double
-            second = ((x1 - x0) * (z - z0) - (x - x0) * (z1 - z0)) / double
+            near = slice(low, high)
+            away_x, away_z = x[near] - x0, z[near] - z0
+            first = (away_x * (z2 - z0) - (x2 - x0) * away_z) / double
+            second = ((x1 - x0) * away_z - away_x * (z1 - z0)) / double
             is_on = (first >= -_ON_EDGE) & (second >= -_ON_EDGE) & (first + second <= 1 + _ON_EDGE)
             heights = y0 + first * (y1 - y0) + second * (y2 - y0)
-            found = np.where(is_on, np.minimum(found, heights), found)
-        return np.where(np.isinf(found), np.nan, found).reshape(x_m.shape)
+            found[near] = np.where(is_on, np.minimum(found[near], heights), found[near])
+        result = np.full(x.shape, np.nan)
+        result[order] = np.where(np.isinf(found), np.nan, found)
+        return result.reshape(x_m.shape)
 
     def lifted(self, height_m: float) -> "BentFloor":
         """Return the floor some metres higher."""

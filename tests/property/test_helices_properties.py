@@ -9,9 +9,14 @@ from support.coil_judge import CoilJudge
 from support.level_judge import built_and_judged
 
 from garage2usd import GarageConfig
+from garage2usd.as_built.contents import read_contents
+from garage2usd.as_built.driven_floor import DrivenFloor
 from garage2usd.buildings import generate_levels
 from garage2usd.config.building import BuildingConfig
 from garage2usd.profiles import PROFILE_NAMES
+from garage2usd.reading.labels import read_labels
+from garage2usd.reading.levels import levels_of
+from garage2usd.sensors.rays.driven_surface import DrivenSurface
 
 STEEPEST_PERCENT = {"cn-jgj100": 12.0, "de-garvo": 15.0, "uk-istructe": 10.0, "us-ada": 15.0}
 
@@ -37,7 +42,8 @@ def test_helices_are_reached_and_a_large_car_drives_over_them(number, tmp_path):
     assert len(ramps) == 2 * (config.building.levels - 1)
     walls = CoilJudge(judge)
     for ramp in ramps[-2:]:
-        _a_large_car_drives_over(ramp, walls, config)
+        drive = _a_large_car_drives_over(ramp, walls, config)
+        _free_space_covers(drive, judge.stage)
 
 
 def test_four_levels_have_a_helix_down_and_one_up_between_each_two():
@@ -69,3 +75,17 @@ def _a_large_car_drives_over(ramp, judge, config):
     assert drive.belly_m > 0.05
     assert drive.headroom_m >= config.fittings.clear_height_m
     assert drive.beside_m > 0.25
+    return drive
+
+
+def _free_space_covers(drive, stage):
+    """The middle of the lane is free on the surface that the triangles have, above and below it nothing is."""
+    surface = DrivenSurface(
+        stage, DrivenFloor.of_levels(levels_of(stage), read_contents(stage).things), read_labels(stage, None)
+    )
+    lane = np.column_stack([drive.line[:, 0], drive.floor_m, drive.line[:, 2]])
+    assert surface.is_free(lane).all()
+    sloped = lane[np.abs(lane[:, 1] - lane[[0], 1]) > 0.5]
+    sloped = sloped[np.abs(sloped[:, 1] - lane[[-1], 1]) > 0.5]
+    assert not surface.is_free(sloped + np.array([0.0, 0.3, 0.0])).any()
+    assert not surface.is_free(sloped - np.array([0.0, 0.3, 0.0])).any()
