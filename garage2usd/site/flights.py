@@ -25,7 +25,10 @@ def least_run_m(building: BuildingConfig) -> float:
 
 
 def flight_places(site: Structure, config: GarageConfig) -> Iterator[Flight]:
-    """Yield the flights from all free squares in all directions, as short as the sides of their squares allow."""
+    """Yield the flights from all free squares in all directions, as short as the sides of their squares allow.
+
+    A number of squares that `building.place` gives is kept where they are long enough.
+    """
     for way in Edge:
         for row, col in np.argwhere(site.cells == Cell.FREE).tolist():
             yield from _flights(
@@ -73,11 +76,14 @@ def _flights(
 ) -> Iterator[Flight]:
     """Yield the flight from a landing, as short as the sides of its squares allow; none off the site."""
     axis = 0 if way.along_x else 1
+    given = building.place.count if building.place else None
     if bay.chosen_sides[axis]:
         usual_m = (bay.stall_length_m + bay.row_m(_STALLS_BETWEEN_COLUMNS)) / 2
-        yield Flight(head, way, math.ceil(least_run_m(building) / usual_m - 1e-9), keeps_left)
+        least = math.ceil(least_run_m(building) / usual_m - 1e-9)
+        if given is None or given >= least:
+            yield Flight(head, way, given or least, keeps_left)
         return
-    for length in range(1, site.shape[axis]):
+    for length in (given,) if given else range(1, site.shape[axis]):
         flight = Flight(head, way, length, keeps_left)
         row, col = flight.links[0].foot
         if not (0 <= row < site.shape[0] and 0 <= col < site.shape[1]):

@@ -24,10 +24,17 @@ _MOST_WIDENED_MM = 10_000
 
 
 def helix_places(site: Structure, config: GarageConfig) -> Iterator[Helix]:
-    """Yield the helices at all free squares in all directions, of as few squares as their sides allow."""
+    """Yield the helices at all free squares in all directions, of as few squares as their sides allow.
+
+    With `building.place` also those of more squares, or of its number of squares.
+    """
     keeps_left = config.standard.drives_on_left
     are_chosen = config.bay.chosen_sides
-    for count in (_COUNTS[0],) if any(are_chosen) else _COUNTS:
+    place = config.building.place
+    counts: tuple[int, ...] = (_COUNTS[0],) if any(are_chosen) else _COUNTS
+    if place and place.count:
+        counts = tuple(count for count in _COUNTS if count == place.count)
+    for count in counts:
         found = False
         for way in Edge:
             for aside in way.ends:
@@ -39,7 +46,7 @@ def helix_places(site: Structure, config: GarageConfig) -> Iterator[Helix]:
                     if any(are_chosen) or _is_round(site, helix, config):
                         found = True
                         yield helix
-        if found:
+        if found and not place:
             return
 
 

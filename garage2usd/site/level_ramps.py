@@ -1,14 +1,14 @@
-"""Place of the ramps between levels: a draw of its own among all places that leave each level in one piece."""
+"""Place of the ramps between levels: given, or drawn among all places that leave each level in one piece."""
 
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from garage2usd.common.errors import GenerationError
+from garage2usd.common.errors import ConfigError, GenerationError
 from garage2usd.common.randomness import Step, generator
 from garage2usd.config import GarageConfig
-from garage2usd.config.building import LinkKind
+from garage2usd.config.building import LinkKind, RampsPlace
 from garage2usd.site.flights import flight_of_tape, flight_places, flight_room, with_run
 from garage2usd.site.helices import helix_cost, helix_of_tape, helix_places, helix_room, with_circles
 from garage2usd.site.portals import free_squares_connected
@@ -50,7 +50,7 @@ _KINDS = {
 
 
 def draw_ramps(site: Structure, config: GarageConfig) -> Ramps:
-    """Draw the place of the ramps between levels.
+    """Draw the place of the ramps between levels, or take the given one.
 
     Parameters
     ----------
@@ -64,8 +64,12 @@ def draw_ramps(site: Structure, config: GarageConfig) -> Ramps:
     ------
     GenerationError
         If the ramps find no place.
+    ConfigError
+        If they do not fit the given one.
     """
     kind, building = _KINDS[config.building.ramps], config.building
+    if building.place is not None:
+        return _given(site, config, building.place)
     places = [ramps for ramps in kind.places(site, config) if ramps_are_free(site.cells, ramps, building.levels)]
     if not places:
         reason = (
@@ -78,6 +82,21 @@ def draw_ramps(site: Structure, config: GarageConfig) -> Ramps:
         costs = [kind.cost(site, ramps) for ramps in places]
         places = [ramps for ramps, cost in zip(places, costs, strict=True) if cost == min(costs)]
     return places[int(generator(config.seed, Step.LINKS).integers(len(places)))]
+
+
+def _given(site: Structure, config: GarageConfig, place: RampsPlace) -> Ramps:
+    """Return the ramps on given squares."""
+    kind, building = _KINDS[config.building.ramps], config.building
+    asked = place.square, Edge[place.way.upper()], place.aside and Edge[place.aside.upper()], place.count
+    for ramps in kind.places(site, config):
+        is_asked = all(want is None or want == got for want, got in zip(asked, ramps.place, strict=True))
+        if is_asked and ramps_are_free(site.cells, ramps, building.levels):
+            return ramps
+    wanted = (
+        f"squares on which {kind.room(config)}, with landings and the squares ahead of these, are free on the site "
+        f"of seed {config.seed} and leave each level in one piece"
+    )
+    raise ConfigError("building.place", place.model_dump(exclude_none=True), wanted)
 
 
 def ramps_are_free(cells: CellArray, ramps: Ramps, levels: int) -> bool:

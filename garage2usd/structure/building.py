@@ -64,6 +64,11 @@ class Ramps(ABC):
 
     @property
     @abstractmethod
+    def place(self) -> tuple[Square, Edge, Edge, int]:
+        """Square, way and direction aside by which `garage2usd.config.building.RampsPlace` gives them, and count."""
+
+    @property
+    @abstractmethod
     def in_words(self) -> str:
         """Tell where the ramps are."""
 
@@ -126,6 +131,11 @@ class Flight(Ramps):
     def tape(self) -> str:
         """Row and column of the head, way down, and number of squares."""
         return f"{self.head[0]},{self.head[1]},{self.way.name},{self.length}"
+
+    @property
+    def place(self) -> tuple[Square, Edge, Edge, int]:
+        """Square, way and direction aside by which settings give them, and number of squares."""
+        return self.head, self.way, self.aside, self.length
 
     @property
     def in_words(self) -> str:

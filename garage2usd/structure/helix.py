@@ -136,6 +136,11 @@ class Helix(Ramps):
         return f"{LinkKind.HELIX},{row},{col},{self.way.name},{self.aside.name},{self.count}"
 
     @property
+    def place(self) -> tuple[Square, Edge, Edge, int]:
+        """Square, way and direction aside by which settings give them, and number of squares."""
+        return self.corner, self.way, self.aside, self.count
+
+    @property
     def in_words(self) -> str:
         """Tell where the ramps are."""
         squares = f"{self.count} x {self.count} squares each"

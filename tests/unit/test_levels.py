@@ -18,6 +18,8 @@ from garage2usd.environment import LanesEnvironment
 from garage2usd.maps.level_drives import LevelsDrivePlanner
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.levels_report import read_levels_report
+from garage2usd.site import make_site
+from garage2usd.site.level_ramps import draw_ramps
 from garage2usd.stage.driving_layer import write_driving_layer
 from garage2usd.structure.building import Building, Flight, level_cells
 from garage2usd.structure.grid import Cell, Structure
@@ -106,6 +108,51 @@ def test_the_tape_makes_the_same_garage_and_seeds_other_ramps(built):
 def test_settings_that_do_not_go_together_are_named(changes, said):
     with pytest.raises(ConfigError, match=said):
         garage2usd.generate_levels(GarageConfig(**{**SMALL, "building": {"levels": 2}, **changes}))
+
+
+@pytest.mark.parametrize(
+    ("building", "squares"),
+    [
+        ({"place": {"square": [2, 4], "way": "down"}}, {(row, col) for row in range(3, 7) for col in (4, 5)}),
+        ({"place": {"square": [7, 4], "way": "up", "count": 5}}, {(row, col) for row in range(2, 7) for col in (3, 4)}),
+        (
+            {"ramps": "helix", "place": {"square": [3, 2], "way": "down", "aside": "right"}},
+            {(row, col) for row in range(3, 6) for col in range(2, 8)},
+        ),
+    ],
+)
+def test_ramps_lie_where_they_are_given(building, squares):
+    site = {"width_cells": 10, "height_cells": 9, "entrance_cells": [[8, 0]], "exit_cells": [[8, 9]]}
+    asked = GarageConfig(**{**SMALL, "site": site, "building": {"levels": 2, **building}})
+    ramps = draw_ramps(make_site(asked.site, bay=asked.bay, seed=5), asked)
+    assert set(ramps.squares) == squares
+    assert ramps.links[0].is_down
+
+
+@pytest.mark.parametrize(
+    ("building", "said"),
+    [
+        ({"place": {"square": [0, 4], "way": "up"}}, "building.place"),
+        ({"place": {"square": [2, 4], "way": "down", "count": 3}}, "ramps of 28.2 m, two squares wide"),
+        ({"ramps": "helix", "place": {"square": [3, 2], "way": "down", "aside": "right", "count": 6}}, "3 x 3 squares"),
+    ],
+)
+def test_given_ramps_without_room_are_refused_by_name(building, said):
+    with pytest.raises(ConfigError, match=said):
+        garage2usd.generate_levels(GarageConfig(**{**SMALL, "building": {"levels": 2, **building}}))
+
+
+@pytest.mark.parametrize(
+    ("building", "said"),
+    [
+        ({"place": {"square": [2, 4], "way": "down", "aside": "left"}}, "only with ramps = 'helix'"),
+        ({"ramps": "helix", "place": {"square": [2, 4], "way": "down"}}, "left or right"),
+        ({"ramps": "helix", "place": {"square": [2, 4], "way": "left", "aside": "right"}}, "down or up"),
+    ],
+)
+def test_a_place_that_is_none_of_its_kind_is_refused(building, said):
+    with pytest.raises(ConfigError, match=said):
+        GarageConfig(building={"levels": 2, **building})
 
 
 def test_a_site_without_room_for_ramps_says_so():
