@@ -11,8 +11,9 @@ import pytest
 from pxr import Sdf, Usd, UsdValidation
 from support.sample_files import SAMPLES, each_build, each_package
 from support.small_garage import SETTINGS
+from support.small_levels import SMALL_LEVELS
 
-from garage2usd import GarageConfig, build
+from garage2usd import GarageConfig, build, build_levels
 
 pytestmark = pytest.mark.client
 
@@ -55,6 +56,12 @@ def test_nvidia_validation_finds_nothing(sample, extension, builds, tmp_path):
     in_full = extension == "usdc" and sample in IN_FULL
     options = ["--no-variants"] if in_full else ["--no-variants", "--no-instance-prototypes"]
     assert nvidia_findings(builds(sample, extension).stage, tmp_path / "findings.csv", *options) == []
+
+
+def test_validations_of_several_levels_find_nothing(tmp_path):
+    stage = build_levels(SMALL_LEVELS, tmp_path / "garage.usdz").stage
+    assert usd_findings(stage) == []
+    assert nvidia_findings(stage, tmp_path / "findings.csv", "--no-variants", "--no-instance-prototypes") == []
 
 
 def test_nvidia_validation_of_every_variant_finds_nothing(tmp_path):
