@@ -165,7 +165,8 @@ def _are_reached(points: list[Points], doors: Points, reach_m: float) -> bool:
 def _covering(points: list[Points], places: _Places, fixed: Points, exits: int, reach_m: float) -> list[int]:
     """Choose shafts until all stalls that can be reached are, and all levels that can have enough exits have them.
 
-    In each step the shaft is added that adds the most for the stalls that it replaces.
+    In each step the shaft is added that adds the most for the stalls that it replaces, among equals the one farthest
+    from the others.
     """
     near = [_distances(own, doors) <= reach_m for own, doors in zip(points, places.doors, strict=True)]
     left = [~(_distances(own, doors) <= reach_m).any(axis=1) for own, doors in zip(points, fixed, strict=True)]
@@ -175,16 +176,28 @@ def _covering(points: list[Points], places: _Places, fixed: Points, exits: int, 
     chosen: list[int] = []
     while True:
         gains = sum(reached[still].sum(axis=0) for reached, still in zip(near, left, strict=True))
-        gains = gains + _EXIT_WORTH_STALLS * has_door[missing > 0].sum(axis=0)
+        gains = gains + _EXIT_WORTH_STALLS * (np.maximum(missing, 0) @ has_door)
         worth = np.where(free, gains / (1 + places.stalls), 0.0).round(9)
-        best = int(np.argmax(worth))
-        if worth[best] <= 0:
+        if worth.max() <= 0:
             return chosen
+        equal = np.flatnonzero(worth == worth.max())
+        best = int(equal[np.argmax(_far_m(places, fixed, chosen)[equal])])
         chosen.append(best)
         squares = _squares_of(places.shafts[best])
         free &= [not squares & _squares_of(shaft) for shaft in places.shafts]
         missing -= has_door[:, best]
         left = [still & ~reached[:, best] for reached, still in zip(near, left, strict=True)]
+
+
+def _far_m(places: _Places, fixed: Points, chosen: list[int]) -> NDArray[np.float64]:
+    """Distance of each candidate's doors to the nearest door that is there, on any level; shape (candidates,)."""
+    doors = np.concatenate([fixed, places.doors[:, chosen]], axis=1)
+    if not doors.shape[1]:
+        return np.zeros(len(places.shafts))
+    with np.errstate(invalid="ignore"):
+        nearest = [_distances(own, there).min(axis=1) for own, there in zip(places.doors, doors, strict=True)]
+    far: NDArray[np.float64] = np.nan_to_num(nearest, nan=np.inf, posinf=np.inf).min(axis=0).round(6)
+    return far
 
 
 def _squares_of(shaft: Shaft) -> set[Square]:
