@@ -168,9 +168,12 @@ def _covering(points: list[Points], places: _Places, fixed: Points, exits: int, 
     In each step the shaft is added that adds the most for the stalls that it replaces, among equals the one farthest
     from the others.
     """
-    near = [_distances(own, doors) <= reach_m for own, doors in zip(points, places.doors, strict=True)]
-    left = [~(_distances(own, doors) <= reach_m).any(axis=1) for own, doors in zip(points, fixed, strict=True)]
     has_door = np.isfinite(places.doors[..., 0])
+    near = [
+        (_distances(own, doors) <= reach_m) & there
+        for own, doors, there in zip(points, places.doors, has_door, strict=True)
+    ]
+    left = [~(_distances(own, doors) <= reach_m).any(axis=1) for own, doors in zip(points, fixed, strict=True)]
     missing = np.full(len(points), exits - fixed.shape[1])
     free = np.ones(len(places.shafts), dtype=bool)
     chosen: list[int] = []
