@@ -28,21 +28,19 @@ from garage2usd.maps.road_builder import network_of
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.pipeline import build
 from garage2usd.reading.files import STAGE_SUFFIXES, open_stage
-from garage2usd.reading.levels import levels_of, refuse_levels
+from garage2usd.reading.levels import levels_of
 from garage2usd.reading.objects import PlacedObject
 from garage2usd.reading.remarks import Remarks
 from garage2usd.reading.report import read_report
 from garage2usd.reading.values import metres_y_up
 from garage2usd.reading.walk import placed_objects
 
-__all__ = ["EXPORT_SUFFIXES", "LEVEL_SUFFIXES", "check_exports", "check_formats", "export"]
+__all__ = ["EXPORT_SUFFIXES", "check_exports", "check_formats", "export"]
 
 _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO, _GRID = ".json", ".glb", ".osm", ".xodr", ".xosc", ".yaml"
 _AREAS = ".add.xml"
 _OF_EXTRA = {_LANELET2: ("a Lanelet2 map", "pyproj"), _SCENARIO: ("a scenario", "scenariogeneration")}
 """Formats that need a module of an extra, with their description and that module, by extension."""
-LEVEL_SUFFIXES = frozenset({_GRID, _LANELET2, _MAP, _SCENARIO, _SCENE})
-"""Extensions of the formats in which a garage of several levels can be written."""
 Notice = Callable[[str], None]
 """Callback for a line on data that a format cannot represent."""
 
@@ -56,12 +54,9 @@ class _Source:
     def read_for(self, formats: Sequence[str]) -> None:
         """Read the data that several files need, so that forks of this process share it."""
         if levels_of(self.stage):
-            for suffix in formats:
-                if suffix not in LEVEL_SUFFIXES:
-                    refuse_levels(self.stage, self.name, f"export to {suffix}")
             if len({*formats} - {_SCENE}) > 1:
                 _ = self.levels
-            if {_LANELET2, _MAP} <= {*formats}:
+            if len({_LANELET2, _MAP, _AREAS} & {*formats}) > 1:
                 _ = self.level_networks
             return
         of_lanes = [suffix for suffix in formats if suffix != _SCENE]
@@ -199,14 +194,17 @@ def _scenario(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> 
 
 def _parking_areas(source: _Source, path: Path, asked: _Asked, remarks: Remarks) -> None:
     _, network_file = asked.files(path.parent)
+    if source.levels is None:
+        levels = [(source.garage, source.network)]
+    else:
+        levels = [(level.garage, level.network) for level in source.level_networks]
     write_parking_areas(
-        source.garage,
+        levels,
         path,
         asked.settings.sumo,
         network_file=network_file,
         road_file=asked.road_file,
         remarks=remarks,
-        network=source.network,
     )
 
 

@@ -266,7 +266,6 @@ class Recipe(Settings):
     def _check_levels(self, config: GarageConfig) -> None:
         """Refuse settings and outputs that several levels do not go with."""
         from garage2usd.buildings import check_levels  # noqa: PLC0415 - it brings USD, which most recipes do without
-        from garage2usd.exports import LEVEL_SUFFIXES  # noqa: PLC0415
 
         check_levels(config)
         if self.make.drives:
@@ -274,10 +273,6 @@ class Recipe(Settings):
                 "none in a recipe with building.levels of 2 or more, for which drives of data sets are not built yet"
             )
             raise ConfigError("make.drives.rig", self.make.drives.rig.name, wanted)
-        refused = [name for name in self.make.exports if f".{name}" not in LEVEL_SUFFIXES]
-        if refused:
-            known = ", ".join(sorted(suffix.removeprefix(".") for suffix in LEVEL_SUFFIXES))
-            raise ConfigError("make.exports", refused, f"{known} in a recipe with building.levels of 2 or more")
 
 
 def load_recipe(path: str | Path) -> Recipe:

@@ -10,8 +10,7 @@ from garage2usd.config.maps import ParkingAreas, SumoConfig
 from garage2usd.garage import Stall, StallUse
 from garage2usd.maps.frame import map_point
 from garage2usd.maps.network import Network
-from garage2usd.maps.parking_lanes import ParkingLane, ParkingLanes, ParkingSpace
-from garage2usd.maps.road_builder import network_of
+from garage2usd.maps.parking_lanes import ParkingLane, ParkingLanes, ParkingSpace, driven_lanes
 from garage2usd.maps.xml_text import child, write_xml
 from garage2usd.native import elementary
 from garage2usd.reading.remarks import Remarks
@@ -29,21 +28,21 @@ _SEPARATOR = " "
 
 
 def write_parking_areas(
-    garage: BuiltGarage,
+    levels: Sequence[tuple[BuiltGarage, Network]],
     path: Path,
     settings: SumoConfig,
     *,
     network_file: Path,
     road_file: str,
     remarks: Remarks,
-    network: Network | None = None,
 ) -> None:
     """Write the stalls of a garage as ``parkingArea`` elements of SUMO, and netconvert's configuration for the network.
 
     Parameters
     ----------
-    garage
-        The garage.
+    levels
+        The garage and its network (`garage2usd.maps.road_builder.network_of`); of several levels each of them, with the
+        networks of `garage2usd.maps.level_networks.level_networks`.
     path
         The additional file (``.add.xml``), in an existing folder.
     settings
@@ -54,13 +53,6 @@ def write_parking_areas(
         Name of the OpenDRIVE map of the same garage.
     remarks
         Told of the stalls that are left out.
-    network
-        Network of `garage2usd.maps.road_builder.network_of`, if already known.
-
-    Raises
-    ------
-    StageError
-        If the garage has no complete lane graph.
 
     Notes
     -----
@@ -68,24 +60,29 @@ def write_parking_areas(
     the middle of the stall's far end for a car parked nose in. An angle of 0 points to -y, and positive ones turn
     counter-clockwise, in degrees; the documentation of SUMO says otherwise (its issue 18141).
     """
-    network = network or network_of(garage)
-    lanes = ParkingLanes(network)
+    driven = driven_lanes(network for _, network in levels)
+    root = ET.Element("additional")
+    for garage, network in levels:
+        lanes = ParkingLanes(network, driven)
+        spaces = list(_spaces(garage, lanes, remarks))
+        for name, area in _areas(spaces, settings.areas):
+            _add_area(root, name, area, garage, settings)
+    write_xml(root, path)
+    _write_configuration(network_file, road_file)
+
+
+def _spaces(garage: BuiltGarage, lanes: ParkingLanes, remarks: Remarks) -> Iterator[ParkingSpace]:
+    """Yield the stalls where cars park beside their lanes."""
     parking = [stall for stall in garage.stalls if stall.is_parked_in]
     for stall in garage.stalls:
         if not stall.is_parked_in:
             remarks.add("stalls where nobody parks are left out", stall.name)
-    spaces = []
     for stall in parking:
         space = lanes.space_of(stall)
         if space is None:
             remarks.add("stalls without a lane from an entrance and to an exit are left out", stall.name)
         else:
-            spaces.append(space)
-    root = ET.Element("additional")
-    for name, area in _areas(spaces, settings.areas):
-        _add_area(root, name, area, garage, settings)
-    write_xml(root, path)
-    _write_configuration(network_file, road_file)
+            yield space
 
 
 def _areas(spaces: Iterable[ParkingSpace], areas: ParkingAreas) -> Iterator[tuple[str, list[ParkingSpace]]]:
@@ -140,10 +137,10 @@ def _add_area(
     for key, values in facts.items():
         child(element, "param", key=key, value=_SEPARATOR.join(values))
     for space in area:
-        _add_space(element, space.stall, garage)
+        _add_space(element, space.stall, garage.lanes.floor_m() + lane.road.floor_m)
 
 
-def _add_space(element: ET.Element, stall: Stall, garage: BuiltGarage) -> None:
+def _add_space(element: ET.Element, stall: Stall, floor_m: float) -> None:
     (x, y), (back_x, back_y) = map_point(stall.centre), map_point(stall.backwards)
     half_m = stall.length_m / 2
     heading_deg = math.degrees(elementary.arctan2(-back_y, -back_x))
@@ -152,7 +149,7 @@ def _add_space(element: ET.Element, stall: Stall, garage: BuiltGarage) -> None:
         "space",
         x=round(x - back_x * half_m, _DIGITS),
         y=round(y - back_y * half_m, _DIGITS),
-        z=round(garage.lanes.floor_m(stall.level), _DIGITS),
+        z=round(floor_m, _DIGITS),
         name=stall.name,
         width=round(stall.width_m, _DIGITS),
         length=round(stall.length_m, _DIGITS),

@@ -1,7 +1,7 @@
 """Lanes of SUMO's network before the stalls of a garage."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterable, Iterator
 from functools import cached_property
 from typing import NamedTuple
 
@@ -13,7 +13,7 @@ from garage2usd.garage import Stall
 from garage2usd.maps.frame import map_point, map_points
 from garage2usd.maps.network import LEFT, RIGHT, Network, Road
 
-__all__ = ["ParkingLane", "ParkingLanes", "ParkingSpace"]
+__all__ = ["ParkingLane", "ParkingLanes", "ParkingSpace", "driven_lanes"]
 
 _STEP_M = 0.25
 """Distance between the points of a lane's middle line that stalls are measured to."""
@@ -56,16 +56,23 @@ class ParkingSpace(NamedTuple):
 
 
 class ParkingLanes:
-    """Lanes of a network that vehicles reach from an entrance and leave for an exit."""
+    """Lanes of a network that vehicles reach from an entrance and leave for an exit.
 
-    def __init__(self, network: Network) -> None:
-        self._network = network
+    Parameters
+    ----------
+    network
+        The network, of several levels that of one level.
+    driven
+        Road and lane numbers on a way from an entrance to an exit, by `driven_lanes` of all levels.
+    """
+
+    def __init__(self, network: Network, driven: Collection[tuple[int, int]]) -> None:
         self._usable = [
             ParkingLane(road, number)
             for road in network.roads
             if road.junction is None
             for number in road.lanes
-            if (road.number, number) in self._driven
+            if (road.number, number) in driven
         ]
         self._near: dict[int, list[ParkingLane]] = {}
         meeting = {junction.number: junction.node for junction in network.junctions}
@@ -83,23 +90,6 @@ class ParkingLanes:
         lane = min(candidates, key=lambda lane: self._cost(lane, mouth))
         runs = [lane.position_m(self._nearest(lane, corner)[0]) for corner in map_points(stall.corners[:2])]
         return ParkingSpace(stall, lane, min(runs), max(runs))
-
-    @cached_property
-    def _driven(self) -> set[tuple[int, int]]:
-        """Road and lane numbers on a way from an entrance to an exit; all of them in a network without both.
-
-        Vehicles turn round where an aisle with two lanes ends, as netconvert makes a connection for that.
-        """
-        graph = nx.DiGraph(list(_connections(self._network)))
-        graph.add_nodes_from((road.number, lane) for road in self._network.roads for lane in road.lanes)
-        sources = [lane for lane, count in graph.in_degree if not count]
-        sinks = [lane for lane, count in graph.out_degree if not count]
-        if not sources or not sinks:
-            return set(graph)
-        graph.add_edges_from(((0, 0), source) for source in sources)
-        graph.add_edges_from((sink, (0, 1)) for sink in sinks)
-        driven: set[tuple[int, int]] = nx.descendants(graph, (0, 0)) & nx.ancestors(graph, (0, 1))
-        return driven
 
     def _cost(self, lane: ParkingLane, mouth: NDArray[np.float64]) -> tuple[bool, float, int, int]:
         too_short = lane.road.line.length_m < _LEAST_M
@@ -126,6 +116,45 @@ class ParkingLanes:
     @cached_property
     def _lines(self) -> dict[ParkingLane, tuple[NDArray[np.float64], NDArray[np.float64]]]:
         return {}
+
+
+def driven_lanes(networks: Iterable[Network]) -> set[tuple[int, int]]:
+    """Find the lanes on a way from an entrance to an exit; all lanes if there is none of either.
+
+    Parameters
+    ----------
+    networks
+        The network of a garage, or those of all its levels, joined by their ramps.
+
+    Returns
+    -------
+    set of tuple
+        Numbers of roads and lanes.
+
+    Notes
+    -----
+    Vehicles turn round where an aisle with two lanes ends, as netconvert makes a connection for that. A lane that
+    begins where an aisle meets a one-way lane is no entrance.
+    """
+    networks = tuple(networks)
+    graph = nx.DiGraph([pair for network in networks for pair in _connections(network)])
+    graph.add_nodes_from((road.number, lane) for network in networks for road in network.roads for lane in road.lanes)
+    ends = [end for network in networks for road in network.roads for end in _open_ends(road)]
+    sources = [lane for lane, is_start in ends if is_start and not graph.in_degree(lane)]
+    sinks = [lane for lane, is_start in ends if not is_start and not graph.out_degree(lane)]
+    if not sources or not sinks:
+        return set(graph)
+    graph.add_edges_from(((0, 0), source) for source in sources)
+    graph.add_edges_from((sink, (0, 1)) for sink in sinks)
+    driven: set[tuple[int, int]] = nx.descendants(graph, (0, 0)) & nx.ancestors(graph, (0, 1))
+    return driven
+
+
+def _open_ends(road: Road) -> Iterator[tuple[tuple[int, int], bool]]:
+    """Yield the lanes of a road at ends that no other road meets; True for those that begin there."""
+    for neighbour, starting in ((road.predecessor, RIGHT), (road.successor, LEFT)):
+        if neighbour is None:
+            yield from (((road.number, lane), lane == starting) for lane in road.lanes)
 
 
 def _connections(network: Network) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:

@@ -279,7 +279,6 @@ def test_below_a_ramp_that_leads_nowhere_no_stall_is_proven(built):
 @pytest.mark.parametrize(
     "arguments",
     [
-        ("export", "{stage}", "-o", "a.add.xml"),
         ("plan", "{stage}", "--stall", "U2/A1-01"),
         ("check", "{report}"),
         ("export", "{report}", "-o", "a.xodr"),

@@ -142,7 +142,6 @@ def test_digests_of_levels_are_equal_for_the_whole_building_turned_alone():
     ("changes", "field"),
     [
         ({"make": {"drives": {"rig": "avp_surround"}}}, "make.drives.rig"),
-        ({"make": {"exports": ["xodr", "yaml", "add.xml"]}}, "make.exports"),
         ({"garage": {**LEVELS, "building": {"levels": 2, "storey_m": 2.7}}}, "garage.building.storey_m"),
     ],
 )
