@@ -79,7 +79,15 @@ class Feet:
         if not len(self._tree):
             return [[] for _ in mouths]
         feet = self._feet(mouths[:, ::-1].reshape(-1, 2), np.repeat(ahead, 2, axis=0))
-        return [self._between(*pair) for pair in zip(feet[::2], feet[1::2], strict=True)]
+        found = [self._between(*pair) for pair in zip(feet[::2], feet[1::2], strict=True)]
+        rings = [
+            [*mouth, *(place[:2] for place in places)] for mouth, places in zip(mouths.tolist(), found, strict=True)
+        ]
+        # beside a junction the lanes ahead of both corners may lie askew: the area then ends in a point
+        crossed = np.flatnonzero(~shapely.is_valid(grounds_of(rings)))
+        for number, foot in zip(crossed, self._feet(mouths[crossed].mean(axis=1), ahead[crossed]), strict=True):
+            found[number] = [foot.place]
+        return found
 
     def _between(self, right: _Foot, left: _Foot) -> list[Place]:
         """Return the points of a lane bound between two feet."""
