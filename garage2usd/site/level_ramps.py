@@ -100,13 +100,16 @@ def _given(site: Structure, config: GarageConfig, place: RampsPlace) -> Ramps:
 
 
 def ramps_are_free(cells: CellArray, ramps: Ramps, levels: int) -> bool:
-    """True if ramps, landings and the squares ahead are free, inside the contour, and each level stays in one piece."""
+    """True if ramps, landings and the squares ahead are free, and each level stays in one piece.
+
+    Neither ramps nor landings are beside the outside, where a landing would have a door to the street.
+    """
     rows, cols = cells.shape
     needed = {*ramps.squares, *ramps.landings, *ramps.approaches}
     if not all(0 <= row < rows and 0 <= col < cols and cells[row, col] == Cell.FREE for row, col in needed):
         return False
     outside = np.pad(outside_squares(cells), 1, constant_values=True)
-    around = {edge.beyond(square) for square in ramps.squares for edge in Edge}
+    around = {edge.beyond(square) for square in (*ramps.squares, *ramps.landings) for edge in Edge}
     if any(outside[row + 1, col + 1] for row, col in around):
         return False
     return all(free_squares_connected(level_cells(cells, ramps, level, levels)) for level in range(levels))

@@ -22,6 +22,7 @@ from garage2usd.site import make_site
 from garage2usd.site.level_ramps import draw_ramps
 from garage2usd.stage.driving_layer import write_driving_layer
 from garage2usd.structure.building import Building, Flight, level_cells
+from garage2usd.structure.doors import door_edges
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.stalls import Edge
 
@@ -127,6 +128,25 @@ def test_ramps_lie_where_they_are_given(building, squares):
     ramps = draw_ramps(make_site(asked.site, bay=asked.bay, seed=5), asked)
     assert set(ramps.squares) == squares
     assert ramps.links[0].is_down
+
+
+@pytest.mark.parametrize("kind", ["straight", "helix"])
+def test_landings_have_no_door_to_the_street(kind):
+    """Where the contour is irregular, a landing could lie beside the outside, as street portals do."""
+    drawn = 0
+    for seed in range(24):
+        site = {"width_cells": 12, "height_cells": 12, "rectangles": 3}
+        asked = GarageConfig(**{**SMALL, "site": site, "building": {"levels": 2, "ramps": kind}})
+        made = make_site(asked.site, bay=asked.bay, seed=seed)
+        try:
+            ramps = draw_ramps(made, asked.with_seed(seed))
+        except GenerationError:
+            continue
+        drawn += 1
+        below = level_cells(made.cells, ramps, 1, 2)
+        assert (below >= Cell.ENTRANCE).sum() == 2
+        assert door_edges(below) == {}
+    assert drawn > 4
 
 
 @pytest.mark.parametrize(
