@@ -66,7 +66,8 @@ def exit_signs(
     ways_back = graph.graph.to_directed()
     ways_back.remove_edges_from(list(graph.directions.one_way))  # search back from exits
     if well:
-        ways_back.remove_nodes_from(well.no_ways_out)
+        entrances = [square for square, kind in graph.graph.nodes(data="kind") if kind is LaneKind.ENTRANCE]
+        ways_back.remove_nodes_from({*well.no_ways_out, *entrances})
         exits -= well.no_ways_out
     if not exits:
         return []
