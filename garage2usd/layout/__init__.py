@@ -19,6 +19,7 @@ from garage2usd.config.plan import DeadEnds, UnreachableStalls
 from garage2usd.garage import LaneGraph, Stall, StallUse
 from garage2usd.layout.ceiling.beams import beams, ceiling_levels
 from garage2usd.layout.ceiling.lamps import installed_lamps, ramp_lamps
+from garage2usd.layout.ceiling.level_signs import level_plates, level_signs
 from garage2usd.layout.ceiling.lighting import LightLevels, lane_points_of, light_up
 from garage2usd.layout.ceiling.services import cable_trays, ducts, sprinklers
 from garage2usd.layout.ceiling.signs_and_mirrors import exit_signs, lane_signs, mirrors
@@ -306,7 +307,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     """
     bay, fittings, seed, look = config.bay, config.fittings, config.seed, drawn_look(config.look, config.seed)
     levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
-    wells = well.squares if well else ()
+    wells, no_ways_out = (well.squares, well.no_ways_out) if well else ((), ())
     compartments, cores, shafts = egress or plan_egress([LevelPlan(structure, graph, config)], wells)[0]
     built = [*cores, *shafts]
     grid = TileGrid(structure, graph, bay, left_out=_left_out(built, config, unreachable))
@@ -318,7 +319,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     draws = _draws(grid, config)
 
     zones = Zones(structure) if fittings.zones else None
-    stalls = with_numbers(_used_stalls(grid, graph, cores, config, unreachable), zones)
+    stalls = with_numbers(_used_stalls(grid, graph, cores, config, unreachable, no_ways_out), zones)
     core_on = {core.square: core for core in built if core.recess_m or not core.has_door}
     installed = installed_lamps(tube_lights(grid, fittings, levels, core_on), look.lights, draws, seed=seed)
     lamps, illuminance = light_up(
@@ -366,8 +367,9 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield ducts(grid, ceiling, levels, look.ceiling)
         yield cable_trays(grid, ceiling, levels)
         yield sprinklers(grid, ceiling, levels)
-        yield exit_signs(grid, graph, fittings, levels)
+        yield exit_signs(grid, graph, fittings, levels, well)
         yield lane_signs(grid, graph, fittings, levels)
+        yield level_signs(grid, graph, fittings, levels, well) if well else ()
         yield mirrors(grid, pillars, fittings, levels)
 
         yield (walls := with_ramps(shell, ground_inside(structure), fittings, look.walls))
@@ -382,6 +384,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         hung = mounted_objects(grid, pillars, walls, blocks, stalls, cores, [*closing, *signs], config)
         yield with_boards(pillars, hung)
         yield zone_plates(pillars, walls, blocks, stalls, zones) if zones else ()
+        yield level_plates(cores, well) if well else ()
         yield hung
         if kept_clear is not None:
             standing = [*pillars, *walls, *blocks, *cars, *motorbikes, *closing, *charging, *signs, *gates]
@@ -418,7 +421,12 @@ def _left_out(cores: Iterable[Core], config: GarageConfig, unreachable: Collecti
 
 
 def _used_stalls(
-    grid: TileGrid, graph: LaneSquares, cores: Sequence[Core], config: GarageConfig, unreachable: Collection[str]
+    grid: TileGrid,
+    graph: LaneSquares,
+    cores: Sequence[Core],
+    config: GarageConfig,
+    unreachable: Collection[str],
+    no_ways_out: Collection[Square],
 ) -> tuple[PlacedStall, ...]:
     """All stalls, each with its use."""
     stalls = tuple(
@@ -430,7 +438,7 @@ def _used_stalls(
         limit_mm = min(DEAD_END_LIMIT_MM, round(clause.amount * 1000) if clause else DEAD_END_LIMIT_MM)
         long_ends = [end for end in dead_ends(grid.structure, limit_mm) if end.needs_turning_stall]
         stalls = with_turning_stalls(stalls, grid, long_ends)
-    return with_designated_stalls(stalls, _foot_exits(grid, cores), config.parking, config.standard)
+    return with_designated_stalls(stalls, _foot_exits(grid, cores, no_ways_out), config.parking, config.standard)
 
 
 def _crossings(grid: TileGrid, cores: Iterable[Core]) -> dict[Square, float]:
@@ -442,7 +450,7 @@ def _crossings(grid: TileGrid, cores: Iterable[Core]) -> dict[Square, float]:
     return crossings
 
 
-def _foot_exits(grid: TileGrid, cores: Iterable[Core]) -> list[Point]:
+def _foot_exits(grid: TileGrid, cores: Iterable[Core], no_ways_out: Collection[Square]) -> list[Point]:
     """Where people leave on foot, (x, z): the doors of the stair cores, or the first exit where there is none."""
-    exits = (grid.tiles[square] for square in grid.structure.where(Cell.EXIT)[:1])
-    return [core.door_m for core in cores] or [tile.middle_m for tile in exits]
+    exits = [square for square in grid.structure.where(Cell.EXIT) if square not in no_ways_out]
+    return [core.door_m for core in cores] or [grid.tiles[square].middle_m for square in exits[:1]]

@@ -15,7 +15,7 @@ from garage2usd.assets.pictograms import running_man
 from garage2usd.objects.kind import Kind, Spec, VariantSet
 from garage2usd.objects.signage import SIGNAGE, Signage
 
-__all__ = ["KIND", "ExitSignSpec", "Turn"]
+__all__ = ["EXIT_SIGN_WIDTH_M", "KIND", "ExitSignSpec", "Turn"]
 
 KIND = Kind("exit_sign", number=24, label="exit_sign", cityscapes="traffic sign", follows=VariantSet.CEILING)
 
@@ -29,7 +29,7 @@ class Turn(StrEnum):
 
 
 _ARROW_DEG = {Turn.LEFT: -90.0, Turn.AHEAD: 0.0, Turn.RIGHT: 90.0}
-_SIGN_WIDTH_M = 0.8
+EXIT_SIGN_WIDTH_M = 0.8
 _SIGN_DEPTH_M = 0.05
 _LEGEND_M, _GAP_M = (-0.37, 0.12), 0.04
 _RUNNER, _RUNNER_HALF, _WORD = 0.86, 0.62, 0.62
@@ -62,7 +62,7 @@ class ExitSignSpec(Spec, kind=KIND):
         """Make the meshes of an exit sign: a box on two rods with an arrow and the country's pictogram or word."""
         signs = SIGNAGE[self.country]
         ground, ink = ("housing_white", "sign_red") if signs.is_red else ("exit_green", "exit_white")
-        half, low = _SIGN_WIDTH_M / 2, -self.top_m - self.height_m
+        half, low = EXIT_SIGN_WIDTH_M / 2, -self.top_m - self.height_m
         box = box_faces((-half, low, -_SIGN_DEPTH_M / 2), (half, -self.top_m, _SIGN_DEPTH_M / 2))
         rods: list[Face] = []
         for x in (-half * 0.8, half * 0.8):

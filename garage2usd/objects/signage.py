@@ -38,6 +38,8 @@ class Signage:
         True if their legend is red on white, else white on green.
     hydrant, fire_number
         Words on hydrant cabinets: their name, and the number of the fire brigade.
+    level
+        Word for a level, beside its name.
     """
 
     enter: str
@@ -49,6 +51,7 @@ class Signage:
     is_red: bool
     hydrant: str
     fire_number: str
+    level: str
 
     def of(self, way: Way) -> str:
         """Return the words on the sign over a vehicle door."""
@@ -66,6 +69,7 @@ SIGNAGE = {
         is_red=False,
         hydrant="HYDRANT",
         fire_number="119",
+        level="LEVEL",
     ),
     Country.CN: Signage(
         "入口",
@@ -77,6 +81,7 @@ SIGNAGE = {
         is_red=False,
         hydrant="消火栓",
         fire_number="119",
+        level="层",
     ),
     Country.DE: Signage(
         "EINFAHRT",
@@ -88,6 +93,7 @@ SIGNAGE = {
         is_red=False,
         hydrant="WANDHYDRANT",
         fire_number="112",
+        level="EBENE",
     ),
     Country.GB: Signage(
         "WAY IN",
@@ -99,6 +105,7 @@ SIGNAGE = {
         is_red=False,
         hydrant="FIRE HOSE",
         fire_number="999",
+        level="LEVEL",
     ),
     Country.US: Signage(
         "ENTER",
@@ -110,6 +117,7 @@ SIGNAGE = {
         is_red=True,
         hydrant="FIRE HOSE",
         fire_number="911",
+        level="LEVEL",
     ),
 }
 """Signage of each country.

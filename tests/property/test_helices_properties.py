@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from support.coil_judge import CoilJudge
 from support.level_judge import built_and_judged
+from support.sign_judge import signs_are_right
 
 from garage2usd import GarageConfig
 from garage2usd.as_built.contents import read_contents
@@ -40,6 +41,7 @@ def test_helices_are_reached_and_a_large_car_drives_over_them(number, tmp_path):
     _, judge = built_and_judged(config, tmp_path / "garage.usdc")
     ramps = judge.ramps()
     assert len(ramps) == 2 * (config.building.levels - 1)
+    signs_are_right(judge, config)
     walls = CoilJudge(judge)
     for ramp in ramps[-2:]:
         drive = _a_large_car_drives_over(ramp, walls, config)

@@ -5,6 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from support.level_judge import above, belly_m, built_and_judged, first_hits, floors_under
+from support.sign_judge import signs_are_right
 
 from garage2usd import GarageConfig
 from garage2usd.profiles import PROFILE_NAMES
@@ -38,6 +39,7 @@ def test_a_garage_of_several_levels_stands_is_reached_and_is_driven(seed, tmp_pa
     _a_ray_down_each_stall_meets_one_floor(judge, config)
     ramps = judge.ramps()
     assert len(ramps) == 2 * (config.building.levels - 1)
+    signs_are_right(judge, config)
     for ramp in ramps:
         _a_car_drives_over(ramp, judge, config)
 

@@ -25,6 +25,8 @@ from garage2usd.objects.floor_stain import PuddleSpec, StainSpec, TyreMarkSpec
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.lamp import LampSpec
 from garage2usd.objects.lane_sign import LaneSignSpec
+from garage2usd.objects.level_plate import LevelPlateSpec
+from garage2usd.objects.level_sign import LevelSignSpec
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.no_parking_sign import NoParkingSignSpec
 from garage2usd.objects.number_plate import NumberPlateSpec
@@ -110,6 +112,10 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(0.8, 0.05)
         case LaneSignSpec():
             return _centred(spec.height_m, 0.03)
+        case LevelSignSpec():
+            return _centred(spec.width_m, 0.03)
+        case LevelPlateSpec():
+            return shapely.box(-0.23, 0, 0.23, 0.01)
         case MirrorSpec():
             return _centred(2 * spec.radius_m, 0.2)
         case ChargerSpec():

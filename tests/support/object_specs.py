@@ -29,6 +29,8 @@ from garage2usd.objects.floor_stain import DirtSpec, PuddleSpec, StainMark, Stai
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.lamp import LampSpec
 from garage2usd.objects.lane_sign import LaneSignSpec, LaneSignText
+from garage2usd.objects.level_plate import LevelPlateSpec
+from garage2usd.objects.level_sign import Heading, LevelSignSpec
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.motorbike import MotorbikeSpec
 from garage2usd.objects.no_parking_sign import NoParkingSignSpec
@@ -121,6 +123,9 @@ SPECS = {
     "sign": NoParkingSignSpec(),
     "sprinkler": SprinklerSpec(8.1, 0.03, 0.075, rods_at_m=(-2.0, 1.0), heads_at_m=(-2.0, 2.0)),
     "pipe": SprinklerSpec(0.7, 0.03, 0.075, rods_at_m=(0.1,), heads_at_m=()),
+    **{f"level_sign_{heading}": LevelSignSpec("U2", heading, 0.58, 0.4) for heading in (*Heading, None)},
+    "level_sign_way_out": LevelSignSpec("U1", Heading.UP, 0.58, 0.4, is_way_out=True),
+    "level_plate": LevelPlateSpec("U2"),
     **{f"lane_sign_{text}": LaneSignSpec(text, 0.58, 0.4) for text in LaneSignText},
     **{f"exit_sign_{turn}": ExitSignSpec(turn, 0.58, 0.2) for turn in Turn},
     "mirror": MirrorSpec(0.25, arm_m=0.12),

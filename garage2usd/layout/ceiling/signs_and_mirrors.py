@@ -11,6 +11,7 @@ from garage2usd.garage import LaneKind
 from garage2usd.layout.ceiling.beams import CeilingLevels
 from garage2usd.layout.fittings import TUBE_DEPTH_M
 from garage2usd.layout.placement import Placement, box_inside, edge_yaw_rad, of_spec, placed
+from garage2usd.layout.shell.well import Well
 from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
 from garage2usd.objects.column import ColumnSpec
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
@@ -39,10 +40,24 @@ _CORNERS = tuple((vertical, side) for vertical in (Edge.DOWN, Edge.UP) for side 
 _JUNCTIONS = {LaneKind.CROSSROADS, LaneKind.T_JUNCTION}
 
 
-def exit_signs(grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, levels: CeilingLevels) -> list[Placement]:
+def exit_signs(
+    grid: TileGrid,
+    graph: LaneSquares,
+    fittings: FittingsConfig,
+    levels: CeilingLevels,
+    well: Well | None = None,
+) -> list[Placement]:
     """Place lit exit signs over the lanes into each junction, pointing along the shortest route to an exit.
 
-    There are none without space above the clear height.
+    There are none without space above the clear height, and at junctions without a route.
+
+    Parameters
+    ----------
+    grid, graph, fittings, levels
+        The squares, their lanes, the heights and what hangs at them.
+    well
+        The ramps to other levels. Only the one up leads out; where cars arrive over a ramp and have several ways, a
+        sign hangs over the landing too.
     """
     foot = fittings.ceiling_height_m - levels.sign_top_m - _SIGN_HEIGHT_M
     if not fittings.exit_signs or foot < fittings.clear_height_m:
@@ -50,10 +65,18 @@ def exit_signs(grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, lev
     exits = {square for square, kind in graph.graph.nodes(data="kind") if kind is LaneKind.EXIT}
     ways_back = graph.graph.to_directed()
     ways_back.remove_edges_from(list(graph.directions.one_way))  # search back from exits
+    if well:
+        entrances = [square for square, kind in graph.graph.nodes(data="kind") if kind is LaneKind.ENTRANCE]
+        ways_back.remove_nodes_from({*well.no_ways_out, *entrances})
+        exits -= well.no_ways_out
+    if not exits:
+        return []
     distance = nx.multi_source_dijkstra_path_length(ways_back, exits, weight="length_m")
+    arrivals = well.arrivals if well else {}
     signs: list[Placement] = []
     for tile in grid:
-        if tile.cell is not Cell.LANE or graph.kind(tile.square) not in _JUNCTIONS or tile.square not in distance:
+        is_junction = tile.cell is Cell.LANE and graph.kind(tile.square) in _JUNCTIONS and tile.square in distance
+        if not is_junction and tile.square not in arrivals:
             continue
         ways = {
             edge: distance.get(edge.beyond(tile.square), math.inf)
@@ -62,6 +85,10 @@ def exit_signs(grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, lev
             for edge in lane_edges(tile)
         }
         out = min(ways, key=lambda edge: (round(ways[edge], 6), edge))
+        if tile.square in arrivals:
+            if len(ways) > 1 and math.isfinite(ways[out]):
+                signs.append(_exit_sign(tile, arrivals[tile.square], out, fittings.ceiling_height_m, levels.sign_top_m))
+            continue
         signs += [
             _exit_sign(tile, edge, out, fittings.ceiling_height_m, levels.sign_top_m)
             for edge in ways

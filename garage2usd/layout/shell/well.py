@@ -13,7 +13,7 @@ from garage2usd.structure.building import Ramps, level_name
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["SLAB_M", "Well", "WellLane"]
+__all__ = ["SLAB_M", "Departure", "Well", "WellLane"]
 
 SLAB_M = 0.25
 """Thickness of a ramp's slab."""
@@ -39,6 +39,27 @@ class WellLane(NamedTuple):
     width_m: float
     run_m: float
     slope: float
+
+
+class Departure(NamedTuple):
+    """A ramp that cars leave a level over.
+
+    Attributes
+    ----------
+    landing
+        (row, col) of its landing on the level.
+    way
+        Direction from the landing to the ramp.
+    to
+        Name of the level that it leads to.
+    is_up
+        True if it leads up, towards the street.
+    """
+
+    landing: tuple[int, int]
+    way: Edge
+    to: str
+    is_up: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,6 +109,29 @@ class Well(ABC):
         heads = {} if self.is_bottom else {link.head: _vector(link.head_way) for link in self.pair.links}
         feet = {} if self.is_top else {link.foot: _vector(link.foot_way) for link in self.pair.links}
         return {**heads, **feet}
+
+    @property
+    def departures(self) -> tuple[Departure, ...]:
+        """Ramps that cars leave this level over, the one down first."""
+        down, up = self.pair.links
+        below = (
+            () if self.is_bottom else (Departure(down.head, down.head_way, level_name(self.level + 1), is_up=False),)
+        )
+        above = () if self.is_top else (Departure(up.foot, up.foot_way, level_name(self.level - 1), is_up=True),)
+        return below + above
+
+    @property
+    def arrivals(self) -> dict[tuple[int, int], Edge]:
+        """Direction to the ramp from each landing of this level on which cars arrive, by (row, col)."""
+        down, up = self.pair.links
+        below = {} if self.is_bottom else {up.head: up.head_way}
+        above = {} if self.is_top else {down.foot: down.foot_way}
+        return {**below, **above}
+
+    @property
+    def no_ways_out(self) -> frozenset[tuple[int, int]]:
+        """(row, col) of the landings of this level that do not lead to the street: all but that of the ramp up."""
+        return frozenset(self.landings) - {departure.landing for departure in self.departures if departure.is_up}
 
     @property
     def is_top(self) -> bool:

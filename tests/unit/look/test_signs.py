@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import shapely
 from pxr import Usd, UsdGeom, UsdShade
+from support.lettering import agreement, outline
 
 from garage2usd.assets import MATERIALS, pascal_case
 from garage2usd.assets.countries import Country
@@ -16,6 +17,8 @@ from garage2usd.assets.plate_texture import CHARACTERS, DOT, PROVINCES, SPACE, b
 from garage2usd.config import GarageConfig
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
+from garage2usd.objects.level_plate import LevelPlateSpec
+from garage2usd.objects.level_sign import Heading, LevelSignSpec
 from garage2usd.objects.lit_sign import lit_sign
 from garage2usd.objects.signage import SIGNAGE, Way
 from garage2usd.pipeline import build, generate
@@ -63,21 +66,7 @@ def test_a_country_is_a_code():
 def drawn(parts, name):
     """What a part shows from the front, as (x, y) with y upwards."""
     part = next(part for part in parts if part.name == name)
-    ends = np.cumsum(part.face_counts)[:-1]
-    faces = [part.points[face][:, :2] for face in np.split(part.face_indices, ends)]
-    return shapely.union_all([shapely.Polygon(face.astype(float)) for face in faces], grid_size=1e-5), part.material
-
-
-def agreement(shape, word):
-    """Share of the area that a shape has in common with a word as large, in the same place."""
-    low_x, low_y, high_x, high_y = shape.bounds
-    text = shapely.transform(text_shape(word, 1.0), lambda points: points * (1, -1))
-    x0, y0, x1, y1 = text.bounds
-    fit = shapely.transform(
-        text,
-        lambda points: (points - (x0, y0)) / (x1 - x0, y1 - y0) * (high_x - low_x, high_y - low_y) + (low_x, low_y),
-    )
-    return shape.intersection(fit).area / shape.union(fit).area
+    return outline(part.points, part.face_counts, part.face_indices), part.material
 
 
 WORDS = {"CN": "出口", "GB": "WAY OUT", "US": "EXIT"}
@@ -122,6 +111,28 @@ def test_words_over_doors_fit_between_the_symbols(country, way):
     assert right < min(part.bounds[0] for part in symbols if part.centroid.x > 0)
 
 
+@pytest.mark.parametrize("heading", [None, *Heading])
+@pytest.mark.parametrize("country", Country)
+def test_signs_and_plates_of_levels_say_it_in_the_words_of_the_country(country, heading):
+    sign = LevelSignSpec("U2", heading, 0.58, 0.4, is_way_out=heading is Heading.UP, country=country)
+    parts = sign.asset().parts
+    border, _ = drawn(parts, "Border")
+    legend = [drawn(parts, name)[0] for name in ("Arrow", "Name", "Word") if name in {part.name for part in parts}]
+    inside = shapely.Polygon(border.interiors[0])
+    assert all(shape.within(inside.buffer(-0.02)) for shape in legend)
+    bounds = sorted(shape.bounds for shape in legend)
+    assert all(left[2] + 0.05 < right[0] for left, right in pairwise(bounds))
+    assert agreement(drawn(parts, "Name")[0], "U2") > 0.95
+    word = SIGNAGE[country].exit if sign.is_way_out else SIGNAGE[country].level
+    if heading in {None, Heading.UP}:
+        assert agreement(drawn(parts, "Word")[0], word) > 0.9
+    plate = LevelPlateSpec("U3", country).asset().parts
+    shapes = [drawn(plate, name)[0] for name in ("Name", "Word")]
+    assert [agreement(shape, text) > 0.9 for shape, text in zip(shapes, ("U3", SIGNAGE[country].level), strict=True)]
+    assert shapes[0].bounds[3] + 0.02 < shapes[1].bounds[1]
+    assert shapely.union_all(shapes).within(drawn(plate, "Plate")[0].buffer(-0.01))
+
+
 @pytest.mark.parametrize("country", Country)
 def test_hydrant_cabinets_have_the_number_of_the_fire_brigade(country):
     shape, _ = drawn(HydrantCabinetSpec(country).asset().parts, "Letters")
@@ -132,7 +143,7 @@ def test_hydrant_cabinets_have_the_number_of_the_fire_brigade(country):
 
 
 def test_chinese_characters_are_apart_and_full():
-    for word in ("入口", "出口", "禁止驶入", "消火栓"):
+    for word in ("入口", "出口", "禁止驶入", "消火栓", "层"):
         shape = text_shape(word, 1.0)
         assert shape.bounds[2] - shape.bounds[0] == pytest.approx(text_length(word), abs=0.35)
         assert 0.2 < shape.area / len(word) < 0.6
