@@ -1,7 +1,7 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
 Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, optimisers, rules, circulation, scale,
-stages, exports, datasets, workers, looks, lidar, unity, compiled and binding.
+stages, levels, exports, datasets, workers, looks, lidar, unity, compiled and binding.
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.
@@ -22,6 +22,7 @@ from binding import binding
 from circulation import circulation
 from datasets import datasets, workers
 from exports import exports
+from levels import levels
 from lidar import lidar
 from looks import looks
 from optimisers import optimisers
@@ -50,6 +51,7 @@ def main() -> None:
         "circulation": circulation,
         "scale": scale,
         "stages": stages,
+        "levels": levels,
         "exports": exports,
         "datasets": datasets,
         "workers": workers,
@@ -83,6 +85,8 @@ def _building() -> str:
     with tempfile.TemporaryDirectory() as folder:
         for sample in sorted((HERE.parent / "samples").glob("*.toml")):
             config = garage2usd.load_config(sample)
+            if config.building.levels > 1:
+                continue
             output = Path(folder) / "garage.usdz"
             garage2usd.build(config, output)
             builds = [garage2usd.build(config, output) for _ in range(ROUNDS)]
