@@ -77,6 +77,13 @@ class _Source:
         """The road networks of all levels of a garage of several."""
         return () if self.levels is None else level_networks(self.levels)
 
+    @property
+    def networks(self) -> list[tuple[BuiltGarage, Network]]:
+        """The garage and its road network, or those of each level."""
+        if self.levels is None:
+            return [(self.garage, self.network)]
+        return [(level.garage, level.network) for level in self.level_networks]
+
     @cached_property
     def objects(self) -> list[PlacedObject]:
         """All visible objects of the stage, in metres, Y up."""
@@ -146,8 +153,7 @@ def _glb(source: _Source, path: Path, _asked: _Asked, remarks: Remarks) -> None:
 
 def _opendrive(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
     if source.levels is not None:
-        levels = [(level.garage, level.network) for level in source.level_networks]
-        write_opendrive_levels(levels, path, asked.settings, stage=source.stage)
+        write_opendrive_levels(source.networks, path, asked.settings, stage=source.stage)
         return
     write_opendrive(source.garage, path, asked.settings, network=source.network)
 
@@ -194,12 +200,8 @@ def _scenario(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> 
 
 def _parking_areas(source: _Source, path: Path, asked: _Asked, remarks: Remarks) -> None:
     _, network_file = asked.files(path.parent)
-    if source.levels is None:
-        levels = [(source.garage, source.network)]
-    else:
-        levels = [(level.garage, level.network) for level in source.level_networks]
     write_parking_areas(
-        levels,
+        source.networks,
         path,
         asked.settings.sumo,
         network_file=network_file,

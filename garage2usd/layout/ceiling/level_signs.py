@@ -4,24 +4,22 @@ from collections import defaultdict
 from collections.abc import Iterable
 
 from garage2usd.config import FittingsConfig
-from garage2usd.garage import LaneKind
 from garage2usd.layout.ceiling.beams import CeilingLevels
+from garage2usd.layout.ceiling.signs_and_mirrors import JUNCTIONS, SIGN_FROM_EDGE_M, edges_in, turn_at
 from garage2usd.layout.egress.cores import Core
 from garage2usd.layout.fittings import TUBE_DEPTH_M
 from garage2usd.layout.placement import Placement, edge_yaw_rad, placed, to_world
 from garage2usd.layout.shell.well import Departure, Well
-from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
-from garage2usd.objects.exit_sign import EXIT_SIGN_WIDTH_M
+from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.objects.exit_sign import EXIT_SIGN_WIDTH_M, Turn
 from garage2usd.objects.level_plate import LEVEL_PLATE_WIDTH_M, LevelPlateSpec
 from garage2usd.objects.level_sign import Heading, LevelSignSpec
-from garage2usd.structure.grid import NEIGHBOUR_STEPS
 from garage2usd.structure.lane_graph import LaneSquares, Square
 from garage2usd.structure.stalls import Edge
 
 __all__ = ["level_plates", "level_signs"]
 
 _MOST_M, _LEAST_M = 0.4, 0.2
-_FROM_EDGE_M = 0.45
 _BELOW_BEAM_M = 0.03
 _GAP_M = 0.1
 """Distance of signs from exit signs, as their readers see them."""
@@ -29,7 +27,7 @@ _PLATE_FOOT_M = 1.70
 """Height of plates, as of those of zones: above the equipment on walls."""
 _PLATE_FROM_DOOR_M = 0.68
 """Distance of a plate's near edge from the middle of a door."""
-_JUNCTIONS = {LaneKind.CROSSROADS, LaneKind.T_JUNCTION}
+_HEADINGS = {Turn.LEFT: Heading.LEFT, Turn.AHEAD: Heading.UP, Turn.RIGHT: Heading.RIGHT}
 
 
 def level_signs(
@@ -86,11 +84,7 @@ def _before(ramp: Departure, grid: TileGrid, graph: LaneSquares) -> list[tuple[S
     for junction, following in outs.items():
         (out,) = (edge for edge in Edge if edge.beyond(junction) == following)
         found += [
-            (junction, edge, _heading(edge, out))
-            for edge in lane_edges(grid.tiles[junction])
-            if edge is not out
-            and graph.kind(edge.beyond(junction)) is not LaneKind.EXIT
-            and graph.directions.allows(edge.beyond(junction), junction)
+            (junction, edge, _HEADINGS[turn_at(edge, out)]) for edge in edges_in(grid.tiles[junction], graph, out)
         ]
     return found
 
@@ -99,7 +93,7 @@ def _back_to_junction(landing: Square, square: Square, graph: LaneSquares) -> tu
     """Return the junction from which a lane leads over a square to a landing, and the next square; None without one."""
     last, seen = landing, {landing}
     while graph.directions.allows(square, last):
-        if graph.kind(square) in _JUNCTIONS:
+        if graph.kind(square) in JUNCTIONS:
             return square, last
         seen.add(square)
         others = [other for other in graph.graph[square] if other != last]
@@ -107,13 +101,6 @@ def _back_to_junction(landing: Square, square: Square, graph: LaneSquares) -> tu
             break
         last, square = square, others[0]
     return None
-
-
-def _heading(edge: Edge, out: Edge) -> Heading:
-    """Return the turn of a driver who enters a square over an edge and leaves it over another one."""
-    (dr, dc), away = NEIGHBOUR_STEPS[edge], NEIGHBOUR_STEPS[out]
-    # the driver moves along (-dr, -dc); a right turn leads to (-dc, dr) in rows and columns
-    return {(-dr, -dc): Heading.UP, (-dc, dr): Heading.RIGHT}.get(away, Heading.LEFT)
 
 
 def _hung(
@@ -132,7 +119,7 @@ def _hung(
     sign, on the left (-1), or in the middle (0).
     """
     half_m = tile.half_z_m if faces.along_x else tile.half_x_m
-    ahead_m = half_m - _FROM_EDGE_M
+    ahead_m = half_m - SIGN_FROM_EDGE_M
     aside_m = side * (EXIT_SIGN_WIDTH_M / 2 + _GAP_M + spec.width_m / 2)
     yaw = edge_yaw_rad(faces)
     place = to_world((aside_m, -ahead_m if at_back else ahead_m), tile.middle_m, yaw)

@@ -22,10 +22,10 @@ from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
 from garage2usd.structure.lane_graph import LaneSquares, Square
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["exit_signs", "lane_signs", "mirrors"]
+__all__ = ["JUNCTIONS", "SIGN_FROM_EDGE_M", "edges_in", "exit_signs", "lane_signs", "mirrors", "turn_at"]
 
 _SIGN_HEIGHT_M = 0.2
-_SIGN_FROM_EDGE_M = 0.45
+SIGN_FROM_EDGE_M = 0.45
 _LANE_SIGN_M, _LEAST_LANE_SIGN_M = 0.4, 0.2
 _LANE_SIGN_ASIDE_M = 1.0
 """Distance of signs from the centre of a lane, between the tubes and the ducts and trays."""
@@ -37,7 +37,7 @@ _ARM_TO_COLUMN_M, _ARM_TO_EDGE_M, _ARM_TO_WALL_M = 0.12, 0.099, 0.29
 _INTO_COLUMN_M = 0.025
 """Depth to which an arm enters a column that it meets at an angle."""
 _CORNERS = tuple((vertical, side) for vertical in (Edge.DOWN, Edge.UP) for side in (Edge.LEFT, Edge.RIGHT))
-_JUNCTIONS = {LaneKind.CROSSROADS, LaneKind.T_JUNCTION}
+JUNCTIONS = {LaneKind.CROSSROADS, LaneKind.T_JUNCTION}
 
 
 def exit_signs(
@@ -75,7 +75,7 @@ def exit_signs(
     arrivals = well.arrivals if well else {}
     signs: list[Placement] = []
     for tile in grid:
-        is_junction = tile.cell is Cell.LANE and graph.kind(tile.square) in _JUNCTIONS and tile.square in distance
+        is_junction = tile.cell is Cell.LANE and graph.kind(tile.square) in JUNCTIONS and tile.square in distance
         if not is_junction and tile.square not in arrivals:
             continue
         ways = {
@@ -91,22 +91,35 @@ def exit_signs(
             continue
         signs += [
             _exit_sign(tile, edge, out, fittings.ceiling_height_m, levels.sign_top_m)
-            for edge in ways
-            if edge is not out
-            and graph.kind(edge.beyond(tile.square)) is not LaneKind.EXIT
-            and graph.directions.allows(edge.beyond(tile.square), tile.square)
+            for edge in edges_in(tile, graph, out)
         ]
     return signs
 
 
+def edges_in(tile: Tile, graph: LaneSquares, out: Edge) -> list[Edge]:
+    """Return the edges over which drivers enter a junction that they leave over another one."""
+    return [
+        edge
+        for edge in lane_edges(tile)
+        if edge is not out
+        and graph.kind(edge.beyond(tile.square)) is not LaneKind.EXIT
+        and graph.directions.allows(edge.beyond(tile.square), tile.square)
+    ]
+
+
+def turn_at(edge: Edge, out: Edge) -> Turn:
+    """Return the turn of a driver who enters a square over an edge and leaves it over another one."""
+    (dr, dc), away = NEIGHBOUR_STEPS[edge], NEIGHBOUR_STEPS[out]
+    # the driver moves along (-dr, -dc); a right turn leads to (-dc, dr) in rows and columns
+    return {(-dr, -dc): Turn.AHEAD, (-dc, dr): Turn.RIGHT}.get(away, Turn.LEFT)
+
+
 def _exit_sign(tile: Tile, edge: Edge, out: Edge, ceiling_m: float, top_m: float) -> Placement:
     """Sign over one edge of a junction, facing the drivers who enter there."""
-    (dr, dc), (out_r, out_c) = NEIGHBOUR_STEPS[edge], NEIGHBOUR_STEPS[out]
-    # the driver moves along (-dr, -dc); a right turn leads to (-dc, dr) in rows and columns
-    turn = Turn.AHEAD if (out_r, out_c) == (-dr, -dc) else Turn.RIGHT if (out_r, out_c) == (-dc, dr) else Turn.LEFT
-    x = tile.x_m + dc * (tile.half_x_m - _SIGN_FROM_EDGE_M)
-    z = tile.z_m + dr * (tile.half_z_m - _SIGN_FROM_EDGE_M)
-    spec = ExitSignSpec(turn, top_m, _SIGN_HEIGHT_M)
+    dr, dc = NEIGHBOUR_STEPS[edge]
+    x = tile.x_m + dc * (tile.half_x_m - SIGN_FROM_EDGE_M)
+    z = tile.z_m + dr * (tile.half_z_m - SIGN_FROM_EDGE_M)
+    spec = ExitSignSpec(turn_at(edge, out), top_m, _SIGN_HEIGHT_M)
     name = f"ExitSign_{edge.name.capitalize()}"
     return placed(name, spec, (x, z), height_m=ceiling_m, yaw_rad=edge_yaw_rad(edge), square=tile.square)
 
@@ -138,7 +151,7 @@ def _lane_sign(tile: Tile, edge: Edge, spec: LaneSignSpec, fittings: FittingsCon
     half = (tile.half_x_m, tile.half_z_m)
     # on the reader's right, which is the sign's local +X
     to_right = _LANE_SIGN_ASIDE_M if edge in {Edge.DOWN, Edge.LEFT} else -_LANE_SIGN_ASIDE_M
-    x, z, *_ = box_inside(edge, half, (to_right, to_right), (_SIGN_FROM_EDGE_M, _SIGN_FROM_EDGE_M))
+    x, z, *_ = box_inside(edge, half, (to_right, to_right), (SIGN_FROM_EDGE_M, SIGN_FROM_EDGE_M))
     name = f"{pascal_case(spec.says)}Sign_{edge.name.capitalize()}"
     place = tile.x_m + x, tile.z_m + z
     yaw = edge_yaw_rad(edge)

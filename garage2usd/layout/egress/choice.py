@@ -9,7 +9,7 @@ from garage2usd.layout.egress.shafts import Shaft
 from garage2usd.native import elementary
 from garage2usd.structure.lane_graph import Square
 
-__all__ = ["Places", "Points", "chosen_shafts", "squares_of"]
+__all__ = ["Places", "Points", "chosen_shafts"]
 
 Points = NDArray[np.float64]
 
@@ -31,6 +31,8 @@ class Places(NamedTuple):
         Their costs in metres, as the mean of all levels; shape (candidates,).
     stalls
         Numbers of stalls that they replace on all levels; shape (candidates,).
+    squares
+        Squares of each candidate, and of the lanes before its doors.
     through
         Numbers of the candidates with a door on each level; shape (n,).
     """
@@ -39,6 +41,7 @@ class Places(NamedTuple):
     doors: Points
     price_m: NDArray[np.float64]
     stalls: NDArray[np.intp]
+    squares: list[set[Square]]
     through: NDArray[np.intp]
 
 
@@ -49,17 +52,15 @@ def chosen_shafts(
     chosen: list[int] = []
     if places is None:
         return []
-    doors = fixed
+    doors, are_reached = fixed, False
     for count in range(max(exits - fixed.shape[1], 0), len(places.through) + 1):
         chosen = _snapped(places, _spread(np.concatenate(points), fixed[0], count))
         doors = np.concatenate([fixed, places.doors[:, chosen]], axis=1)
-        if doors.shape[1] and _are_reached(points, doors, reach_m):
+        are_reached = bool(doors.shape[1]) and _are_reached(points, doors, reach_m)
+        if are_reached:
             break
-    if len(points) > 1 and not (
-        doors.shape[1] >= exits
-        and _are_reached(points, doors, reach_m)
-        and sum(places.stalls[index] for index in chosen) <= budget
-    ):
+    is_enough = are_reached and doors.shape[1] >= exits and places.stalls[chosen].sum() <= budget
+    if len(points) > 1 and not is_enough:
         chosen = _covering(points, places, fixed, exits, reach_m)
     return [places.shafts[index] for index in chosen]
 
@@ -96,8 +97,7 @@ def _covering(points: list[Points], places: Places, fixed: Points, exits: int, r
         equal = np.flatnonzero(worth == worth.max())
         best = int(equal[np.argmax(_far_m(places, fixed, chosen)[equal])])
         chosen.append(best)
-        squares = squares_of(places.shafts[best])
-        free &= [not squares & squares_of(shaft) for shaft in places.shafts]
+        free &= [not places.squares[best] & squares for squares in places.squares]
         missing -= has_door[:, best]
         left = [still & ~reached[:, best] for reached, still in zip(near, left, strict=True)]
 
@@ -111,12 +111,6 @@ def _far_m(places: Places, fixed: Points, chosen: list[int]) -> NDArray[np.float
         nearest = [_distances(own, there).min(axis=1) for own, there in zip(places.doors, doors, strict=True)]
     far: NDArray[np.float64] = np.nan_to_num(nearest, nan=np.inf, posinf=np.inf).min(axis=0).round(6)
     return far
-
-
-def squares_of(shaft: Shaft) -> set[Square]:
-    """Squares of a shaft, and of the lanes before its doors."""
-    cores = [core for core in shaft if core is not None]
-    return {core.square for core in cores} | {core.lane for core in cores if core.has_door}
 
 
 def _spread(points: Points, fixed: Points, count: int) -> Points:
@@ -142,7 +136,7 @@ def _snapped(places: Places, centres: Points) -> list[int]:
     """Numbers of the candidates nearest to the places, at most one on each square."""
     chosen: list[int] = []
     middles, price_m = places.doors[:, places.through].mean(axis=0), places.price_m[places.through]
-    squares = [squares_of(places.shafts[index]) for index in places.through.tolist()]
+    squares = [places.squares[index] for index in places.through.tolist()]
     taken: set[Square] = set()
     for centre in centres:
         far = np.array([bool(own & taken) for own in squares])

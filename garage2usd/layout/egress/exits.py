@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.layout.ceiling.beams import ceiling_levels
-from garage2usd.layout.egress.choice import Places, Points, chosen_shafts, squares_of
+from garage2usd.layout.egress.choice import Places, Points, chosen_shafts
 from garage2usd.layout.egress.compartments import compartments_of
 from garage2usd.layout.egress.cores import Core, obstacle_cores
-from garage2usd.layout.egress.shafts import LevelPlan, Shaft, has_doors, shaft_candidates
+from garage2usd.layout.egress.shafts import LevelPlan, Shaft, has_doors, shaft_candidates, squares_of
 from garage2usd.layout.placement import point_inside
 from garage2usd.profiles import Length
 from garage2usd.structure.grid import Structure
@@ -135,6 +135,7 @@ def _places_by_compartment(levels: Sequence[LevelPlan], compartments: NDArray[np
             np.array([[_door_m(core) for core in own] for own in zip(*shafts, strict=True)]),
             np.array([_price_m(levels, shaft) for shaft in shafts]),
             np.array([_replaced(shaft) for shaft in shafts]),
+            [squares_of(shaft) for shaft in shafts],
             np.flatnonzero([has_doors(shaft) for shaft in shafts]),
         )
         for number, shafts in found.items()

@@ -18,10 +18,10 @@ from garage2usd.layout.egress.cores import (
 )
 from garage2usd.layout.placement import point_inside, rounded
 from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.lane_graph import LaneSquares
+from garage2usd.structure.lane_graph import LaneSquares, Square
 from garage2usd.structure.stalls import Edge, StallRow
 
-__all__ = ["LevelPlan", "Shaft", "has_doors", "shaft_candidates"]
+__all__ = ["LevelPlan", "Shaft", "has_doors", "shaft_candidates", "squares_of"]
 
 _LONGEST_PASSAGE_M = 3.6
 """Greatest distance from the door of a core to the lane, between stalls."""
@@ -43,6 +43,12 @@ Shaft = tuple[Core | None, ...]
 def has_doors(shaft: Shaft) -> bool:
     """True if a shaft has a door on every level."""
     return all(core is not None and core.has_door for core in shaft)
+
+
+def squares_of(shaft: Shaft) -> set[Square]:
+    """Squares of a shaft, and of the lanes before its doors."""
+    cores = [core for core in shaft if core is not None]
+    return {core.square for core in cores} | {core.lane for core in cores if core.has_door}
 
 
 def shaft_candidates(levels: Sequence[LevelPlan]) -> Iterator[Shaft]:
@@ -128,12 +134,10 @@ class _ShaftSite:
                 door = self._with_door(core, edge)
                 if door is not None:
                     found.append(door)
+        if found:
+            return min(found, key=lambda door: (len(door.stalls), door.recess_m, door.edge))
         closed = replace(core, recess_m=0.0, has_door=False)
-        return min(
-            found,
-            key=lambda door: (len(door.stalls), door.recess_m, door.edge),
-            default=replace(closed, stalls=self._replaced(closed)),
-        )
+        return replace(closed, stalls=self._replaced(closed))
 
     def _replaced(self, core: Core) -> tuple[str, ...]:
         """Ids of the stalls that a core and its passage leave no room for."""
