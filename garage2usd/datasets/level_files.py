@@ -1,6 +1,6 @@
 """Files of a garage of several levels in a data set: stage, exports, labels, pictures of plans, and difficulty."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -10,17 +10,18 @@ from garage2usd.buildings import LevelsGarage, levels_metadata
 from garage2usd.common.json_text import json_text
 from garage2usd.datasets.difficulty import StallDifficulty, garage_difficulty, stall_difficulties
 from garage2usd.datasets.recipe import MakeConfig
+from garage2usd.driving import StallProof, prove_stalls
 from garage2usd.exports import export
 from garage2usd.stage import StageFormat
 from garage2usd.stage.levels import LevelLayout, write_level_labels, write_levels_stage
 from garage2usd.view.plan_picture import draw_plan
 from garage2usd.view.raster import to_image, write_png
 
-__all__ = ["levels_difficulties", "write_difficulty", "write_level_files"]
+__all__ = ["levels_difficulties", "levels_proofs", "write_difficulty", "write_level_files"]
 
 
-def write_level_files(garage: LevelsGarage, place: Path, make: MakeConfig, assets: Path | None) -> None:
-    """Write stage, exports, labels and the plan of each level of a garage.
+def write_level_files(garage: LevelsGarage, place: Path, make: MakeConfig, assets: Path | None) -> Path | None:
+    """Write stage, exports, labels and the plan of each level of a garage; return the stage, if any.
 
     Parameters
     ----------
@@ -35,6 +36,7 @@ def write_level_files(garage: LevelsGarage, place: Path, make: MakeConfig, asset
     """
     folder, stem = place.parent, place.name
     levels = garage.layouts
+    stage = None
     if make.stage:
         stage = _write_stage(garage, levels, place, make, assets)
         if make.exports:
@@ -45,14 +47,30 @@ def write_level_files(garage: LevelsGarage, place: Path, make: MakeConfig, asset
     if make.plan:
         for level in levels:
             write_png(to_image(draw_plan(level.layout)), folder / f"{stem}.{level.name}.plan.png")
+    return stage
 
 
-def levels_difficulties(garage: LevelsGarage) -> tuple[StallDifficulty, ...]:
-    """Rate the difficulty of each stall of a garage, level by level; names of stalls begin with that of the level."""
+def levels_proofs(garage: LevelsGarage) -> dict[str, Sequence[StallProof]]:
+    """Prove the stalls of each level, by its name, among its own obstacles and between its portals and landings."""
+    return {level.name: prove_stalls(level.layout, most_explained=0) for level in garage.layouts}
+
+
+def levels_difficulties(
+    garage: LevelsGarage, proofs: Mapping[str, Sequence[StallProof]]
+) -> tuple[StallDifficulty, ...]:
+    """Rate the difficulty of each stall of a garage, level by level; names of stalls begin with that of the level.
+
+    Parameters
+    ----------
+    garage
+        The garage.
+    proofs
+        Its `levels_proofs`.
+    """
     return tuple(
         replace(stall, stall=f"{name}/{stall.stall}", features=replace(stall.features, stall=f"{name}/{stall.stall}"))
-        for name, level in zip(garage.building.names(), garage.levels, strict=True)
-        for stall in stall_difficulties(level)
+        for (name, proven), level in zip(proofs.items(), garage.levels, strict=True)
+        for stall in stall_difficulties(level, proofs=proven)
     )
 
 

@@ -257,22 +257,13 @@ class Recipe(Settings):
         try:
             config = config_from_mapping({**given, "seed": seed})
             if config.building.levels > 1:
-                self._check_levels(config)
+                from garage2usd.buildings import check_levels  # noqa: PLC0415 - it brings USD, which most recipes do without
+
+                check_levels(config)
         except ConfigError as error:
             within = "" if error.field.startswith("make.") else "garage."
             raise ConfigError(f"{within}{error.field}", error.value, error.allowed) from None
         return config
-
-    def _check_levels(self, config: GarageConfig) -> None:
-        """Refuse settings and outputs that several levels do not go with."""
-        from garage2usd.buildings import check_levels  # noqa: PLC0415 - it brings USD, which most recipes do without
-
-        check_levels(config)
-        if self.make.drives:
-            wanted = (
-                "none in a recipe with building.levels of 2 or more, for which drives of data sets are not built yet"
-            )
-            raise ConfigError("make.drives.rig", self.make.drives.rig.name, wanted)
 
 
 def load_recipe(path: str | Path) -> Recipe:

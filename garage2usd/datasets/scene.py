@@ -4,6 +4,7 @@ import gzip
 import hashlib
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -15,7 +16,7 @@ from garage2usd.datasets.difficulty import stall_difficulties
 from garage2usd.datasets.drawn_plan import DrawnPlan
 from garage2usd.datasets.drives import record_drives
 from garage2usd.datasets.garage_figures import garage_figures
-from garage2usd.datasets.level_files import levels_difficulties, write_difficulty, write_level_files
+from garage2usd.datasets.level_files import levels_difficulties, levels_proofs, write_difficulty, write_level_files
 from garage2usd.datasets.manifest import FileEntry, LinkEntry, ManifestRow
 from garage2usd.datasets.plans import levels_replanned, replanned
 from garage2usd.datasets.recipe import MakeConfig, Recipe
@@ -131,11 +132,18 @@ def _levels_files(make: MakeConfig, drawn: DrawnPlan, config: GarageConfig, plac
     place.with_name(f"{place.name}.report.json").write_text(
         json_text(report.model_dump(mode="json")), encoding="utf-8", newline="\n"
     )
-    write_level_files(garage, place, make, assets)
+    stage = write_level_files(garage, place, make, assets)
     difficulty = dict[str, Any]()
-    if make.difficulty:
-        rated = levels_difficulties(garage)
-        difficulty = write_difficulty(rated, place.with_name(f"{place.name}.difficulty.json"))
+    if make.difficulty or make.drives:
+        proofs = levels_proofs(garage)
+        if make.difficulty:
+            rated = levels_difficulties(garage, proofs)
+            difficulty = write_difficulty(rated, place.with_name(f"{place.name}.difficulty.json"))
+        if make.drives and stage:
+            every = [
+                replace(proof, stall=f"{name}/{proof.stall}") for name, proven in proofs.items() for proof in proven
+            ]
+            record_drives(stage, make.drives, every, seed=drawn.seed, settings=config.maps.drive)
     structures = [structure.digest() for structure in garage.building.levels]
     figures = {
         "config_digest": report.config_digest,

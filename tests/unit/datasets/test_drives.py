@@ -68,6 +68,43 @@ def test_drives_have_the_same_bytes_when_made_again(made, tmp_path):
     assert tree_of(tmp_path) == tree_of(folder)
 
 
+def test_drives_lead_from_the_street_over_ramps_to_stalls_of_lower_levels(tmp_path):
+    storey_m = 2.9
+    garage = {
+        "profile": {"name": "none"},
+        "building": {"levels": 2, "storey_m": storey_m, "ramp_slope_percent": 20, "ramp_transition_m": 2.0},
+        "fittings": {"ceiling_height_m": 2.6},
+        "plan": {"episodes": 30, "starts": 1, "climb": False},
+        "site": {"width_cells": 9, "height_cells": 5},
+    }
+    make = {"drives": {**DRIVES, "count": 4}, "difficulty": False}
+    recipe = small_recipe(garage=garage, count=1, splits={"all": 1}, shards={"garages": 1, "form": "folder"}, make=make)
+    (shard,) = shards_of(recipe, planned(recipe, [(0, 0)]))
+    (row,) = make_shard(recipe, tmp_path, shard)
+    assert not row.error
+    files = [file.suffix for file in row.files]
+    assert not any(name.startswith(".difficulty") for name in files)
+    place, arrived = tmp_path / "shards" / row.key, []
+    for number in range(4):
+        with zipfile.ZipFile(place.with_name(f"{place.name}.drive_{number}.zip")) as archive:
+            table = json.loads(archive.read("frames.json"))
+            level = table["drive"]["stall"].partition("/")[0]
+            sweeps = table["sweeps"]
+            levels = [sweep["level"] for sweep in sweeps]
+            assert levels == sorted(levels)
+            assert (levels[0], levels[-1]) == ("U1", level)
+            heights = [np.array(sweep["vehicle_to_world"])[1, 3] for sweep in sweeps]
+            floor_m = 0.0 if level == "U1" else -storey_m
+            assert heights[-1] == pytest.approx(floor_m, abs=1e-3)
+            assert any(-storey_m + 0.1 < height < -0.1 for height in heights) is (level == "U2")
+            with np.load(io.BytesIO(archive.read(sweeps[-1]["files"]["npz"]))) as cloud:
+                turn, place_m = np.split(np.array(sweeps[-1]["sensor_to_world"])[:3], [3], axis=1)
+                seen_m = (turn @ cloud["points_m"].T + place_m)[1]
+            assert floor_m - 0.03 < seen_m.min() < seen_m.max() < floor_m + storey_m
+            arrived.append(level)
+    assert {*arrived} == {"U1", "U2"}
+
+
 def test_a_rig_of_ones_own_stands_in_the_recipe(tmp_path):
     (tmp_path / "mine.toml").write_text(
         'name = "mine"\n[[sensors]]\n' + "".join(f"{key} = {json.dumps(value)}\n" for key, value in SCANNER.items())
