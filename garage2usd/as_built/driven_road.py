@@ -80,19 +80,17 @@ def driven_road(garage: BuiltGarage, *, car: DesignCar | None = None, height_m: 
     Notes
     -----
     A car starts at the top of the ramp behind a door, half a metre before its end. A door without a ramp is shut; the
-    car then starts within the portal's square, 0.3 m from the door. At the landing of a helix it starts on the level
-    floor beyond.
+    car then starts within the portal's square, 0.3 m from the door. At landings a car that comes up, or drives down,
+    may be up to 4 m on a straight ramp, or on the level floor before a helix.
     """
     car = car or DesignCar()
     driven = driven_garage(garage, height_m=height_m)
     floors = floors_of_ramps(garage.things)
     opened = [thing.name for thing in garage.things if thing.label in {_GATE, _RAMP}]
     gates = ((solid.name, solid.footprint) for solid in garage.solids.standing(_GATE) if solid.bottom_m < _ARM_FROM_M)
-    sides = (
-        (thing.name, shapely.MultiLineString(list(_sides(thing, floors, height_m))))
-        for thing in garage.things
-        if thing.label == _RAMP
-    )
+    ramps = [(thing, floors) for thing in garage.things if thing.label == _RAMP]
+    ramps += [(thing, (*floors, *floors_of_ramps([thing]))) for thing in garage.ramps_below]
+    sides = ((thing.name, shapely.MultiLineString([*_sides(thing, near, height_m)])) for thing, near in ramps)
     standing = driven.standing.without(opened).joined(Obstacles.of([*gates, *sides]))
     portals = tuple(_portals(garage, floors, car))
     return DrivenRoad(driven, standing, portals, floors)
@@ -125,7 +123,7 @@ def _portals(garage: BuiltGarage, ramps: Sequence[RampFloor], car: DesignCar) ->
         yaw = math.atan2(mouth.outwards[0] + 0.0, mouth.outwards[1] + 0.0)  # into the garage
         x, z = rounded(node.position)
         end_m = mouth.top_m((x, z)) - (_FROM_DOOR_M if mouth.ramp is None else _FROM_END_M)
-        end_m += garage.level_beyond_m.get(node.name, 0.0)
+        end_m += garage.way_beyond_m.get(node.name, 0.0)
         axle_m = end_m - (car.rear_overhang_m if is_entrance else car.ahead_m)
         pose = Pose(x + axle_m * mouth.outwards[0], z + axle_m * mouth.outwards[1], yaw if is_entrance else _about(yaw))
         yield Portal(mouth.number, node.name, LaneKind.ENTRANCE if is_entrance else LaneKind.EXIT, pose)

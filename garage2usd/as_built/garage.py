@@ -56,8 +56,10 @@ class BuiltGarage:
     landings
         Portals that are landings of ramps to other levels, not portals to the street: the unit vector (x, z) from each
         towards its ramp, by name.
-    level_beyond_m
-        Length of the level floor beyond the edge of landings, by name; only of ramps that bend.
+    way_beyond_m
+        How far beyond the edge of a landing a car drives before its way through the level ends, by name.
+    ramps_below
+        The ramps that lead down from the landings, at their heights over the floor.
     """
 
     source: str
@@ -74,7 +76,8 @@ class BuiltGarage:
     faults: tuple[Fault, ...] = ()
     stage: Usd.Stage | None = None
     landings: Mapping[str, Point] = field(default_factory=dict)
-    level_beyond_m: Mapping[str, float] = field(default_factory=dict)
+    way_beyond_m: Mapping[str, float] = field(default_factory=dict)
+    ramps_below: tuple[Thing, ...] = ()
 
     @property
     def street_portals(self) -> list[int]:

@@ -1,7 +1,7 @@
 """A garage of several levels as built: each level as a garage of its own, and the lanes of the whole."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -9,98 +9,23 @@ from typing import NamedTuple
 
 import networkx as nx
 import numpy as np
-from numpy.typing import NDArray
 from pxr import Usd
 
 from garage2usd.as_built.garage import BuiltGarage
-from garage2usd.as_built.shapes import Body, Thing
+from garage2usd.as_built.layout_reader import garage_of_layout
+from garage2usd.as_built.ramp_line import RampLine
+from garage2usd.as_built.shapes import Thing
 from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.garage import LaneGraph, Point, Stall
-from garage2usd.reading.lanes import Lanes, read_lanes
+from garage2usd.garage.joined_levels import JoinedLevels
+from garage2usd.objects.ramp import KIND as RAMP
+from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.levels import StageLevel, level_stage, levels_of
+from garage2usd.stage.levels import LevelLayout
 
-__all__ = ["Bend", "BuiltLevel", "BuiltLevels", "RampLine", "built_levels"]
+__all__ = ["BuiltLevel", "BuiltLevels", "built_levels", "laid_out_levels"]
 
 _SAME_PLACE_DIGITS = 2
-
-
-class Bend(NamedTuple):
-    """The line of a ramp that bends: straight in, three quarters of a circle, straight out across itself.
-
-    Attributes
-    ----------
-    crossing
-        (x, z) where the straights cross.
-    way_in, way_out
-        Unit vectors (x, z) in the direction of driving.
-    radius_m
-        Radius of the circle.
-    is_left
-        True if cars turn to the left.
-    """
-
-    crossing: Point
-    way_in: Point
-    way_out: Point
-    radius_m: float
-    is_left: bool
-
-
-class RampLine(NamedTuple):
-    """The lane of a ramp between levels.
-
-    Attributes
-    ----------
-    nodes
-        Numbers of its lane nodes in the direction of driving, from landing to landing.
-    places
-        (x, height, z) of these; float64, shape (n, 3).
-    sloped
-        Numbers of those between which it rises or falls.
-    width_m
-        Width of its carriageway.
-    """
-
-    nodes: tuple[int, ...]
-    places: NDArray[np.float64]
-    sloped: tuple[int, ...]
-    width_m: float
-
-    @property
-    def slope(self) -> NDArray[np.float64]:
-        """(x, height, z) of the nodes between which it rises or falls; float64, shape (n, 3)."""
-        first = self.nodes.index(self.sloped[0])
-        return self.places[first : first + len(self.sloped)]
-
-    @property
-    def is_straight(self) -> bool:
-        """True if its ends lie in one line."""
-        (in_x, in_z), (out_x, out_z) = self._ways
-        return abs(out_x * in_z - out_z * in_x) < _STRAIGHT_SIN and in_x * out_x + in_z * out_z > 0
-
-    @property
-    def bend(self) -> Bend | None:
-        """The bend of a helix; None for a straight ramp, and for one that is no three quarters of a circle."""
-        x, z = self.places[:, 0], self.places[:, 2]
-        (in_x, in_z), (out_x, out_z) = self._ways
-        turned = out_x * in_z - out_z * in_x
-        if abs(turned) < 1 - _STRAIGHT_SIN:
-            return None
-        # the crossing lies ahead of the first place, in line with the last straight
-        ahead = ((x[-1] - x[0]) * out_z - (z[-1] - z[0]) * out_x) / (in_x * out_z - in_z * out_x)
-        crossing = float(x[0] + ahead * in_x), float(z[0] + ahead * in_z)
-        radius = float(((x - crossing[0]) * in_x + (z - crossing[1]) * in_z).max()) / 2
-        middle = crossing[0] + radius * (in_x - out_x), crossing[1] + radius * (in_z - out_z)
-        away = np.hypot(x - middle[0], z - middle[1])
-        if radius <= 0 or (np.abs(away - radius) < _ROUND * radius).sum() < _LEAST_PLACES:
-            return None
-        return Bend(crossing, (in_x, in_z), (out_x, out_z), radius, is_left=bool(turned < 0))
-
-    @property
-    def _ways(self) -> tuple[Point, Point]:
-        """Unit vectors (x, z) along its first and its last piece."""
-        x, z = self.places[:, 0], self.places[:, 2]
-        return _unit(x[1] - x[0], z[1] - z[0]), _unit(x[-1] - x[-2], z[-1] - z[-2])
 
 
 class BuiltLevel(NamedTuple):
@@ -137,29 +62,19 @@ class BuiltLevels:
     Attributes
     ----------
     source
-        File of the stage.
-    stage
-        The stage.
-    whole
-        Lane graph and stalls of all levels; portals are those to the street.
+        File of the stage, or what it was laid out from.
+    lanes
+        The lane graph of all levels; portals are those to the street.
+    stalls
+        The stalls of all levels.
     levels
         The levels, the top one first.
     """
 
     source: str
-    stage: Usd.Stage
-    whole: Lanes
+    lanes: LaneGraph
+    stalls: tuple[Stall, ...]
     levels: tuple[BuiltLevel, ...]
-
-    @property
-    def lanes(self) -> LaneGraph:
-        """The lane graph of all levels."""
-        return self.whole.graph
-
-    @property
-    def stalls(self) -> tuple[Stall, ...]:
-        """The stalls of all levels."""
-        return tuple(self.whole.stalls)
 
     @cached_property
     def ramp_nodes(self) -> tuple[int, ...]:
@@ -189,25 +104,15 @@ class BuiltLevels:
     def things(self) -> tuple[Thing, ...]:
         """All objects of all levels, at their heights."""
         return tuple(
-            Thing(
-                level.path_in_whole(thing.name),
-                thing.label,
-                tuple(_lifted(body, level.place.floor_m) for body in thing.bodies),
-            )
+            replace(_raised(thing, level.place.floor_m), name=level.path_in_whole(thing.name))
             for level in self.levels
             for thing in level.garage.things
         )
 
 
 _RISE_M = 0.01
-_STRAIGHT_SIN = 0.02
-_ROUND = 0.02
-_LEAST_PLACES = 6
-
-
-def _unit(x: float, z: float) -> Point:
-    far = math.hypot(x, z) or 1.0
-    return float(x) / far, float(z) / far
+_ONTO_RAMP_M = 4.0
+"""Length in metres of a straight ramp on which a car that drives onto it, or comes up, may still be turning."""
 
 
 def built_levels(stage: Usd.Stage, source: str | Path) -> BuiltLevels | None:
@@ -226,22 +131,46 @@ def built_levels(stage: Usd.Stage, source: str | Path) -> BuiltLevels | None:
             if node.is_portal and (key := _key(node.position, number)) in ahead
         }
         levels.append(BuiltLevel(place, replace(garage, landings=landings)))
-    built = BuiltLevels(str(source), stage, whole, tuple(levels))
-    beyond = _level_beyond_m(built)
-    if not any(beyond):
-        return built
-    levels = [
-        level._replace(garage=replace(level.garage, level_beyond_m=of_level))
-        for level, of_level in zip(levels, beyond, strict=True)
-    ]
-    return replace(built, levels=tuple(levels))
+    return _with_ramps(BuiltLevels(str(source), whole.graph, tuple(whole.stalls), tuple(levels)))
 
 
-def _level_beyond_m(built: BuiltLevels) -> list[dict[str, float]]:
-    """Return the length of the level floor beyond the edges of landings of helices, by name on each level."""
+def laid_out_levels(layouts: Sequence[LevelLayout], joined: JoinedLevels, *, source: str) -> BuiltLevels:
+    """Return the layouts of the levels of a garage, with its lanes and stalls, as a garage as built."""
+    levels = (
+        BuiltLevel(
+            StageLevel(level.name, f"/{level.name}", level.floor_m),
+            garage_of_layout(level.layout, source=source, kind="layout"),
+        )
+        for level in layouts
+    )
+    return _with_ramps(BuiltLevels(source, joined.lane_graph, joined.quads, tuple(levels)))
+
+
+def _with_ramps(built: BuiltLevels) -> BuiltLevels:
+    """Return the garage with levels that know the way onto the ramps below them."""
+    levels = built.levels
+    known = (
+        level._replace(garage=replace(level.garage, way_beyond_m=of_level, ramps_below=_ramps_to(lower, level)))
+        for level, lower, of_level in zip(levels, [*levels[1:], None], _way_beyond_m(built), strict=True)
+    )
+    return replace(built, levels=tuple(known))
+
+
+def _ramps_to(lower: BuiltLevel | None, level: BuiltLevel) -> tuple[Thing, ...]:
+    """Return the ramps that lead from a level down to the lower one, at their heights over the level's floor."""
+    if lower is None:
+        return ()
+    below_m = lower.place.floor_m - level.place.floor_m
+    return tuple(_raised(thing, below_m) for thing in lower.garage.things if thing.label == RAMP.label)
+
+
+def _way_beyond_m(built: BuiltLevels) -> list[dict[str, float]]:
+    """Return how far the way leads on beyond the edges of landings before a route ends, by name on each level."""
     found: list[dict[str, float]] = [{} for _ in built.levels]
     for line in built.ramp_lines:
         if line.bend is None:
+            head = built.lanes.nodes[line.nodes[0 if line.is_down else -1]]
+            found[head.level][head.name.rpartition("/")[2]] = _ONTO_RAMP_M
             continue
         for landing, edge, slope in (line.nodes[:3], line.nodes[:-4:-1]):
             node = built.lanes.nodes[landing]
@@ -276,7 +205,11 @@ def _key(position: Point, level: int) -> tuple[float, float, int]:
     return round(position[0], _SAME_PLACE_DIGITS), round(position[1], _SAME_PLACE_DIGITS), level
 
 
-def _lifted(body: Body, floor_m: float) -> Body:
-    matrix = body.matrix.copy()
-    matrix[3, 1] += floor_m
-    return body._replace(matrix=matrix)
+def _raised(thing: Thing, height_m: float) -> Thing:
+    """Return an object some metres higher."""
+    bodies = []
+    for body in thing.bodies:
+        matrix = body.matrix.copy()
+        matrix[3, 1] += height_m
+        bodies.append(body._replace(matrix=matrix))
+    return replace(thing, bodies=tuple(bodies))

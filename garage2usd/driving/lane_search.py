@@ -40,7 +40,7 @@ def path_between_portals(
 ) -> tuple[Path, Portal] | None:
     """Return the shortest path found from the pose outside an entrance to the pose outside one of some exits."""
     edges = [(entrance.node, other) for other in roadmap.lanes.onward[entrance.node]]
-    return _Growth(roadmap, entrance.pose, exits, grain, is_back=False).grown(edges)
+    return _Growth(roadmap, entrance.pose, exits, grain, is_back=False).grown(edges, door=entrance)
 
 
 @dataclass(order=True, slots=True)
@@ -77,10 +77,17 @@ class _Growth:
         self._waiting: list[_Candidate] = []
         self._numbers = count()
 
-    def grown(self, edges: Iterable[Arc]) -> tuple[Path, Portal] | None:
-        """Run the search; return the path and the portal at its end or start."""
+    def grown(self, edges: Sequence[Arc], *, door: Portal | None = None) -> tuple[Path, Portal] | None:
+        """Run the search over some first edges; return the path and the portal at its end or start.
+
+        A car that starts outside a door may turn as soon as it is in line with some place before the door's square.
+        """
         self._done[None] = ()
         self._grow_from(None, edges, 0.0)
+        before = dict(self._roadmap.door_spots(door)) if door is not None else {}
+        for spot, pose in before.items():
+            self._poses[spot] = pose
+            self._offer(spot, None, 0.0)
         while self._waiting:
             candidate = heapq.heappop(self._waiting)
             target = candidate.target
@@ -94,8 +101,8 @@ class _Growth:
             if target is not None:
                 if target.node in self._portals:
                     self._offer(target.node, target, candidate.driven_m)
-                edges = self._roadmap.edges_from(target, is_back=self._is_back)
-                self._grow_from(target, edges, candidate.driven_m)
+                onward = edges if target in before else self._roadmap.edges_from(target, is_back=self._is_back)
+                self._grow_from(target, onward, candidate.driven_m)
         return None
 
     def _pieces(self, candidate: _Candidate) -> tuple[Piece, ...] | None:

@@ -26,6 +26,8 @@ __all__ = [
 
 Floats = NDArray[np.float64]
 _ON_EDGE = 1e-9
+_EDGE_M = 1e-5
+"""Distance in metres beside a straight ramp that belongs to it: coordinates of stages have single precision."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,7 +135,7 @@ class RampFloor:
         away_x, away_z = x_m - self.foot_m[0], z_m - self.foot_m[1]
         run = away_x * self.uphill[0] + away_z * self.uphill[1]
         aside = np.abs(away_x * self.uphill[1] - away_z * self.uphill[0])
-        is_on = (aside <= self.half_width_m) & (run >= self.runs_m[0]) & (run <= self.end_m)
+        is_on = (aside <= self.half_width_m + _EDGE_M) & (run >= self.runs_m[0]) & (run <= self.end_m)
         heights: Floats = np.where(is_on, np.interp(run, self.runs_m, self.heights_m), np.nan)
         return heights
 

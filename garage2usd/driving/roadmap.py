@@ -23,7 +23,6 @@ _MOST_EDGES = 4
 """Greatest number of lane edges that a path with two turns may span."""
 _SAME_WAY = 0.999
 _ROOM_KEPT_M = 0.2
-_MOST_ASIDE_M = 1.2
 _ROOM_TO_TURN_M = 0.1
 _BESIDE_M = 0.8
 """Greatest width of the rectangle of poses from which a car may turn; metres."""
@@ -61,14 +60,22 @@ class Grain:
         Lateral offsets of poses on a lane, as shares of the room beside a car.
     is_fine
         True to add poses between the middles of squares.
+    most_aside_m
+        Greatest lateral offset.
     """
 
     asides: tuple[float, ...]
     is_fine: bool
+    most_aside_m: float = 1.2
 
 
-GRAINS = (Grain((0.0,), is_fine=False), Grain((0.0, 1.0, -1.0), is_fine=True))
-"""Coarse and fine roadmap: middles of squares only, and with lateral and intermediate poses."""
+GRAINS = (
+    Grain((0.0,), is_fine=False),
+    Grain((0.0, 1.0, -1.0), is_fine=True),
+    Grain((0.0, 1.0, -1.0), is_fine=True, most_aside_m=2.4),
+)
+"""Coarse, fine and wide roadmap: middles of squares only, with lateral and intermediate poses, and with such as far to
+the side as cars swing out that turn back into the next aisle."""
 
 
 class Roadmap:
@@ -185,7 +192,7 @@ class Roadmap:
 
     def spots(self, edge: Arc, grain: "Grain", *, is_back: bool) -> Iterator[tuple[Spot, Pose]]:
         """Yield the roadmap's poses on a lane edge and at its end, or at its start in a backward search."""
-        room_m = min((self._lanes.arcs[edge].width_m - self._car.width_m) / 2 - _ROOM_KEPT_M, _MOST_ASIDE_M)
+        room_m = min((self._lanes.arcs[edge].width_m - self._car.width_m) / 2 - _ROOM_KEPT_M, grain.most_aside_m)
         along, length_m = self._along[edge]
         for share in grain.asides:
             aside_m = round(share * max(room_m, 0.0), _DIGITS)

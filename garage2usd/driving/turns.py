@@ -120,6 +120,14 @@ def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple
             yield (Piece(Gear.FORWARD, across.real),) if across.real > 0 else ()
         return
 
+    # about turns lead to the left or to the right
+    both = (turned, -turned) if math.pi - abs(turned) < _SAME_RAD else (turned,)
+    found = [pieces for each in both for pieces in _turning(across, each, steering)]
+    yield from sorted(found, key=lambda pieces: sum(piece.length_m for piece in pieces))
+
+
+def _turning(across: complex, turned: float, steering: Steering) -> Iterator[tuple[Piece, ...]]:
+    """Yield a turn, a straight and a turn that lead to a point ahead, and by an angle to the left in all."""
     limits = steering.curvature_per_m, steering.sharpness_per_m2, _NODES, len(_NODES)
     straight = np.zeros(2)
 
@@ -137,10 +145,8 @@ def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple
     changes = (misses[:-1] * misses[1:] < 0) & ~are_met[:-1] & ~are_met[1:]
     for one, other in zip(scan[:-1][changes].tolist(), scan[1:][changes].tolist(), strict=True):
         roots.append(brentq(lambda first_rad: straight_at(first_rad)[1], one, other, xtol=1e-13, rtol=1e-13))
-    found = []
     for root in roots:
         straight_m = straight_at(root)[0]
         if straight_m >= 0:
             ahead = (Piece(Gear.FORWARD, straight_m),) if straight_m > _SAME_M else ()
-            found.append((*steering.turn(root), *ahead, *steering.turn(turned - root)))
-    yield from sorted(found, key=lambda pieces: sum(piece.length_m for piece in pieces))
+            yield (*steering.turn(root), *ahead, *steering.turn(turned - root))

@@ -7,7 +7,8 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from garage2usd.as_built import BuiltGarage
-from garage2usd.as_built.levels import Bend, BuiltLevels, RampLine
+from garage2usd.as_built.levels import BuiltLevels
+from garage2usd.as_built.ramp_line import Bend, RampLine
 from garage2usd.common.errors import StageError
 from garage2usd.maps.frame import map_point
 from garage2usd.maps.network import Lanes, Neighbour, Network, Road
