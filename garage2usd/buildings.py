@@ -8,13 +8,14 @@ with the landings as its portals; the levels below take over R and C of the top 
 import time
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
+from itertools import count, pairwise
 from pathlib import Path
 
 import numpy as np
 
+from garage2usd.as_built.levels import laid_out_levels
 from garage2usd.checks import Finding, judged_layout
-from garage2usd.common.errors import ConfigError, UnreachableStallError
+from garage2usd.common.errors import ConfigError, GenerationError
 from garage2usd.common.json_text import json_text
 from garage2usd.common.output import check_file, check_name, check_writable, publish_at, staging_folder
 from garage2usd.common.processes import without_collector
@@ -28,6 +29,7 @@ from garage2usd.layout.egress.exits import plan_egress
 from garage2usd.layout.egress.shafts import LevelPlan
 from garage2usd.layout.shell.well import SLAB_M
 from garage2usd.layout.shell.wells import make_well
+from garage2usd.maps.level_drives import LevelsDrivePlanner
 from garage2usd.pipeline import Garage, laid_out, lane_squares_of, planned, stage_metadata
 from garage2usd.planning import Plan, evaluate, tape_of
 from garage2usd.planning.dimensions import aisle_side_mm, lines_with_aisles
@@ -57,7 +59,10 @@ __all__ = [
 _CEILING_TO_FLOOR_M = 0.25
 """Least height between a ceiling's underside and the floor above: the ceiling's slab."""
 _TAPE_JOINT = "/"
+_ATTEMPTS = 8
+"""Most places of the ramps that are tried until cars reach every stall: some leave no room to turn before a ramp."""
 _MOST_CHECKED_STALLS = 10_000
+_NAMED_STALLS = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,9 +161,10 @@ def generate_levels(
     ConfigError
         If a setting cannot be used, or not together with several levels.
     GenerationError
-        If a random step found no valid result, such as a place for the ramps; names the step and the seed.
+        If a random step found no valid result, such as a place for the ramps from and to which cars reach every stall;
+        names the step and the seed.
     UnreachableStallError
-        If a stall has no way from an entrance on the street and to an exit on it.
+        If a level leaves stalls without a lane.
     """
     return _generate(config, seed=seed, tape=tape, progress=progress)[0]
 
@@ -252,16 +258,67 @@ def _generate(
     if seed is not None:
         config = config.with_seed(seed)
     check_levels(config)
-    clock = [time.perf_counter()]
+    seconds = dict.fromkeys(("site", "plan", "layout"), 0.0)
+    start = time.perf_counter()
     site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
     check_room(site, config.bay)
     if (site.cells == Cell.LANE).any():
         raise ConfigError("site.structure", str(site), "no lanes with building.levels of 2 or more: they are planned")
-    ramps, tapes = _ramps_and_tapes(site, config, tape)
-    clock.append(time.perf_counter())
-    plans = _plans(site, config, ramps, tapes, progress)
+    seconds["site"] += time.perf_counter() - start
+    unreached: list[str] = []
+    for attempt in count(1):
+        clock = [time.perf_counter()]
+        try:
+            ramps, tapes = _ramps_and_tapes(site, config, tape, attempt - 1)
+        except GenerationError:
+            if unreached:
+                raise _without_a_way(unreached, config, tape, attempt - 1) from None
+            raise
+        clock.append(time.perf_counter())
+        plans = _plans(site, config, ramps, tapes, progress)
+        clock.append(time.perf_counter())
+        garage = _laid_out(site, config, ramps, plans, progress)
+        unreached = unreached_stalls(garage.joined)
+        clock.append(time.perf_counter())
+        for step, (begin, end) in zip(seconds, pairwise(clock), strict=True):
+            seconds[step] += end - begin
+        if not unreached or _is_driven_through(garage):
+            break
+        if tape is not None or config.building.place is not None or attempt == _ATTEMPTS:
+            raise _without_a_way(unreached, config, tape, attempt)
+    return garage, seconds
+
+
+def _is_driven_through(garage: LevelsGarage) -> bool:
+    """Return True if the design car drives from the street to the lowest level, and back."""
+    built = laid_out_levels(garage.layouts, garage.joined, source="a layout")
+    return LevelsDrivePlanner(built).is_driven_through()
+
+
+def _without_a_way(
+    stalls: list[str], config: GarageConfig, tape: str | None, attempt: int
+) -> GenerationError | ConfigError:
+    """Return the error of a garage with stalls that cars do not reach."""
+    named = ", ".join(stalls[:_NAMED_STALLS]) + (", ..." if len(stalls) > _NAMED_STALLS else "")
+    lack = f"stalls without a way in forward gear from the street and to it: {named}"
+    given, place = config.building.place, "building.place"
+    if tape is not None:
+        return ConfigError("tape", tape, f"ramps and lanes without {lack}")
+    if given is not None:
+        return ConfigError(
+            place, given.model_dump(exclude_none=True), f"a place with room to turn before the ramps, without {lack}"
+        )
+    reason = (
+        f"none of {attempt} places of the ramps has room to turn before them; {lack}; a larger site has more places"
+    )
+    return GenerationError("links", reason, seed=config.seed, attempts=attempt)
+
+
+def _laid_out(
+    site: Structure, config: GarageConfig, ramps: Ramps, plans: list[tuple[Plan, GarageConfig]], progress: Progress
+) -> LevelsGarage:
+    """Lay out all levels around the ramps, with stair cores above one another."""
     building = Building(tuple(plan.structure for plan, _ in plans), ramps, config.building.storey_m)
-    clock.append(time.perf_counter())
     graphs = [lane_squares_of(plan, of_level) for plan, of_level in plans]
     egresses = plan_egress(
         [LevelPlan(plan.structure, graph, of) for (plan, of), graph in zip(plans, graphs, strict=True)], ramps.squares
@@ -271,13 +328,7 @@ def _generate(
         well = make_well(ramps, number, config)
         static = plan.structure.with_cells(level_cells(site.cells, ramps, number, config.building.levels))
         levels.append(laid_out(static, plan, of_level, graph, well=well, egress=egress, progress=progress))
-    garage = LevelsGarage(config, building, tuple(levels))
-    unreached = unreached_stalls(garage.joined)
-    if unreached:
-        raise UnreachableStallError([], f"stalls without a way from the street and to it: {', '.join(unreached)}")
-    clock.append(time.perf_counter())
-    steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
-    return garage, {step: end - start for step, (start, end) in steps}
+    return LevelsGarage(config, building, tuple(levels))
 
 
 def check_levels(config: GarageConfig) -> None:
@@ -299,11 +350,13 @@ def check_levels(config: GarageConfig) -> None:
             raise ConfigError(field, list(given), "nothing with building.levels of 2 or more: it names no level")
 
 
-def _ramps_and_tapes(site: Structure, config: GarageConfig, tape: str | None) -> tuple[Ramps, list[str | None]]:
-    """Draw the ramps, or read them and the tapes of the levels from the tape of the whole garage."""
+def _ramps_and_tapes(
+    site: Structure, config: GarageConfig, tape: str | None, attempt: int
+) -> tuple[Ramps, list[str | None]]:
+    """Draw the ramps, in each attempt at another place, or read them and the levels' tapes from that of the whole."""
     levels = config.building.levels
     if tape is None:
-        return draw_ramps(site, config), [None] * levels
+        return draw_ramps(site, config, attempt), [None] * levels
     links, *tapes = tape.split(_TAPE_JOINT)
     wanted = f"the tape of {config.building.ramps} ramps and the tapes of {levels} levels, joined by {_TAPE_JOINT}"
     try:

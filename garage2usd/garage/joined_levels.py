@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.garage.driven_nodes import driven_nodes
 from garage2usd.garage.lanes import LaneEdge, LaneGraph, LaneKind, LaneNode
 from garage2usd.garage.stalls import Stall
 
@@ -126,15 +126,13 @@ def join_levels(levels: Sequence[LevelLanes], ramps: Sequence[RampLane]) -> Join
 
 
 def unreached_stalls(joined: JoinedLevels) -> list[str]:
-    """Return the ids of the stalls that no car reaches from the street, or from which none reaches the street."""
-    graph, lanes = joined.lane_graph.graph, joined.lane_graph
-    arriving = _spread(graph, lanes.portals(LaneKind.ENTRANCE))
-    leaving = _spread(graph.reverse(copy=False), lanes.portals(LaneKind.EXIT))
-    return [stall.name for stall in joined.quads if stall.access not in arriving or stall.access not in leaving]
+    """Return the ids of the stalls that cars reach only by turning back at once into the next aisle, or never.
 
-
-def _spread(graph: "nx.DiGraph[int]", sources: Sequence[int]) -> set[int]:
-    return set().union(*(nx.descendants(graph, source) for source in sources), sources)
+    The same holds for those from which they reach the street (`garage2usd.garage.driven_nodes`).
+    """
+    lanes = joined.lane_graph
+    reached = driven_nodes(lanes, LaneKind.ENTRANCE) & driven_nodes(lanes, LaneKind.EXIT)
+    return [stall.name for stall in joined.quads if stall.access not in reached]
 
 
 def _on_level(stall: Stall, name: str, level: int, first: int) -> Stall:

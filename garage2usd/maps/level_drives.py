@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from garage2usd.as_built.driven_floor import BEYOND_TOP_M
 from garage2usd.as_built.driven_road import bent_floors
 from garage2usd.as_built.garage import BuiltGarage
-from garage2usd.as_built.levels import Bend, BuiltLevels
+from garage2usd.as_built.levels import BuiltLevels
+from garage2usd.as_built.ramp_line import Bend
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.spelling import find_named
 from garage2usd.config.maps import DriveConfig, Leg
@@ -137,6 +138,23 @@ class LevelsDrivePlanner:
         parked_after = len(arrival.pieces) if leg is Leg.BOTH else None
         motion = timed(path, self._settings, car=self._car, parked_after=parked_after, spans=self._spans(parts))
         return Drive(whole, leg, motion, self._car, self._settings)
+
+    def is_driven_through(self) -> bool:
+        """Return True if a drive is found from the street to the lowest level, and one from there back to the street.
+
+        The first, the middle and the last stall of that level are tried.
+        """
+        level = len(self._garage.levels) - 1
+        names = [stall.name for stall in self._garage.stalls if stall.takes_cars and stall.level == level]
+        middle = len(names) // 2
+        return any(self._is_driven_to(name) for name in (*names[:1], *names[middle : middle + 1], *names[-1:]))
+
+    def _is_driven_to(self, stall: str) -> bool:
+        try:
+            self.drive(stall)
+        except ConfigError:
+            return False
+        return True
 
     def _stall(self, asked: str) -> Stall:
         stalls = {stall.name: stall for stall in self._garage.stalls if stall.takes_cars}

@@ -49,7 +49,7 @@ _KINDS = {
 }
 
 
-def draw_ramps(site: Structure, config: GarageConfig) -> Ramps:
+def draw_ramps(site: Structure, config: GarageConfig, attempt: int = 0) -> Ramps:
     """Draw the place of the ramps between levels, or take the given one.
 
     Parameters
@@ -59,6 +59,8 @@ def draw_ramps(site: Structure, config: GarageConfig) -> Ramps:
     config
         Levels, kind of ramps, storey, slope and seed. Where R and C are chosen later the number of squares is that for
         usual sides, and `with_ramps_room` lengthens sides if need be.
+    attempt
+        Number of earlier draws, whose places are left out.
 
     Raises
     ------
@@ -71,17 +73,19 @@ def draw_ramps(site: Structure, config: GarageConfig) -> Ramps:
     if building.place is not None:
         return _given(site, config, building.place)
     places = [ramps for ramps in kind.places(site, config) if ramps_are_free(site.cells, ramps, building.levels)]
-    if not places:
+    if len(places) <= attempt:
         reason = (
             f"{kind.room(config)}, with free landings and squares ahead of these, find no place on "
             f"{site.shape[0]} x {site.shape[1]} squares; a larger site, fewer obstacles or a steeper "
             "building.ramp_slope_percent gives them room"
         )
-        raise GenerationError("links", reason, seed=config.seed, attempts=1)
-    if kind.cost is not None:
-        costs = [kind.cost(site, ramps) for ramps in places]
-        places = [ramps for ramps, cost in zip(places, costs, strict=True) if cost == min(costs)]
-    return places[int(generator(config.seed, Step.LINKS).integers(len(places)))]
+        raise GenerationError("links", reason, seed=config.seed, attempts=attempt + 1)
+    costs = {ramps: 0 if kind.cost is None else kind.cost(site, ramps) for ramps in places}
+    for number in range(attempt + 1):
+        cheapest = [ramps for ramps, cost in costs.items() if cost == min(costs.values())]
+        drawn = cheapest[int(generator(config.seed, Step.LINKS, number).integers(len(cheapest)))]
+        del costs[drawn]
+    return drawn
 
 
 def _given(site: Structure, config: GarageConfig, place: RampsPlace) -> Ramps:
