@@ -23,6 +23,7 @@ from garage2usd.datasets.drives import DrivesConfig
 from garage2usd.datasets.group_places import MOST_EVEN, drawn_place, even_place, setting_generator
 from garage2usd.datasets.settings_table import first_value, merge_settings, pin_textures, resolved
 from garage2usd.sensors.rig.rig import read_rig
+from garage2usd.site.levels import check_levels
 
 __all__ = ["Alternative", "Distinct", "MakeConfig", "Recipe", "ShardForm", "ShardsConfig", "load_recipe"]
 
@@ -265,8 +266,6 @@ class Recipe(Settings):
 
     def _check_levels(self, config: GarageConfig) -> None:
         """Refuse settings and outputs that several levels do not go with."""
-        from garage2usd.buildings import check_levels  # noqa: PLC0415 - it brings USD, which most recipes do without
-
         check_levels(config)
         if self.make.drives:
             wanted = (
