@@ -140,6 +140,7 @@ def test_a_sheet_has_a_cell_for_each_level_and_goes_on_with_whole_garages(tmp_pa
     asked, ends = [], [True]
 
     def picture(stage, folder, *, cameras=(), over=None, size_px, **_):
+        assert stage.exists()
         asked.append((stage.stem, folder.name))
         if asked[-1][0] == "U2" and ends.pop():
             raise KeyboardInterrupt
@@ -147,7 +148,7 @@ def test_a_sheet_has_a_cell_for_each_level_and_goes_on_with_whole_garages(tmp_pa
         return [Image.new("RGB", size_px, (number, count, 0)) for count in range(2 if cameras else 1)]
 
     monkeypatch.setattr(contact_sheet, "_rendered", picture)
-    two = SheetGarage("two", GarageConfig(**TWO_LEVELS))
+    two = SheetGarage("two", GarageConfig(**TWO_LEVELS, stage={"form": "flat"}))
     impossible = SheetGarage("none", GarageConfig(**{**TWO_LEVELS, "site": SMALL}))
     every, output, said = [*garages(1), two, impossible, *garages(1)], tmp_path / "sheet.png", []
     with pytest.raises(KeyboardInterrupt):
