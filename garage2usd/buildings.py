@@ -36,13 +36,12 @@ from garage2usd.planning.dimensions import aisle_side_mm, lines_with_aisles
 from garage2usd.reading.levels_report import LevelReport, LevelsReport, ReportedLink
 from garage2usd.reading.report import UnmetClause
 from garage2usd.report import make_report
-from garage2usd.site import make_site
-from garage2usd.site.level_ramps import draw_ramps, ramps_are_free, ramps_of_tape, with_ramps_room
-from garage2usd.site.room import check_room
+from garage2usd.site.level_ramps import ramps_are_free, ramps_of_tape, with_ramps_room
+from garage2usd.site.levels import LevelSites, make_level_sites, make_street_site
 from garage2usd.stage import StageFormat, shared_folder
 from garage2usd.stage.levels import LevelLayout, write_level_labels, write_levels_stage
-from garage2usd.structure.building import Building, Ramps, level_cells, level_name
-from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.building import Building, level_name
+from garage2usd.structure.grid import Structure
 from garage2usd.view.plan_picture import draw_plan
 from garage2usd.view.raster import to_image, write_png
 
@@ -50,14 +49,11 @@ __all__ = [
     "LevelsBuild",
     "LevelsGarage",
     "build_levels",
-    "check_levels",
     "generate_levels",
     "levels_metadata",
     "levels_report",
 ]
 
-_CEILING_TO_FLOOR_M = 0.25
-"""Least height between a ceiling's underside and the floor above: the ceiling's slab."""
 _TAPE_JOINT = "/"
 _ATTEMPTS = 8
 """Most places of the ramps that are tried until cars reach every stall: some leave no room to turn before a ramp."""
@@ -257,27 +253,20 @@ def _generate(
 ) -> tuple[LevelsGarage, dict[str, float]]:
     if seed is not None:
         config = config.with_seed(seed)
-    check_levels(config)
     seconds = dict.fromkeys(("site", "plan", "layout"), 0.0)
-    start = time.perf_counter()
-    site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
-    check_room(site, config.bay)
-    if (site.cells == Cell.LANE).any():
-        raise ConfigError("site.structure", str(site), "no lanes with building.levels of 2 or more: they are planned")
-    seconds["site"] += time.perf_counter() - start
     unreached: list[str] = []
     for attempt in count(1):
         clock = [time.perf_counter()]
         try:
-            ramps, tapes = _ramps_and_tapes(site, config, tape, attempt - 1)
+            sites, tapes = _sites_and_tapes(config, tape, attempt - 1)
         except GenerationError:
             if unreached:
                 raise _without_a_way(unreached, config, tape, attempt - 1) from None
             raise
         clock.append(time.perf_counter())
-        plans = _plans(site, config, ramps, tapes, progress)
+        plans = _plans(sites, config, tapes, progress)
         clock.append(time.perf_counter())
-        garage = _laid_out(site, config, ramps, plans, progress)
+        garage = _laid_out(sites, config, plans, progress)
         unreached = unreached_stalls(garage.joined)
         clock.append(time.perf_counter())
         for step, (begin, end) in zip(seconds, pairwise(clock), strict=True):
@@ -315,9 +304,10 @@ def _without_a_way(
 
 
 def _laid_out(
-    site: Structure, config: GarageConfig, ramps: Ramps, plans: list[tuple[Plan, GarageConfig]], progress: Progress
+    sites: LevelSites, config: GarageConfig, plans: list[tuple[Plan, GarageConfig]], progress: Progress
 ) -> LevelsGarage:
     """Lay out all levels around the ramps, with stair cores above one another."""
+    ramps = sites.ramps
     building = Building(tuple(plan.structure for plan, _ in plans), ramps, config.building.storey_m)
     graphs = [lane_squares_of(plan, of_level) for plan, of_level in plans]
     egresses = plan_egress(
@@ -326,50 +316,30 @@ def _laid_out(
     levels = []
     for number, ((plan, of_level), graph, egress) in enumerate(zip(plans, graphs, egresses, strict=True)):
         well = make_well(ramps, number, config)
-        static = plan.structure.with_cells(level_cells(site.cells, ramps, number, config.building.levels))
+        static = plan.structure.with_cells(sites.cells(number))
         levels.append(laid_out(static, plan, of_level, graph, well=well, egress=egress, progress=progress))
     return LevelsGarage(config, building, tuple(levels))
 
 
-def check_levels(config: GarageConfig) -> None:
-    """Refuse settings that several levels do not go with.
-
-    Raises
-    ------
-    ConfigError
-        If there is such a setting, or only one level.
-    """
-    building, ceiling_m = config.building, config.fittings.ceiling_height_m
-    if building.levels < 2:  # noqa: PLR2004
-        raise ConfigError("building.levels", building.levels, "2 or more here; garage2usd.build makes one level")
-    if building.storey_m < ceiling_m + _CEILING_TO_FLOOR_M:
-        least = f"at least {_CEILING_TO_FLOOR_M} m over fittings.ceiling_height_m, which is {ceiling_m}"
-        raise ConfigError("building.storey_m", building.storey_m, least)
-    for field, given in (("plan.one_way", config.plan.one_way), ("stalls.runs", config.stalls.runs)):
-        if given:
-            raise ConfigError(field, list(given), "nothing with building.levels of 2 or more: it names no level")
-
-
-def _ramps_and_tapes(
-    site: Structure, config: GarageConfig, tape: str | None, attempt: int
-) -> tuple[Ramps, list[str | None]]:
-    """Draw the ramps, in each attempt at another place, or read them and the levels' tapes from that of the whole."""
+def _sites_and_tapes(config: GarageConfig, tape: str | None, attempt: int) -> tuple[LevelSites, list[str | None]]:
+    """Make the sites of the levels and their tapes, with ramps drawn, in each attempt elsewhere, or read from the tape."""
     levels = config.building.levels
     if tape is None:
-        return draw_ramps(site, config, attempt), [None] * levels
+        return make_level_sites(config, attempt), [None] * levels
+    street = make_street_site(config)
     links, *tapes = tape.split(_TAPE_JOINT)
     wanted = f"the tape of {config.building.ramps} ramps and the tapes of {levels} levels, joined by {_TAPE_JOINT}"
     try:
         ramps = ramps_of_tape(links, config)
     except (ValueError, KeyError):
         raise ConfigError("tape", tape, wanted) from None
-    if len(tapes) != levels or not ramps_are_free(site.cells, ramps, levels):
+    if len(tapes) != levels or not ramps_are_free(street.cells, ramps, levels):
         raise ConfigError("tape", tape, f"{wanted}, on free squares of the site")
-    return ramps, list(tapes)
+    return LevelSites(street, ramps, levels), list(tapes)
 
 
 def _plans(
-    site: Structure, config: GarageConfig, ramps: Ramps, tapes: list[str | None], progress: Progress
+    sites: LevelSites, config: GarageConfig, tapes: list[str | None], progress: Progress
 ) -> list[tuple[Plan, GarageConfig]]:
     """Plan all levels, the lower ones on R and C of the top one; each comes with its settings.
 
@@ -381,13 +351,13 @@ def _plans(
         seed = derived_seed(config.seed, Step.LEVELS, level) if level else config.seed
         changes = {"seed": seed, "building": BuildingConfig(), "bay": bay}
         of_level = config.model_copy(update=changes)
-        sides = found[0][0].structure if found else site
-        static = sides.with_cells(level_cells(site.cells, ramps, level, config.building.levels))
+        sides = found[0][0].structure if found else sites.street
+        static = sides.with_cells(sites.cells(level))
         plan = planned(static, of_level, tape=tape, progress=progress)
         if not found:
             bay = _fixed(bay, plan.structure)
         found.append((plan, of_level))
-    sides = with_ramps_room(_with_aisles([plan.structure for plan, _ in found], config.bay), ramps, config)
+    sides = with_ramps_room(_with_aisles([plan.structure for plan, _ in found], config.bay), sites.ramps, config)
     bay = _fixed(bay, sides)
     return [(_on_sides(plan, sides, bay, config), of.model_copy(update={"bay": bay})) for plan, of in found]
 

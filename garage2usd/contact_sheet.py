@@ -1,34 +1,38 @@
-"""Contact sheets: a grid of rendered pictures of many garages, each from inside and from above."""
+"""Contact sheets: a grid of rendered pictures of many garages, each level from inside and from above."""
 
 import hashlib
 import json
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from garage2usd.common.errors import ConfigError, GenerationError
+from garage2usd.buildings import generate_levels, levels_metadata
+from garage2usd.common.errors import ConfigError, GenerationError, UnreachableStallError
 from garage2usd.common.extras import require
 from garage2usd.common.output import check_file, publish_at, staging_folder, unfinished_folder
 from garage2usd.common.progress import Announce, Progress, silent, unheard
 from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
 from garage2usd.config.look_text import look_in_words
-from garage2usd.config.stage import AssetPlace
-from garage2usd.pipeline import Garage, generate, stage_metadata
+from garage2usd.config.stage import AssetPlace, StageForm
+from garage2usd.layout import Layout
+from garage2usd.pipeline import generate, stage_metadata
 from garage2usd.planning import Plan
 from garage2usd.render import Device, Picture, render_stage
 from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
-from garage2usd.stage import arrangement_of, write_stage
+from garage2usd.stage import arrangement_of, asset_folder_name, write_stage
 from garage2usd.stage.cameras import APERTURE_MM, FOCAL_MM
+from garage2usd.stage.levels import write_levels_stage
 
 __all__ = ["SHEET_SUFFIXES", "SheetGarage", "draw_contact_sheet"]
 
 _CAMERA = "Inside"
 _LEAN = 0.25
-"""Horizontal offset of the upper camera from the centre of the garage, as a share of its height."""
+"""Horizontal offset of the upper camera from the centre of the level, as a share of its height."""
 _ROOM = 1.12
 """Margin factor around the floor in the picture from above."""
 _HALF_WIDTH = APERTURE_MM[0] / FOCAL_MM / 2
@@ -53,12 +57,33 @@ class SheetGarage(NamedTuple):
     config
         Settings of the garage.
     plan
-        Plan made from these settings; None to plan it.
+        Plan made from these settings, for one level; None to plan it.
+    tape
+        Tape of a garage of several levels made from these settings; None to plan it.
     """
 
     name: str
     config: GarageConfig
     plan: Plan | None = None
+    tape: str | None = None
+
+
+class _Level(NamedTuple):
+    """A level on a contact sheet.
+
+    Attributes
+    ----------
+    caption
+        Name of the garage, and of the level among several.
+    layout
+        Objects of the level, with its floor at 0.
+    stage
+        Stage of the level alone, with its floor at 0.
+    """
+
+    caption: str
+    layout: Layout
+    stage: Path
 
 
 def draw_contact_sheet(
@@ -72,7 +97,7 @@ def draw_contact_sheet(
     progress: Progress = silent,
     announce: Announce = unheard,
 ) -> Path:
-    """Render each garage from its entrance and from above, with a caption.
+    """Render each garage from its entrance and from above, with a caption; of several levels each by itself.
 
     Parameters
     ----------
@@ -82,11 +107,11 @@ def draw_contact_sheet(
         The picture, PNG or JPEG by its extension. An interrupted call keeps finished garages in
         ``<output>.unfinished``, and the next equal call resumes.
     size_px
-        Width and height of each of the two pictures of a garage.
+        Width and height of each of the two pictures of a level.
     samples
         Samples per pixel.
     columns
-        Number of garages per row.
+        Number of levels per row.
     device
         Rendering device.
     progress
@@ -98,17 +123,18 @@ def draw_contact_sheet(
     ------
     ConfigError
         If the name or a size is invalid.
-    GenerationError
+    GenerationError, UnreachableStallError
         If all garages are infeasible.
     MissingExtraError
         If Blender is not installed.
     OutputError, RenderError
         As `garage2usd.render.render_stage`.
     """
-    columns = min(columns, len(garages))
+    count = sum(garage.config.building.levels for garage in garages)
+    columns = min(columns, count)
     if output.suffix.lower() not in SHEET_SUFFIXES:
         raise ConfigError("contact-sheet", str(output), f"a file that ends in {', '.join(SHEET_SUFFIXES)}")
-    rows = -(-len(garages) // max(columns, 1))
+    rows = -(-count // max(columns, 1))
     if not garages or max(_sheet_size(columns, rows, size_px)) > _MOST_PX:
         raise ConfigError("contact-sheet", f"{len(garages)} garages", f"some, on at most {_MOST_PX} pixels a side")
     require("render", modules_of(find_blender()), without=WITHOUT_MODULE)
@@ -117,12 +143,12 @@ def draw_contact_sheet(
         cells: list[Path] = []
         for number, garage in enumerate(garages):
             progress("garages", number, len(garages))
-            cell = work / f"{number:05}.png"
+            own = [work / f"{number:05}_{level}.png" for level in range(garage.config.building.levels)]
             try:
-                if not cell.exists():
-                    _draw(garage, cell, size_px, samples, device)
-                cells.append(cell)
-            except (ConfigError, GenerationError) as error:
+                if not all(cell.exists() for cell in own):
+                    _draw(garage, own, size_px, samples, device)
+                cells += own
+            except (ConfigError, GenerationError, UnreachableStallError) as error:
                 refused = error
                 announce(f"without {garage.name}: {error}")
         progress("garages", len(garages), len(garages))
@@ -140,38 +166,85 @@ def _key(garages: Sequence[SheetGarage], size_px: tuple[int, int], samples: int,
     return hashlib.sha256(json.dumps(told).encode()).hexdigest()
 
 
-def _draw(garage: SheetGarage, cell: Path, size_px: tuple[int, int], samples: int, device: Device) -> None:
-    """Draw a garage's two pictures with their caption."""
-    made = generate(garage.config, plan=garage.plan)
-    at_m, look_at_m = _over(made, size_px)
+def _draw(garage: SheetGarage, cells: Sequence[Path], size_px: tuple[int, int], samples: int, device: Device) -> None:
+    """Draw the two pictures of each level of a garage with their caption."""
     with staging_folder() as folder:
-        drawn = render_stage(
-            _stage(made, folder),
-            folder / "drawn",
-            cameras=(_CAMERA,),
-            at_m=at_m,
-            look_at_m=look_at_m,
-            size_px=size_px,
-            samples=samples,
-            pictures=(Picture.COLOUR,),
-            device=device,
-        )
-        inside, above = (_opened(drawn.folder / Picture.COLOUR / f"{name}.png") for name in drawn.names)
-    picture = Image.new("RGB", _cell_size(size_px), _PAPER)
+        stage, levels = _written(garage, folder)
+        render = partial(_rendered, size_px=size_px, samples=samples, device=device)
+        if len(levels) == 1:  # both pictures at once
+            pairs = [render(stage, folder / "both", cameras=(_CAMERA,), over=levels[0].layout)]
+        else:
+            insides = render(stage, folder / "inside", cameras=(_CAMERA,))
+            aboves = [render(level.stage, folder / level.stage.stem, over=level.layout)[0] for level in levels]
+            pairs = [[inside, above] for inside, above in zip(insides, aboves, strict=True)]
+    captioned = [_captioned(level, *pair) for level, pair in zip(levels, pairs, strict=True)]
+    for cell, picture in zip(cells, captioned, strict=True):
+        half = cell.with_suffix(".part")
+        picture.save(half, format="PNG")
+        half.replace(cell)
+
+
+def _written(garage: SheetGarage, folder: Path) -> tuple[Path, list[_Level]]:
+    """Make a garage and write its stage; return the stage and the garage's levels, the top one first."""
+    place = folder / "stage"
+    place.mkdir()
+    stage = place / "garage.usdc"
+    config = garage.config.stage.model_copy(update={"assets": AssetPlace.OWN})
+    if garage.config.building.levels == 1:
+        made = generate(garage.config, plan=garage.plan)
+        arrangement = arrangement_of(made.layout, config)
+        write_stage(made.layout, stage, arrangement=arrangement, metadata=stage_metadata(made), config=config)
+        return stage, [_Level(garage.name, made.layout, stage)]
+    config = config.model_copy(update={"form": StageForm.AUTO})  # a flat one has no stage of each level beside it
+    building = generate_levels(garage.config, tape=garage.tape)
+    layouts, metadata = building.layouts, levels_metadata(building)
+    write_levels_stage(layouts, building.joined, stage, metadata=metadata, config=config)
+    own = place / asset_folder_name(stage)
+    return stage, [_Level(f"{garage.name} {level.name}", level.layout, own / f"{level.name}.usdc") for level in layouts]
+
+
+def _rendered(
+    stage: Path,
+    folder: Path,
+    *,
+    cameras: Sequence[str] = (),
+    over: Layout | None = None,
+    size_px: tuple[int, int],
+    samples: int,
+    device: Device,
+) -> list[Image.Image]:
+    """Render the cameras of some name in the order of the stage, then one over the whole floor of a layout."""
+    at_m, look_at_m = (None, None) if over is None else _over(over, size_px)
+    drawn = render_stage(
+        stage,
+        folder,
+        cameras=cameras,
+        at_m=at_m,
+        look_at_m=look_at_m,
+        size_px=size_px,
+        samples=samples,
+        pictures=(Picture.COLOUR,),
+        device=device,
+    )
+    return [_opened(drawn.folder / Picture.COLOUR / f"{name}.png") for name in drawn.names]
+
+
+def _captioned(level: _Level, inside: Image.Image, above: Image.Image) -> Image.Image:
+    """Draw a cell: the two pictures of a level with its name and its look."""
+    width, height = inside.size
+    picture = Image.new("RGB", _cell_size(inside.size), _PAPER)
     picture.paste(inside, (0, 0))
-    picture.paste(_exposed(above), (size_px[0], 0))
+    picture.paste(_exposed(above), (width, 0))
     draw = ImageDraw.Draw(picture)
-    draw.text((2, size_px[1] + 3), garage.name, _INK, ImageFont.load_default(size=_LETTERS_PX))
-    words = look_in_words(made.layout.look)
-    draw.text((2, size_px[1] + 6 + _LETTERS_PX), words, _QUIET, ImageFont.load_default(size=_SMALL_PX))
-    half = cell.with_suffix(".part")
-    picture.save(half, format="PNG")
-    half.replace(cell)
+    draw.text((2, height + 3), level.caption, _INK, ImageFont.load_default(size=_LETTERS_PX))
+    words = look_in_words(level.layout.look)
+    draw.text((2, height + 6 + _LETTERS_PX), words, _QUIET, ImageFont.load_default(size=_SMALL_PX))
+    return picture
 
 
-def _over(garage: Garage, size_px: tuple[int, int]) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+def _over(layout: Layout, size_px: tuple[int, int]) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
     """Position of a camera that sees the whole floor, and the centre of the floor."""
-    structure, height_m = garage.layout.structure, garage.layout.ceiling_height_m
+    structure, height_m = layout.structure, layout.ceiling_height_m
     width_m, depth_m = structure.column_widths_mm.sum() / 1000, structure.row_depths_mm.sum() / 1000
     half_height = _HALF_WIDTH * size_px[1] / size_px[0]
     far_m = _ROOM * max(width_m / 2 / _HALF_WIDTH, depth_m / 2 / half_height) + height_m
@@ -192,20 +265,6 @@ def _exposed(picture: Image.Image) -> Image.Image:
     return picture.point([min(255, round(value * max(gain, 1.0))) for value in range(256)] * 3)
 
 
-def _stage(garage: Garage, folder: Path) -> Path:
-    config = garage.config.stage
-    place = folder / "stage"
-    place.mkdir()
-    made = write_stage(
-        garage.layout,
-        place / "garage.usdc",
-        arrangement=arrangement_of(garage.layout, config),
-        metadata=stage_metadata(garage),
-        config=config.model_copy(update={"assets": AssetPlace.OWN}),
-    )
-    return made.stage
-
-
 def _cell_size(size_px: tuple[int, int]) -> tuple[int, int]:
     return 2 * size_px[0], size_px[1] + _CAPTION_PX
 
@@ -216,7 +275,7 @@ def _sheet_size(columns: int, rows: int, size_px: tuple[int, int]) -> tuple[int,
 
 
 def _sheet(cells: Sequence[Path], columns: int, size_px: tuple[int, int]) -> Image.Image:
-    """Join the pictures of all garages, row by row."""
+    """Join the cells of all levels, row by row."""
     width, height = _cell_size(size_px)
     sheet = Image.new("RGB", _sheet_size(columns, -(-len(cells) // columns), size_px), _PAPER)
     for number, cell in enumerate(cells):

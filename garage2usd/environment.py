@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from garage2usd.common.extras import of_extra
 from garage2usd.config import GarageConfig
-from garage2usd.config.building import check_one_level
 from garage2usd.planning.decision import (
     Action,
     DecisionProcess,
@@ -25,8 +24,8 @@ from garage2usd.planning.decision import (
     transition,
 )
 from garage2usd.planning.score import evaluate, is_feasible
-from garage2usd.site import make_site
-from garage2usd.site.room import check_room
+from garage2usd.site.levels import level_number, make_level_sites
+from garage2usd.site.room import make_roomy_site
 from garage2usd.structure.grid import Cell, Structure
 
 with of_extra("garage2usd.environment"):
@@ -50,17 +49,36 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
     ----------
     config
         Settings: `site`, `bay` and `seed` define the site as in a build; `plan` defines penalties, observations and
-        allowed actions. The default garage if left out. Lanes of a given structure are removed.
+        allowed actions. The default garage if left out. Lanes of a given structure of one level are removed.
+    level
+        Level of a garage of several whose lanes are coloured, such as ``"U2"``; the top one if left out.
     render_mode
         ``"ansi"``, for which `render` draws the plan as text, or None.
+
+    Attributes
+    ----------
+    process
+        The decision process.
+    sites
+        Ramps and sites of all levels, a `garage2usd.site.levels.LevelSites`; None for a garage of one level.
+    render_mode
+        As given.
 
     Raises
     ------
     ConfigError, GenerationError
-        If the site is infeasible, as for `garage2usd.generate`.
+        If the site is infeasible, as for `garage2usd.generate` and `garage2usd.generate_levels`, or there is no such
+        level.
 
     Notes
     -----
+    **Levels.** Each level of a garage of several is an environment of its own, with the obstacles and portals of this
+    level in a build: squares of ramps are obstacles, landings are entrances and exits. Where R and C are chosen
+    (`bay.dimensioned`), all levels have equal squares here, as a garage of one level has. A build plans lower levels on
+    R and C of the planned top level instead, so that the same lanes may hold another number of stalls there. Finished
+    levels become a garage by `garage2usd.generate_levels` from a tape, which joins ``sites.ramps.tape`` and
+    `garage2usd.planning.tape_of` of the `structure` of each level by ``/``.
+
     **Actions.** ``Discrete(5)``: 0 up, 1 down, 2 left, 3 right, 4 stay. Rows grow downwards.
 
     **Observations.** A ``Dict`` with the paper's ``S_t = (D, M, A_{t-1})``:
@@ -79,17 +97,19 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
 
     **Info.** ``action_mask``: int8, shape (5,), 1 for actions that the preset allows, for ``action_space.sample``;
     other actions are executed too and may fail. ``score``: y' of the current lanes. ``is_feasible``: whether the lanes
-    are a plan: connected, and adjacent to every portal. ``structure``: the structure matrix as text, a valid
-    ``site.structure`` of `garage2usd.config.GarageConfig`.
+    are a plan: connected, and adjacent to every portal. ``structure``: the structure matrix as text, of the only level
+    a valid ``site.structure`` of `garage2usd.config.GarageConfig`.
     """
 
     metadata = {"render_modes": ["ansi"], "render_fps": 4}  # noqa: RUF012 - Gymnasium's own form
 
-    def __init__(self, config: GarageConfig | None = None, *, render_mode: str | None = None) -> None:
+    def __init__(
+        self, config: GarageConfig | None = None, *, level: str | None = None, render_mode: str | None = None
+    ) -> None:
         config = config or GarageConfig()
-        check_one_level(config.building)
-        site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
-        check_room(site, config.bay)
+        number = level_number(level, config.building.levels)
+        self.sites = make_level_sites(config) if config.building.levels > 1 else None
+        site = make_roomy_site(config) if self.sites is None else self.sites.site(number)
         self.process = DecisionProcess(site, config.bay, config.plan.resolved())
         self.render_mode = render_mode
         self.action_space = spaces.Discrete(len(Action))

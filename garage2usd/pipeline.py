@@ -34,8 +34,7 @@ from garage2usd.planning import (
 )
 from garage2usd.reading.report import UnmetClause
 from garage2usd.report import make_report, write_report
-from garage2usd.site import make_site
-from garage2usd.site.room import check_room
+from garage2usd.site.room import make_roomy_site
 from garage2usd.stage import StageFormat, arrangement_of, shared_folder, write_labels, write_stage
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneSquares, build_lane_graph
@@ -305,9 +304,7 @@ def laid_out(
 
 def _site(config: GarageConfig) -> Structure:
     check_one_level(config.building)
-    site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
-    check_room(site, config.bay)
-    return site
+    return make_roomy_site(config)
 
 
 def lane_squares_of(plan: Plan, config: GarageConfig) -> LaneSquares:

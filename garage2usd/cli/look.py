@@ -33,14 +33,14 @@ _RECIPE_KEYS = {"garage", "groups", "make", "shards", "splits"}
     "sheet",
     metavar="FILE",
     type=click.Path(dir_okay=False, path_type=Path),
-    help="Draw each of them from its entrance and from above, into one picture (.png or .jpg).",
+    help="Draw each of them from its entrance and from above, into one picture (.png or .jpg); of several levels each.",
 )
 @click.option(
     "--size",
     type=Size(),
     default="320x180",
     show_default=True,
-    help="With --contact-sheet: width and height in pixels of each of a garage's two pictures.",
+    help="With --contact-sheet: width and height in pixels of each of the two pictures of a garage or level.",
 )
 @click.option(
     "--samples",
@@ -56,7 +56,7 @@ _RECIPE_KEYS = {"garage", "groups", "make", "shards", "splits"}
     type=click.IntRange(1, 100),
     default=3,
     show_default=True,
-    help="With --contact-sheet: garages in a row.",
+    help="With --contact-sheet: garages in a row, or levels.",
 )
 @click.option(
     "--device",
@@ -80,8 +80,8 @@ def look(
     Without CONFIG this is the default garage with all axes of the look drawn. A recipe selects one of its garages; the
     recipe.json of a data set selects one of its finished garages and needs the extra `dataset`.
 
-    --contact-sheet, which needs the extra `blender`, renders many garages side by side. After an interruption finished
-    garages remain in FILE.unfinished, and the same command resumes.
+    --contact-sheet, which needs the extra `blender`, renders many garages side by side, and each level of a garage of
+    several. After an interruption finished garages remain in FILE.unfinished, and the same command resumes.
 
     \b
     Examples:

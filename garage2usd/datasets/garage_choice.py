@@ -7,7 +7,6 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.config.building import check_one_level
 from garage2usd.contact_sheet import SheetGarage
 from garage2usd.datasets.drawn_plan import DrawnPlan, plans_of
 from garage2usd.datasets.making import PLAN_FILE
@@ -31,7 +30,7 @@ def chosen_garages(path: Path, numbers: Sequence[int]) -> Iterator[SheetGarage]:
     Raises
     ------
     ConfigError
-        If the recipe is invalid, has no garage with one of the numbers, or one of them has several levels.
+        If the recipe is invalid, has no garage with one of the numbers, or one of them is infeasible.
     """
     recipe = load_recipe(path)
     plans = path.with_name(PLAN_FILE)
@@ -43,8 +42,10 @@ def chosen_garages(path: Path, numbers: Sequence[int]) -> Iterator[SheetGarage]:
         if drawn.error:
             raise ConfigError("seeds", number, f"a garage that is possible ({drawn.error})")
         config, _ = recipe.drawn(drawn.seed, drawn.number)
-        check_one_level(config.building)
-        yield SheetGarage(f"garage {number}", config, replanned(drawn, config))
+        if config.building.levels > 1:
+            yield SheetGarage(f"garage {number}", config, tape=drawn.tape)
+        else:
+            yield SheetGarage(f"garage {number}", config, replanned(drawn, config))
 
 
 def _drawn(recipe: Recipe, number: int) -> DrawnPlan:

@@ -23,6 +23,7 @@ from garage2usd.datasets.drives import DrivesConfig
 from garage2usd.datasets.group_places import MOST_EVEN, drawn_place, even_place, setting_generator
 from garage2usd.datasets.settings_table import first_value, merge_settings, pin_textures, resolved
 from garage2usd.sensors.rig.rig import read_rig
+from garage2usd.site.levels import check_levels
 
 __all__ = ["Alternative", "Distinct", "MakeConfig", "Recipe", "ShardForm", "ShardsConfig", "load_recipe"]
 
@@ -257,8 +258,6 @@ class Recipe(Settings):
         try:
             config = config_from_mapping({**given, "seed": seed})
             if config.building.levels > 1:
-                from garage2usd.buildings import check_levels  # noqa: PLC0415 - it brings USD, which most recipes do without
-
                 check_levels(config)
         except ConfigError as error:
             within = "" if error.field.startswith("make.") else "garage."

@@ -1,14 +1,30 @@
-"""Check of a site before planning: squares large enough for a stall."""
+"""The site of a garage before planning, with squares large enough for a stall."""
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.config import BayConfig
+from garage2usd.config import BayConfig, GarageConfig
+from garage2usd.site import make_site
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.stalls import capacity_table
 
-__all__ = ["check_room"]
+__all__ = ["make_roomy_site"]
 
 
-def check_room(site: Structure, bay: BayConfig) -> None:
+def make_roomy_site(config: GarageConfig) -> Structure:
+    """Make the site of a garage, of several levels the top one without ramps, and check its squares.
+
+    Raises
+    ------
+    ConfigError
+        If given parts contradict each other, or no square holds a stall.
+    GenerationError
+        If a step finds no valid result within its attempts.
+    """
+    site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
+    _check_room(site, config.bay)
+    return site
+
+
+def _check_room(site: Structure, bay: BayConfig) -> None:
     """Check that some squares can hold a stall, unless their size is chosen later.
 
     Raises

@@ -14,7 +14,6 @@ from garage2usd.as_built.levels import built_levels
 from garage2usd.checks import RULES
 from garage2usd.checks.levels import check_levels, read_stage
 from garage2usd.cli import main
-from garage2usd.environment import LanesEnvironment
 from garage2usd.maps.level_drives import LevelsDrivePlanner
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.levels_report import read_levels_report
@@ -317,7 +316,5 @@ def test_what_is_not_built_for_levels_refuses_them_and_writes_nothing(arguments,
 def test_one_level_alone_is_refused_where_several_are_asked_for_and_the_other_way_round():
     with pytest.raises(ConfigError, match=r"garage2usd\.build_levels"):
         garage2usd.generate(config())
-    with pytest.raises(ConfigError, match=r"garage2usd\.build_levels"):
-        LanesEnvironment(config())
     with pytest.raises(ConfigError, match="2 or more here"):
         garage2usd.generate_levels(GarageConfig(**SMALL))

@@ -144,8 +144,16 @@ def test_what_does_not_go_with_levels_is_refused_before_the_first_garage():
     assert caught.value.field == "garage.building.storey_m"
 
 
-def test_garages_of_levels_are_refused_on_contact_sheets(tmp_path):
-    recipe = recipe_of_levels(garage={**LEVELS, "building": {**LEVELS["building"], "levels": 2}})
-    (tmp_path / "r.json").write_text(recipe.record())
-    with pytest.raises(ConfigError, match=r"building\.levels"):
-        list(chosen_garages(tmp_path / "r.json", [0]))
+@pytest.mark.parametrize("is_finished", [True, False])
+def test_garages_of_levels_come_to_contact_sheets_with_their_tape(made, is_finished, tmp_path):
+    recipe, folder, rows = made
+    (row, *_) = (row for row in rows if row.levels == 2)
+    path = folder / "recipe.json"
+    if not is_finished:
+        path = tmp_path / "recipe.json"
+        path.write_text(recipe.record())
+    (garage,) = chosen_garages(path, [row.number])
+    assert garage.name == f"garage {row.number}"
+    assert garage.plan is None
+    levels = garage2usd.generate_levels(garage.config, tape=garage.tape).levels
+    assert [level.layout.parking_stalls for level in levels] == [*row.level_stalls]
