@@ -1,7 +1,7 @@
 """The global frame of nuScenes, and its map mask of the drivable ground."""
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,15 +40,17 @@ class GlobalFrame:
         placed: NDArray[np.float64] = (points_m - self.matrix[:3, 3]) @ self.matrix[:3, :3]
         return placed
 
-    def mask(self, scene: RayScene, ground: Collection[int], standing: Collection[int]) -> NDArray[np.uint8]:
+    def mask(self, scene: RayScene, grounds: Iterable[Collection[int]], standing: Collection[int]) -> NDArray[np.uint8]:
         """Rasterize the nuScenes map mask: 255 on ground without fixed objects, parked cars ignored.
 
         Parameters
         ----------
         scene
             The stage's surfaces.
-        ground, standing
-            Class ids of the ground, and of fixed objects on it, whose meshes are closed.
+        grounds
+            Ids of the objects of the ground, in groups within which none lies above another.
+        standing
+            Class ids of fixed objects on the ground, whose meshes are closed.
 
         Returns
         -------
@@ -61,15 +63,16 @@ class GlobalFrame:
         # what stands on the ground lies in the same plane as it, so that only the ground is looked at, from below
         below = self.to_stage(np.stack([x_m, y_m, np.full_like(x_m, self.lowest_m - 1)], axis=1))
         up = self.matrix[:3, :3].T @ [0.0, 0.0, 1.0]
-        lifts_m = scene.of_classes(ground).cast(below, np.broadcast_to(up, below.shape)).range_m
-        found = np.flatnonzero(np.isfinite(lifts_m))
-        eyes = below[found] + (lifts_m[found] + _KNEE_M)[:, None] * up
         ahead = self.matrix[:3, :3].T @ [1.0, 0.0, 0.0]
-        hits = scene.cast(eyes, np.broadcast_to(ahead, eyes.shape))
-        first, second, third = (scene.vertices_m[scene.triangles[hits.triangle, corner]] for corner in range(3))
-        # a ray that meets a solid from within began in it
-        is_within = (np.cross(second - first, third - first) @ ahead > 0) & (hits.triangle >= 0)
-        is_within &= np.isin(scene.class_id[hits.triangle], list(standing))
         mask = np.zeros(rows * columns, dtype=np.uint8)
-        mask[found[~is_within]] = 255
+        for ground in grounds:
+            lifts_m = scene.of_objects(ground).cast(below, np.broadcast_to(up, below.shape)).range_m
+            found = np.flatnonzero(np.isfinite(lifts_m))
+            eyes = below[found] + (lifts_m[found] + _KNEE_M)[:, None] * up
+            hits = scene.cast(eyes, np.broadcast_to(ahead, eyes.shape))
+            first, second, third = (scene.vertices_m[scene.triangles[hits.triangle, corner]] for corner in range(3))
+            # a ray that meets a solid from within began in it
+            is_within = (np.cross(second - first, third - first) @ ahead > 0) & (hits.triangle >= 0)
+            is_within &= np.isin(scene.class_id[hits.triangle], list(standing))
+            mask[found[~is_within]] = 255
         return mask.reshape(rows, columns)
