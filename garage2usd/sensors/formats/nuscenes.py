@@ -14,7 +14,7 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.reading.labels import Labels
 from garage2usd.sensors.boxes import object_boxes
 from garage2usd.sensors.formats.nuscenes_boxes import PARKED, VISIBILITY, add_boxes
-from garage2usd.sensors.formats.nuscenes_classes import BOXED, CATEGORIES, STANDING, categories_of_classes
+from garage2usd.sensors.formats.nuscenes_classes import BOXED, CATEGORIES, categories_of_classes
 from garage2usd.sensors.formats.nuscenes_locations import Location, locations_of
 from garage2usd.sensors.formats.nuscenes_map import GlobalFrame
 from garage2usd.sensors.formats.nuscenes_scenes import Stretch, stretches_of
@@ -147,10 +147,9 @@ def _add_location(
         date_captured=_DATE,
         location=location.name,
     )
-    standing = [number for number, each in labels.classes.items() if each.name in STANDING]
     path = folder / "maps" / f"{location.name}.png"
     path.parent.mkdir(exist_ok=True)
-    Image.fromarray(world.mask(scene, location.grounds(labels), standing)).save(path)
+    Image.fromarray(world.mask(scene, location, labels)).save(path)
     tables.add(
         "map",
         location.key,

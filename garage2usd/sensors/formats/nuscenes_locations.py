@@ -1,4 +1,4 @@
-"""Locations of nuScenes: a garage of one level, or each level of a garage, with the ground of its map."""
+"""Locations of nuScenes: a garage of one level, or each level of a garage, which have a map each."""
 
 from pathlib import Path
 from typing import NamedTuple
@@ -7,7 +7,6 @@ from pxr import Usd
 
 from garage2usd.reading.labels import Labels
 from garage2usd.reading.levels import levels_of, paths_from_above
-from garage2usd.sensors.formats.nuscenes_classes import FLAT
 
 __all__ = ["Location", "locations_of"]
 
@@ -22,20 +21,20 @@ class Location(NamedTuple):
     key
         Key of its log and of its map in the tables.
     floor_m
-        Height of its floor.
+        Height of its floor; None in a garage of one level.
     paths
         Beginnings of the paths of its objects: of a level its own, and of the ramps that lead down from it.
     """
 
     name: str
     key: str
-    floor_m: float
+    floor_m: float | None
     paths: tuple[str, ...]
 
-    def grounds(self, labels: Labels) -> list[list[int]]:
-        """Return the ids of the objects of the ground, in groups within which none lies above another."""
-        flat = [*labels.paths_of(FLAT)]
-        return [[labels.ids[path] for path in flat if path.startswith(start)] for start in self.paths]
+    def objects(self, labels: Labels, names: frozenset[str]) -> list[list[int]]:
+        """Return the ids of the objects of some classes, for each of `paths`."""
+        found = [*labels.paths_of(names)]
+        return [[labels.ids[path] for path in found if path.startswith(start)] for start in self.paths]
 
 
 def locations_of(stage: Usd.Stage, file: Path) -> list[Location]:
@@ -46,4 +45,4 @@ def locations_of(stage: Usd.Stage, file: Path) -> list[Location]:
             f"{file.stem}_{level.name}", f"{file.name} {level.name}", level.floor_m, paths_from_above(levels, number)
         )
         for number, level in enumerate(levels)
-    ] or [Location(file.stem, file.name, 0.0, ("",))]
+    ] or [Location(file.stem, file.name, None, ("",))]

@@ -52,7 +52,7 @@ def stretches_of(shots: Iterable[Shot], locations: Sequence[Location], world: Gl
     world
         The global frame, in which heights are measured.
     """
-    floors_m = [location.floor_m for location in locations]
+    floors_m = [location.floor_m or 0.0 for location in locations]
 
     def location_of(shots: Sequence[Shot]) -> int:
         return nearest_floor(floors_m, float((world.matrix @ shots[0].mount_to_world)[2, 3]))
