@@ -66,11 +66,11 @@ def write_nuscenes(
     -----
     Each pose of the drive is a sample, all of whose data are key frames. In a garage of several levels each level is a
     location with a log and a map, and a stretch of the drive on one level is a scene; prev and next, and instances, do
-    not cross scenes. The global frame is the stage with z up,
-    translated to positive coordinates as in nuScenes' maps; the map's record holds the transform (``stage_to_global``).
-    Objects of `nuscenes_classes.BOXED` have a box if a point was measured on them or any part is in line of sight of a
-    sensor. Boxes have a margin of a centimetre against rounding. The visibility is the share of an object's directions
-    in free line of sight, regardless of the sensor's field of view.
+    not cross scenes. The global frame is the stage with z up, translated to positive coordinates as in nuScenes' maps;
+    the map's record holds the transform (``stage_to_global``). Objects of `nuscenes_classes.BOXED` have a box if a
+    point was measured on them or any part is in line of sight of a sensor. Boxes have a margin of a centimetre against
+    rounding. The visibility is the share of an object's directions in free line of sight, regardless of the sensor's
+    field of view.
     """
     shots = [shot for shot in recording.shots if _is_told(shot)]
     if not shots:
