@@ -322,7 +322,7 @@ def _laid_out(
 
 
 def _sites_and_tapes(config: GarageConfig, tape: str | None, attempt: int) -> tuple[LevelSites, list[str | None]]:
-    """Make the sites of the levels and their tapes, with ramps drawn, in each attempt elsewhere, or read from the tape."""
+    """Make the sites of the levels and their tapes; ramps are read, or drawn, in each attempt at another place."""
     levels = config.building.levels
     if tape is None:
         return make_level_sites(config, attempt), [None] * levels

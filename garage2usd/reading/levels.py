@@ -1,12 +1,22 @@
 """The levels of a stage: their prims, and each of them as a stage of its own."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from pxr import Sdf, Usd, UsdGeom, Vt
 
 from garage2usd.common.errors import StageError
+from garage2usd.objects.ramp import KIND as RAMP
 
-__all__ = ["LEVELS", "StageLevel", "level_stage", "levels_of", "refuse_levels"]
+__all__ = [
+    "LEVELS",
+    "StageLevel",
+    "level_stage",
+    "levels_of",
+    "nearest_floor",
+    "paths_from_above",
+    "refuse_levels",
+]
 
 LEVELS = "Levels"
 """Name of the prim below the root that holds the levels of a garage of several."""
@@ -48,6 +58,25 @@ def levels_of(stage: Usd.Stage) -> list[StageLevel]:
         )
         for prim in group.GetChildren()
     ]
+
+
+def nearest_floor(floors_m: Sequence[float], height_m: float) -> int:
+    """Return the index of the floor of the level at a height; on a ramp it changes half way."""
+    return min(range(len(floors_m)), key=lambda index: abs(floors_m[index] - height_m))
+
+
+def paths_from_above(levels: Sequence[StageLevel], index: int) -> tuple[str, ...]:
+    """Return the beginnings of the paths of what a map shows of a level: its own objects, and the ramps down from it.
+
+    Parameters
+    ----------
+    levels
+        All levels, the top one first. A ramp belongs to the level at its foot.
+    index
+        Index of the level.
+    """
+    ramps_down = (f"{below.path}/{RAMP.group}/" for below in levels[index + 1 : index + 2])
+    return (f"{levels[index].path}/", *ramps_down)
 
 
 def level_stage(stage: Usd.Stage, level: StageLevel) -> Usd.Stage:

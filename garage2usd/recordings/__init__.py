@@ -6,8 +6,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pxr import Usd
-
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.extras import RAYS, require
 from garage2usd.common.output import check_file, check_writable, publish, unfinished_folder
@@ -15,7 +13,6 @@ from garage2usd.common.progress import Announce, Progress, silent, unheard
 from garage2usd.config.maps import DriveConfig
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
-from garage2usd.reading.levels import levels_of
 from garage2usd.recordings.birds_eye import check_birds_eye
 from garage2usd.recordings.scene import EGO_FOLDER, POINTS_FOLDER, Scene
 from garage2usd.recordings.sequences import Sequence, check_sequences, write_sequence
@@ -150,7 +147,6 @@ def record(  # noqa: PLR0915 - the road of a recording, step by step
     check_file(folder / "frames.json")
     drawn_on = find_device(device, has_rays=True, blender=find_blender(blender)) if chosen.cameras else CPU
     opened = open_stage(path)
-    _check_levels(opened, asked)
     progress("drive", 0, 1)
     way = Way(opened, path, along, every_m, settings or DriveConfig())
     scene = Scene(opened, read_labels(opened, path), way, chosen, birds_eye)
@@ -244,19 +240,6 @@ def check_recording(
     draws = modules_of(find_blender(blender)) if rig.cameras else ()
     require(f"the rig {rig.name}", [*draws, *_modules_for(rig, sequences, birds_eye)], without=without)
     return kinds, formats
-
-
-def _check_levels(stage: Usd.Stage, sequences: Collection[Sequence]) -> None:
-    """Check that a garage of several levels can be recorded in sequence formats.
-
-    Raises
-    ------
-    ConfigError
-        If one of them has a map of one floor.
-    """
-    if Sequence.NUSCENES in sequences and levels_of(stage):
-        wanted = f"{Sequence.ROS2}; {Sequence.NUSCENES} is not built for several levels yet, as its map has one floor"
-        raise ConfigError("sequences", ", ".join(sorted(sequences)), wanted)
 
 
 def _check_along(rig: Rig, along: str | None, birds_eye: BirdsEye | None) -> None:

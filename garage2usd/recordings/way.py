@@ -18,8 +18,8 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.config.maps import DriveConfig, Leg
 from garage2usd.garage import Stall
 from garage2usd.maps.level_drives import drive_planner
-from garage2usd.objects.ramp import KIND as RAMP
 from garage2usd.reading.labels import Labels
+from garage2usd.reading.levels import nearest_floor, paths_from_above
 from garage2usd.render.cameras import find_views
 from garage2usd.sensors.rig.columns import column_to_y_up
 from garage2usd.sensors.rig.mount import Sensor
@@ -96,7 +96,8 @@ class Way:
         if self.levels is None:
             return None
         height_m = float((np.linalg.inv(self.to_stage) @ pose.vehicle_to_world)[1, 3])
-        return min(self.levels.levels, key=lambda level: abs(level.place.floor_m - height_m))
+        floors_m = [level.place.floor_m for level in self.levels.levels]
+        return self.levels.levels[nearest_floor(floors_m, height_m)]
 
     def grounds_of_cars(self, pose: VehiclePose) -> list[NDArray[np.float64]]:
         """Return the corners of the cars parked on the level of a vehicle, in metres with Y up; each shape (n, 3)."""
@@ -115,15 +116,9 @@ class Way:
         own = self.level_at(pose)
         if own is None or self.levels is None:
             return []
-        number = self.levels.levels.index(own)
-        below = self.levels.levels[number + 1 : number + 2]
-        shown = {f"{own.place.path}/", *(f"{level.place.path}/{RAMP.group}/" for level in below)}
+        shown = paths_from_above([level.place for level in self.levels.levels], self.levels.levels.index(own))
         within = f"{own.place.path.rpartition('/')[0]}/"
-        return [
-            each
-            for path, each in labels.ids.items()
-            if path.startswith(within) and not any(path.startswith(start) for start in shown)
-        ]
+        return [each for path, each in labels.ids.items() if path.startswith(within) and not path.startswith(shown)]
 
     def _drive_to(self, stall: str, entrance: str, along: str, every_m: float, settings: DriveConfig) -> None:
         if not stall or not (entrance.isdecimal() or not entrance):

@@ -26,7 +26,7 @@ from garage2usd.config.maps import Leg
 from garage2usd.maps.level_drives import LevelsDrivePlanner
 from garage2usd.maps.openscenario import EGO
 from garage2usd.reading.files import open_stage
-from garage2usd.recordings import CloudFormat, Sequence, record
+from garage2usd.recordings import CloudFormat, record
 from garage2usd.render import Picture, SlotFormat
 from garage2usd.render.pictures import read_depth
 from garage2usd.sensors.rays.birds_eye import BirdsEye
@@ -349,10 +349,3 @@ def test_a_birds_eye_view_shows_the_vehicle_s_own_level_and_the_ramps_down_from_
             assert free[row - 40 : row, column].all()
             assert not free[row].all()
     assert counted > 10
-
-
-def test_nuscenes_refuses_levels_as_its_map_has_one_floor(built, tmp_path):
-    rig = rig_from_mapping({**RIG, "sensors": RIG["sensors"][:1]})
-    with pytest.raises(ConfigError, match=r"sequences: got 'nuscenes'.*several levels"):
-        record(built.stage, tmp_path / "out", rig=rig, along="1:U2/A1-01", sequences=[Sequence.NUSCENES])
-    assert not (tmp_path / "out").exists()

@@ -4,7 +4,6 @@ import json
 import shutil
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from itertools import groupby
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +14,10 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.reading.labels import Labels
 from garage2usd.sensors.boxes import object_boxes
 from garage2usd.sensors.formats.nuscenes_boxes import PARKED, VISIBILITY, add_boxes
-from garage2usd.sensors.formats.nuscenes_classes import BOXED, CATEGORIES, FLAT, STANDING, categories_of_classes
+from garage2usd.sensors.formats.nuscenes_classes import BOXED, CATEGORIES, categories_of_classes
+from garage2usd.sensors.formats.nuscenes_locations import Location, locations_of
 from garage2usd.sensors.formats.nuscenes_map import GlobalFrame
+from garage2usd.sensors.formats.nuscenes_scenes import Stretch, stretches_of
 from garage2usd.sensors.formats.nuscenes_tables import Record, Tables, place_fields, token_of
 from garage2usd.sensors.formats.point_cloud_files import read_npz
 from garage2usd.sensors.formats.recording import Recording, Shot
@@ -63,11 +64,13 @@ def write_nuscenes(
 
     Notes
     -----
-    Each pose of the drive is a sample, all of whose data are key frames. The global frame is the stage with z up,
-    translated to positive coordinates as in nuScenes' maps; the map's record holds the transform (``stage_to_global``).
-    Objects of `nuscenes_classes.BOXED` have a box if a point was measured on them or any part is in line of sight of a
-    sensor. Boxes have a margin of a centimetre against rounding. The visibility is the share of an object's directions
-    in free line of sight, regardless of the sensor's field of view.
+    Each pose of the drive is a sample, all of whose data are key frames. In a garage of several levels each level is a
+    location with a log and a map, and a stretch of the drive on one level is a scene; prev and next, and instances, do
+    not cross scenes. The global frame is the stage with z up, translated to positive coordinates as in nuScenes' maps;
+    the map's record holds the transform (``stage_to_global``). Objects of `nuscenes_classes.BOXED` have a box if a
+    point was measured on them or any part is in line of sight of a sensor. Boxes have a margin of a centimetre against
+    rounding. The visibility is the share of an object's directions in free line of sight, regardless of the sensor's
+    field of view.
     """
     shots = [shot for shot in recording.shots if _is_told(shot)]
     if not shots:
@@ -78,13 +81,16 @@ def write_nuscenes(
     world = GlobalFrame(stage, scene)
     tables = Tables()
     channels = _channels([shot.sensor for shot in shots])
-    _add_map(tables, world, scene, labels, folder, recording)
+    stretches = stretches_of(shots, locations_of(stage, recording.stage), world)
+    _add_words(tables)
+    for location in dict.fromkeys(stretch.location for stretch in stretches):
+        _add_location(tables, location, world, scene, labels, folder, recording)
     _add_sensors(tables, shots, channels)
     boxes = object_boxes(stage, scene, [number for number, each in labels.classes.items() if each.name in BOXED])
-    by_pose = [list(group) for _, group in groupby(sorted(shots, key=_pose), key=_pose)]
-    _add_samples(tables, by_pose, channels, recording)
-    clouds = _add_data(tables, by_pose, channels, folder, world, labels)
-    add_boxes(tables, by_pose, boxes, clouds, world, labels, scene)
+    for stretch in stretches:
+        _add_scene(tables, stretch, channels, recording)
+        clouds = _add_data(tables, stretch, channels, folder, world, labels)
+        add_boxes(tables, stretch, boxes, clouds, world, labels, scene)
     table_folder = folder / NUSCENES_VERSION
     table_folder.mkdir()
     for name, records in tables.records.items():
@@ -101,10 +107,6 @@ def _is_told(shot: Shot) -> bool:
     return isinstance(shot.sensor, PinholeCamera) and "colour" in shot.files
 
 
-def _pose(shot: Shot) -> int:
-    return shot.pose
-
-
 def _channels(sensors: Sequence[Sensor]) -> dict[str, str]:
     """Name the nuScenes channel of each sensor: its modality and its name in capitals, as LIDAR_TOP."""
     found = {}
@@ -118,37 +120,44 @@ def _channels(sensors: Sequence[Sensor]) -> dict[str, str]:
     return found
 
 
-def _add_map(
-    tables: Tables, world: GlobalFrame, scene: RayScene, labels: Labels, folder: Path, recording: Recording
-) -> None:
-    """Add a recording's log and map: a mask of the ground for driving and parking, without columns and walls."""
-    log = tables.add(
-        "log",
-        recording.stage.name,
-        logfile=recording.stage.name,
-        vehicle=recording.rig,
-        date_captured=_DATE,
-        location=recording.stage.stem,
-    )
-    ground, standing = (
-        [number for number, each in labels.classes.items() if each.name in names] for names in (FLAT, STANDING)
-    )
-    path = folder / "maps" / f"{recording.stage.stem}.png"
-    path.parent.mkdir()
-    Image.fromarray(world.mask(scene, ground, standing)).save(path)
-    tables.add(
-        "map",
-        recording.stage.name,
-        log_tokens=[log],
-        category="semantic_prior",
-        filename=path.relative_to(folder).as_posix(),
-        stage_to_global=world.matrix.tolist(),
-    )
+def _add_words(tables: Tables) -> None:
+    """Add the categories, visibilities and attributes, which are those of every recording."""
     for index, name in enumerate(CATEGORIES):
         tables.add("category", name, name=name, description="", index=index)
     for token, level, _ in VISIBILITY:
         tables.records["visibility"].append({"token": token, "level": level, "description": f"{level} % in sight"})
     tables.add("attribute", PARKED, name=PARKED, description="stands in a stall")
+
+
+def _add_location(
+    tables: Tables,
+    location: Location,
+    world: GlobalFrame,
+    scene: RayScene,
+    labels: Labels,
+    folder: Path,
+    recording: Recording,
+) -> None:
+    """Add a location's log and map: a mask of the ground for driving and parking, without columns and walls."""
+    log = tables.add(
+        "log",
+        location.key,
+        logfile=recording.stage.name,
+        vehicle=recording.rig,
+        date_captured=_DATE,
+        location=location.name,
+    )
+    path = folder / "maps" / f"{location.name}.png"
+    path.parent.mkdir(exist_ok=True)
+    Image.fromarray(world.mask(scene, location, labels)).save(path)
+    tables.add(
+        "map",
+        location.key,
+        log_tokens=[log],
+        category="semantic_prior",
+        filename=path.relative_to(folder).as_posix(),
+        stage_to_global=world.matrix.tolist(),
+    )
 
 
 def _add_sensors(tables: Tables, shots: Sequence[Shot], channels: Mapping[str, str]) -> None:
@@ -170,19 +179,19 @@ def _add_sensors(tables: Tables, shots: Sequence[Shot], channels: Mapping[str, s
         )
 
 
-def _add_samples(
-    tables: Tables, by_pose: Sequence[Sequence[Shot]], channels: Mapping[str, str], recording: Recording
-) -> None:
+def _add_scene(tables: Tables, stretch: Stretch, channels: Mapping[str, str], recording: Recording) -> None:
+    """Add a scene and its samples."""
+    by_pose, location = stretch.by_pose, stretch.location
     tokens = [token_of("sample", shots[0].pose) for shots in by_pose]
     scene = tables.add(
         "scene",
-        recording.stage.name,
-        log_token=tables.records["log"][0]["token"],
+        stretch.key(recording.stage.name),
+        log_token=token_of("log", location.key),
         nbr_samples=len(tokens),
         first_sample_token=tokens[0],
         last_sample_token=tokens[-1],
-        name="scene-0001",
-        description=f"{recording.rig} with {', '.join(channels.values())} in {recording.stage.name}",
+        name=stretch.name,
+        description=f"{recording.rig} with {', '.join(channels.values())} in {location.key}",
     )
     for shots, before, after in zip(by_pose, ["", *tokens], [*tokens[1:], ""], strict=False):
         stamp = _microseconds(shots[0])
@@ -195,17 +204,17 @@ def _microseconds(shot: Shot) -> int:
 
 def _add_data(
     tables: Tables,
-    by_pose: Sequence[Sequence[Shot]],
+    stretch: Stretch,
     channels: Mapping[str, str],
     folder: Path,
     world: GlobalFrame,
     labels: Labels,
 ) -> dict[int, list[PointCloud]]:
-    """Copy the recorded sensor data, and return the point clouds of each pose."""
+    """Copy the recorded sensor data of a scene, and return the point clouds of each pose."""
     lidarseg = categories_of_classes(labels)
     clouds: dict[int, list[PointCloud]] = defaultdict(list)
     last: dict[str, Record] = {}
-    for shot in (shot for shots in by_pose for shot in shots):
+    for shot in (shot for shots in stretch.by_pose for shot in shots):
         channel, key = channels[shot.sensor.name], f"{shot.pose} {shot.sensor.name}"
         token = token_of("sample_data", key)
         place = folder / "samples" / channel

@@ -10,8 +10,8 @@ from garage2usd.reading.labels import Labels
 from garage2usd.sensors.boxes import ObjectBox, share_in_sight
 from garage2usd.sensors.formats.nuscenes_classes import BOXED
 from garage2usd.sensors.formats.nuscenes_map import GlobalFrame
+from garage2usd.sensors.formats.nuscenes_scenes import Stretch
 from garage2usd.sensors.formats.nuscenes_tables import Record, Tables, place_fields, token_of
-from garage2usd.sensors.formats.recording import Shot
 from garage2usd.sensors.rays.point_cloud import PointCloud
 from garage2usd.sensors.rays.ray_scene import RayScene
 
@@ -26,21 +26,21 @@ _BOX_MARGIN_M = 0.01
 
 def add_boxes(
     tables: Tables,
-    by_pose: Sequence[Sequence[Shot]],
+    stretch: Stretch,
     boxes: Sequence[ObjectBox],
     clouds: Mapping[int, Sequence[PointCloud]],
     world: GlobalFrame,
     labels: Labels,
     scene: RayScene,
 ) -> None:
-    """Add the annotations of each pose and their instances to nuScenes' tables.
+    """Add the annotations of each pose of a scene and their instances to nuScenes' tables.
 
     Parameters
     ----------
     tables
         The tables to fill.
-    by_pose
-        The shots of each pose.
+    stretch
+        The poses of the scene; an object that is seen in several scenes is an instance of each.
     boxes
         Boxes of all objects that may be annotated.
     clouds
@@ -50,7 +50,7 @@ def add_boxes(
     """
     chains: dict[int, list[Record]] = defaultdict(list)
     by_id = {box.id: box for box in boxes}
-    for shots in by_pose:
+    for shots in stretch.by_pose:
         pose = shots[0].pose
         eyes = np.array([(shot.mount_to_world @ shot.sensor.sensor_to_vehicle)[:3, 3] for shot in shots])
         instances = np.concatenate([cloud.instance for cloud in clouds.get(pose, ())] or [np.zeros(0, np.uint32)])
@@ -65,7 +65,7 @@ def add_boxes(
                 "sample_annotation",
                 f"{pose} {box.id}",
                 sample_token=token_of("sample", pose),
-                instance_token=token_of("instance", box.id),
+                instance_token=token_of("instance", stretch.key(box.id)),
                 visibility_token=next(token for token, _, least in reversed(VISIBILITY) if share >= least),
                 attribute_tokens=[token_of("attribute", PARKED)] if name in CAR_LABELS else [],
                 **_box_fields(box, world),
@@ -83,7 +83,7 @@ def add_boxes(
         if chain:
             tables.add(
                 "instance",
-                str(instance),
+                stretch.key(instance),
                 category_token=token_of("category", BOXED[labels.classes[by_id[instance].class_id].name]),
                 nbr_annotations=len(chain),
                 first_annotation_token=chain[0]["token"],

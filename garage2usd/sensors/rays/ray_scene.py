@@ -131,9 +131,9 @@ class RayScene:
                 break
         return hits
 
-    def of_classes(self, class_ids: Collection[int]) -> "RayScene":
-        """Select the surfaces of objects of some classes."""
-        kept = np.isin(self.class_id, list(class_ids))
+    def of_objects(self, ids: Collection[int]) -> "RayScene":
+        """Select the surfaces of some objects."""
+        kept = np.isin(self.instance, list(ids))
         return replace(
             self,
             triangles=self.triangles[kept],
