@@ -102,7 +102,7 @@ def _a_car_drives_over(ramp, judge, config):
     assert belly_m(at, line[::-1, 1]) > 0.03
     ahead = (ramp[-1] - ramp[0])[[0, 2]] / runs[-1]
     aside = np.array([ahead[1], 0.0, -ahead[0]])
-    over = first_hits(everything, above(line, 0.02), np.tile([0.0, 1.0, 0.0], (len(line), 1)))
+    over = 0.02 + first_hits(everything, above(line, 0.02), np.tile([0.0, 1.0, 0.0], (len(line), 1)))
     assert over.min() >= config.fittings.clear_height_m - 1e-5  # single precision
     for height_m in (0.3, 1.0, 1.8):
         for side in (1.0, -1.0):

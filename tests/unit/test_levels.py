@@ -10,15 +10,17 @@ from pxr import Usd
 import garage2usd
 from garage2usd import ConfigError, GarageConfig, GenerationError
 from garage2usd.as_built.driven_levels import floors_of_stalls, prove_levels
-from garage2usd.as_built.levels import built_levels
+from garage2usd.as_built.levels import built_levels, laid_out_levels
 from garage2usd.checks import RULES
 from garage2usd.checks.levels import check_levels, read_stage
 from garage2usd.cli import main
+from garage2usd.config.building import RampsPlace
 from garage2usd.maps.level_drives import LevelsDrivePlanner
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.levels_report import read_levels_report
 from garage2usd.site import make_site
 from garage2usd.site.level_ramps import draw_ramps
+from garage2usd.site.levels import make_level_sites
 from garage2usd.stage.driving_layer import write_driving_layer
 from garage2usd.structure.building import Building, Flight, level_cells
 from garage2usd.structure.doors import door_edges
@@ -172,6 +174,36 @@ def test_given_ramps_without_room_are_refused_by_name(building, said):
 def test_a_place_that_is_none_of_its_kind_is_refused(building, said):
     with pytest.raises(ConfigError, match=said):
         GarageConfig(building={"levels": 2, **building})
+
+
+TIGHT = GarageConfig(
+    seed=2399642001031412084,
+    profile={"name": "none"},
+    site={"width_cells": 9, "height_cells": 5},
+    building={"levels": 2, "storey_m": 2.9, "ramp_slope_percent": 20, "ramp_transition_m": 2.0},
+    plan={"episodes": 30, "starts": 1},
+    fittings={"ceiling_height_m": 2.6},
+)
+"""A garage before whose first ramps cars would have to turn back from one row of squares into the next."""
+
+
+def test_ramps_are_drawn_elsewhere_where_cars_cannot_turn_into_them():
+    first = make_level_sites(TIGHT).ramps
+    garage = garage2usd.generate_levels(TIGHT)
+    assert garage.building.ramps != first
+    assert garage.building.ramps in [make_level_sites(TIGHT, attempt).ramps for attempt in range(1, 8)]
+    planner = LevelsDrivePlanner(laid_out_levels(garage.layouts, garage.joined, source="a layout"))
+    drive = planner.drive()
+    assert drive.route.stall.startswith("U2/")
+    assert (drive.route.entrance.name, drive.route.exit.name) == ("[4, 6]", "[1, 0]")
+    # the tape makes that garage, and the first place is refused where it is given
+    again = garage2usd.generate_levels(TIGHT, tape=garage.tape).building
+    assert (again.ramps, again.levels) == (garage.building.ramps, garage.building.levels)
+    square, way, _, count = first.place
+    place = {"square": square, "way": way.name.lower(), "count": count}
+    given = TIGHT.model_copy(update={"building": TIGHT.building.model_copy(update={"place": RampsPlace(**place)})})
+    with pytest.raises(ConfigError, match=r"building\.place.*room to turn before the ramps.*U2/"):
+        garage2usd.generate_levels(given)
 
 
 def test_a_site_without_room_for_ramps_says_so():
