@@ -6,6 +6,7 @@ import networkx as nx
 import numpy as np
 import pytest
 from support.coil_judge import CoilJudge
+from support.drive_judge import cars_drive_to_each_level
 from support.level_judge import built_and_judged
 from support.sign_judge import signs_are_right
 
@@ -38,7 +39,7 @@ def settings(number):
 @pytest.mark.parametrize("number", range(4))
 def test_helices_are_reached_and_a_large_car_drives_over_them(number, tmp_path):
     config = settings(number)
-    _, judge = built_and_judged(config, tmp_path / "garage.usdc")
+    made, judge = built_and_judged(config, tmp_path / "garage.usdc")
     ramps = judge.ramps()
     assert len(ramps) == 2 * (config.building.levels - 1)
     signs_are_right(judge, config)
@@ -46,6 +47,7 @@ def test_helices_are_reached_and_a_large_car_drives_over_them(number, tmp_path):
     for ramp in ramps[-2:]:
         drive = _a_large_car_drives_over(ramp, walls, config)
         _free_space_covers(drive, judge.stage)
+    cars_drive_to_each_level(made.stage, judge)
 
 
 def test_four_levels_have_a_helix_down_and_one_up_between_each_two():

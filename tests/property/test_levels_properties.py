@@ -4,6 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from support.drive_judge import cars_drive_to_each_level
 from support.level_judge import above, belly_m, built_and_judged, first_hits, floors_under
 from support.sign_judge import signs_are_right
 
@@ -42,6 +43,7 @@ def test_a_garage_of_several_levels_stands_is_reached_and_is_driven(seed, tmp_pa
     signs_are_right(judge, config)
     for ramp in ramps:
         _a_car_drives_over(ramp, judge, config)
+    cars_drive_to_each_level(made.stage, judge)
 
 
 def _columns_stand_above_one_another(judge, garage):
