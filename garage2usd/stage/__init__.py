@@ -77,10 +77,21 @@ def shared_folder(path: Path, config: StageConfig) -> Path | None:
 
 
 class StageFiles(NamedTuple):
-    """The files of a USD stage: the stage itself and, unless it embeds them, the folder of its assets."""
+    """A written USD stage.
+
+    Attributes
+    ----------
+    stage
+        The stage itself.
+    assets
+        Folder of its assets; None where it embeds them or has only shared ones.
+    last_frame
+        Last frame of its driving camera.
+    """
 
     stage: Path
     assets: Path | None
+    last_frame: int
 
 
 def arrangement_of(layout: Layout, config: StageConfig) -> Arrangement:
@@ -174,6 +185,7 @@ def write_stage(
     # viewers in a browser need a text root layer in a package
     layer_path = path.with_suffix(".usda") if packed else path
     progress("stage", 0, 1)
+    last_frame = write_drive(path.parent / f"{own}{DRIVE_NAME}.usdc", layout.lane_graph)
     write_garage_layer(
         layout,
         arrangement=arrangement,
@@ -181,14 +193,14 @@ def write_stage(
         own=own,
         asset_folder=folder.name if shared is None else config.asset_folder,
         metadata=metadata,
-        last_frame=write_drive(path.parent / f"{own}{DRIVE_NAME}.usdc", layout.lane_graph),
+        last_frame=last_frame,
         path=layer_path,
         is_compact=is_compact,
     )
     if is_flat:
         _make_flat(layer_path, folder)
     if not packed:
-        return StageFiles(path, folder if folder.exists() else None)
+        return StageFiles(path, folder if folder.exists() else None, last_frame)
     inner = {file.relative_to(folder): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
     if is_compact:
         inner |= {Path(name): data for name, data in contents.items()}
@@ -198,7 +210,7 @@ def write_stage(
     write_usdz(path, [(layer_path.name, layer_path.read_bytes()), *named])
     shutil.rmtree(folder)
     layer_path.unlink()
-    return StageFiles(path, None)
+    return StageFiles(path, None, last_frame)
 
 
 def _asset_files(

@@ -130,8 +130,9 @@ def write_levels_stage(
         assets = "." if shared is None else posixpath.join("..", config.asset_folder)
     form = StageForm.INSTANCED if is_flat else config.form
     of_level = config.model_copy(update={"assets": AssetPlace.SHARED, "asset_folder": assets, "form": form})
+    last_frame = 0
     for level in levels:
-        write_stage(
+        made = write_stage(
             level.layout,
             path.parent / f"{layers}{level.name}.usdc",
             arrangement=arrangement_of(level.layout, of_level),
@@ -141,10 +142,11 @@ def write_levels_stage(
             own=f"{own}{level.name}." if beside else f"{level.name}_",
             progress=progress,
         )
+        last_frame = max(last_frame, made.last_frame)
     write_lane_graph(path.parent / f"{layers}{LANE_GRAPH_FILE}", lanes)
     layer_path = path.with_suffix(".usda") if packed else path
     layer = Sdf.Layer.CreateAnonymous(".usda")
-    layer.ImportFromString(_root_text(levels, lanes, layers, path, metadata))
+    layer.ImportFromString(_root_text(levels, lanes, layers, metadata, last_frame))
     layer.Export(str(layer_path))
     if is_flat:
         flat = layer_path.with_stem(f"{layer_path.stem}_flat")
@@ -153,22 +155,21 @@ def write_levels_stage(
         for asset in folder.glob("*.usdc"):
             asset.unlink()
     if beside:
-        return StageFiles(path, None)
+        return StageFiles(path, None, last_frame)
     if not packed:
-        return StageFiles(path, folder if any(folder.iterdir()) else None)
+        return StageFiles(path, folder if any(folder.iterdir()) else None, last_frame)
     files = sorted(file for file in folder.rglob("*") if file.is_file())
     named = [(f"{folder.name}/{file.relative_to(folder).as_posix()}", file.read_bytes()) for file in files]
     write_usdz(path, [(layer_path.name, layer_path.read_bytes()), *named])
     shutil.rmtree(folder)
     layer_path.unlink()
-    return StageFiles(path, None)
+    return StageFiles(path, None, last_frame)
 
 
 def _root_text(
-    levels: Sequence[LevelLayout], lanes: Drivable, layers: str, path: Path, metadata: Mapping[str, str | int]
+    levels: Sequence[LevelLayout], lanes: Drivable, layers: str, metadata: Mapping[str, str | int], last_frame: int
 ) -> str:
     """Return the root layer as text; `layers` precedes the names of the layers that it refers to."""
-    last_frame = max(_last_frame(path.parent / f"{layers}{level.name}.usdc") for level in levels)
     data = "".join(
         f"{_integer_type(value)} {key} = {value}\n" if isinstance(value, int) else f'string {key} = "{value}"\n'
         for key, value in metadata.items()
@@ -239,11 +240,6 @@ def _level_set(levels: Sequence[LevelLayout]) -> tuple[str, str, str]:
         )
         choices += f'"{shown.name}" {{\nover "{LEVELS}"\n{{\n{overs}}}\n}}\n'
     return "level", _ALL, f'variantSet "level" = {{\n{choices}}}\n'
-
-
-def _last_frame(path: Path) -> int:
-    """Return the last frame of a level's driving camera."""
-    return int(Sdf.Layer.FindOrOpen(str(path)).endTimeCode)
 
 
 def _on_level(parent: str, name: str) -> str:
