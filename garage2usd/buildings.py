@@ -8,7 +8,7 @@ with the landings as its portals; the levels below take over R and C of the top 
 import time
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import count, pairwise
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -254,28 +254,32 @@ def _generate(
     if seed is not None:
         config = config.with_seed(seed)
     seconds = dict.fromkeys(("site", "plan", "layout"), 0.0)
-    unreached: list[str] = []
-    for attempt in count(1):
-        clock = [time.perf_counter()]
+    if tape is not None:
+        garage = _planned(config, tape, 0, seconds, progress)
+        if unreached := unreached_stalls(garage.joined, least_turn_back_m=0.0):
+            raise ConfigError("tape", tape, f"ramps and lanes without {_unreached_in_words(unreached)}")
+        return garage, seconds
+    place, tried = config.building.place, 0
+    unreached = []
+    while tried < _ATTEMPTS:
         try:
-            sites, tapes = _sites_and_tapes(config, tape, attempt - 1)
+            garage = _planned(config, None, tried, seconds, progress)
         except GenerationError:
-            if unreached:
-                raise _without_a_way(unreached, config, tape, attempt - 1) from None
-            raise
-        clock.append(time.perf_counter())
-        plans = _plans(sites, config, tapes, progress)
-        clock.append(time.perf_counter())
-        garage = _laid_out(sites, config, plans, progress)
-        unreached = unreached_stalls(garage.joined)
-        clock.append(time.perf_counter())
-        for step, (begin, end) in zip(seconds, pairwise(clock), strict=True):
-            seconds[step] += end - begin
-        if not unreached or _is_driven_through(garage):
+            if not tried:
+                raise
             break
-        if tape is not None or config.building.place is not None or attempt == _ATTEMPTS:
-            raise _without_a_way(unreached, config, tape, attempt)
-    return garage, seconds
+        tried += 1
+        unreached = unreached_stalls(garage.joined)
+        if not unreached or _is_driven_through(garage):
+            return garage, seconds
+        if place is not None:
+            wanted = f"a place with room to turn before the ramps, without {_unreached_in_words(unreached)}"
+            raise ConfigError("building.place", place.model_dump(exclude_none=True), wanted)
+    reason = (
+        f"none of {tried} places of the ramps has room to turn before them, without {_unreached_in_words(unreached)}; "
+        "a larger site has more places"
+    )
+    raise GenerationError("links", reason, seed=config.seed, attempts=tried)
 
 
 def _is_driven_through(garage: LevelsGarage) -> bool:
@@ -284,23 +288,25 @@ def _is_driven_through(garage: LevelsGarage) -> bool:
     return LevelsDrivePlanner(built).is_driven_through()
 
 
-def _without_a_way(
-    stalls: list[str], config: GarageConfig, tape: str | None, attempt: int
-) -> GenerationError | ConfigError:
-    """Return the error of a garage with stalls that cars do not reach."""
+def _unreached_in_words(stalls: list[str]) -> str:
     named = ", ".join(stalls[:_NAMED_STALLS]) + (", ..." if len(stalls) > _NAMED_STALLS else "")
-    lack = f"stalls without a way in forward gear from the street and to it: {named}"
-    given, place = config.building.place, "building.place"
-    if tape is not None:
-        return ConfigError("tape", tape, f"ramps and lanes without {lack}")
-    if given is not None:
-        return ConfigError(
-            place, given.model_dump(exclude_none=True), f"a place with room to turn before the ramps, without {lack}"
-        )
-    reason = (
-        f"none of {attempt} places of the ramps has room to turn before them; {lack}; a larger site has more places"
-    )
-    return GenerationError("links", reason, seed=config.seed, attempts=attempt)
+    return f"stalls without a way from the street and to it: {named}"
+
+
+def _planned(
+    config: GarageConfig, tape: str | None, attempt: int, seconds: dict[str, float], progress: Progress
+) -> LevelsGarage:
+    """Plan and lay out all levels; the time that each step takes is added to `seconds`."""
+    clock = [time.perf_counter()]
+    sites, tapes = _sites_and_tapes(config, tape, attempt)
+    clock.append(time.perf_counter())
+    plans = _plans(sites, config, tapes, progress)
+    clock.append(time.perf_counter())
+    garage = _laid_out(sites, config, plans, progress)
+    clock.append(time.perf_counter())
+    for step, (begin, end) in zip(seconds, pairwise(clock), strict=True):
+        seconds[step] += end - begin
+    return garage
 
 
 def _laid_out(
