@@ -6,6 +6,7 @@ with the landings as its portals; the levels below take over R and C of the top 
 # Over 300 lines: the whole road of several levels is told in one place, as the pipeline tells that of one.
 
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -55,7 +56,7 @@ __all__ = [
 ]
 
 _TAPE_JOINT = "/"
-_ATTEMPTS = 8
+_ATTEMPTS = 4
 """Most places of the ramps that are tried until cars reach every stall: some leave no room to turn before a ramp."""
 _MOST_CHECKED_STALLS = 10_000
 _NAMED_STALLS = 6
@@ -259,27 +260,34 @@ def _generate(
         if unreached := unreached_stalls(garage.joined, least_turn_back_m=0.0):
             raise ConfigError("tape", tape, f"ramps and lanes without {_unreached_in_words(unreached)}")
         return garage, seconds
-    place, tried = config.building.place, 0
-    unreached = []
-    while tried < _ATTEMPTS:
-        try:
-            garage = _planned(config, None, tried, seconds, progress)
-        except GenerationError:
-            if not tried:
-                raise
-            break
-        tried += 1
-        unreached = unreached_stalls(garage.joined)
-        if not unreached or _is_driven_through(garage):
+    tight: list[LevelsGarage] = []
+    for garage in _drawn(config, seconds, progress):
+        if not unreached_stalls(garage.joined):
             return garage, seconds
-        if place is not None:
-            wanted = f"a place with room to turn before the ramps, without {_unreached_in_words(unreached)}"
-            raise ConfigError("building.place", place.model_dump(exclude_none=True), wanted)
-    reason = (
-        f"none of {tried} places of the ramps has room to turn before them, without {_unreached_in_words(unreached)}; "
-        "a larger site has more places"
-    )
+        tight.append(garage)
+    # cars turn back at once on the way to some stalls, if there is the room
+    for garage in tight:
+        if _is_driven_through(garage):
+            return garage, seconds
+    lack = _unreached_in_words(unreached_stalls(tight[0].joined))
+    place, tried = config.building.place, len(tight)
+    if place is not None:
+        wanted = f"a place with room to turn before the ramps, without {lack}"
+        raise ConfigError("building.place", place.model_dump(exclude_none=True), wanted)
+    reason = f"none of {tried} places of the ramps has room to turn before them; {lack}; a larger site has more places"
     raise GenerationError("links", reason, seed=config.seed, attempts=tried)
+
+
+def _drawn(config: GarageConfig, seconds: dict[str, float], progress: Progress) -> Iterator[LevelsGarage]:
+    """Yield garages with the ramps drawn at one place after the other, or at the given place."""
+    for attempt in range(1 if config.building.place else _ATTEMPTS):
+        try:
+            garage = _planned(config, None, attempt, seconds, progress)
+        except GenerationError:
+            if not attempt:
+                raise
+            return
+        yield garage
 
 
 def _is_driven_through(garage: LevelsGarage) -> bool:

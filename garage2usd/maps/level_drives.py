@@ -144,8 +144,16 @@ class LevelsDrivePlanner:
 
         The first, the middle and the last stall of that level are tried.
         """
-        level = len(self._garage.levels) - 1
-        names = [stall.name for stall in self._garage.stalls if stall.takes_cars and stall.level == level]
+        street = {kind: self._ends(0, kind, from_above=True) for kind in (LaneKind.ENTRANCE, LaneKind.EXIT)}
+        lowest = len(self._garage.levels) - 1
+        for level in range(lowest):
+            router = self._planner(level).router
+            down = self._to_street(level, LaneKind.ENTRANCE, street), self._ends(level, LaneKind.EXIT, from_above=False)
+            up = self._ends(level, LaneKind.ENTRANCE, from_above=False), self._to_street(level, LaneKind.EXIT, street)
+            for entrances, exits in (down, up):
+                if not any(router.through(entrance, exits) for entrance in entrances):
+                    return False
+        names = [stall.name for stall in self._garage.stalls if stall.takes_cars and stall.level == lowest]
         middle = len(names) // 2
         return any(self._is_driven_to(name) for name in (*names[:1], *names[middle : middle + 1], *names[-1:]))
 

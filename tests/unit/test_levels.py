@@ -191,7 +191,7 @@ def test_ramps_are_drawn_elsewhere_where_cars_cannot_turn_into_them():
     first = make_level_sites(TIGHT).ramps
     garage = garage2usd.generate_levels(TIGHT)
     assert garage.building.ramps != first
-    assert garage.building.ramps in [make_level_sites(TIGHT, attempt).ramps for attempt in range(1, 8)]
+    assert garage.building.ramps in [make_level_sites(TIGHT, attempt).ramps for attempt in range(1, 4)]
     planner = LevelsDrivePlanner(laid_out_levels(garage.layouts, garage.joined, source="a layout"))
     drive = planner.drive()
     assert drive.route.stall.startswith("U2/")
