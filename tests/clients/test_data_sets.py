@@ -168,7 +168,8 @@ def test_a_disk_that_is_full_ends_in_one_error_and_the_run_goes_on_when_there_is
         check=False,
     )
     assert done.returncode == 1
-    assert re.fullmatch(r"Error: .*: File too large\n", done.stderr)
+    # a slow machine tells the progress before
+    assert re.fullmatch(r"((plans|garages): .*\n)*Error: .*: File too large\n", done.stderr)
     assert not list((folder / "shards").glob("*.tar"))
     dataset(recipe_file, "-o", folder, "--workers", 1, "--resume")
     assert tree_of(folder) == whole[1]
