@@ -37,7 +37,7 @@ WHEELBASE_M, AHEAD_M, BEHIND_M, WIDTH_M = 2.7, 3.6, 1.2, 1.8
 MILLIMETRE = 1e-3
 FRONT_M = 2.5e-3
 """Where a slope changes by 7.5 %, the pitch is that of a place 3 cm ahead of the front axle."""
-GROOVE_M, GROOVES = 8e-3, 0.2
+GROOVE_M, GROOVES = 8e-3, 0.22
 """Depth of a groove for grip across a ramp, and the greatest share of a ramp that is grooves."""
 RIG = {
     "name": "small",

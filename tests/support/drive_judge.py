@@ -7,7 +7,7 @@ from garage2usd.as_built.levels import built_levels
 from garage2usd.maps.level_drives import LevelsDrivePlanner
 from garage2usd.reading.files import open_stage
 
-GROOVE_M, GROOVES, SIDES = 8e-3, 0.2, 0.05
+GROOVE_M, GROOVES, SIDES = 8e-3, 0.22, 0.05
 """Depth of a groove across a ramp, and the greatest shares of a ramp that are grooves, and upright sides of these."""
 
 
