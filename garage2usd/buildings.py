@@ -257,19 +257,19 @@ def _generate(
     seconds = dict.fromkeys(("site", "plan", "layout"), 0.0)
     if tape is not None:
         garage = _planned(config, tape, 0, seconds, progress)
-        if unreached := unreached_stalls(garage.joined, least_turn_back_m=0.0):
+        if unreached := unreached_stalls(garage.joined, may_turn_back=True):
             raise ConfigError("tape", tape, f"ramps and lanes without {_unreached_in_words(unreached)}")
         return garage, seconds
     tight: list[LevelsGarage] = []
     for garage in _drawn(config, seconds, progress):
-        if not unreached_stalls(garage.joined):
+        if not unreached_stalls(garage.joined, may_turn_back=False):
             return garage, seconds
         tight.append(garage)
     # cars turn back at once on the way to some stalls, if there is the room
     for garage in tight:
         if _is_driven_through(garage):
             return garage, seconds
-    lack = _unreached_in_words(unreached_stalls(tight[0].joined))
+    lack = _unreached_in_words(unreached_stalls(tight[0].joined, may_turn_back=False))
     place, tried = config.building.place, len(tight)
     if place is not None:
         wanted = f"a place with room to turn before the ramps, without {lack}"

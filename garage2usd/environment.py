@@ -73,7 +73,8 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
     Notes
     -----
     **Levels.** Each level of a garage of several is an environment of its own, with the obstacles and portals of this
-    level in a build: squares of ramps are obstacles, landings are entrances and exits. Where R and C are chosen
+    level in a build, if that keeps the first place of the ramps (it draws them elsewhere where cars could not turn into
+    them): squares of ramps are obstacles, landings are entrances and exits. Where R and C are chosen
     (`bay.dimensioned`), all levels have equal squares here, as a garage of one level has. A build plans lower levels on
     R and C of the planned top level instead, so that the same lanes may hold another number of stalls there. Finished
     levels become a garage by `garage2usd.generate_levels` from a tape, which joins ``sites.ramps.tape`` and

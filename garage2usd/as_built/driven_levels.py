@@ -35,9 +35,7 @@ def prove_levels(garage: BuiltLevels, *, progress: Progress = silent) -> tuple[S
     Each level is proven among its own obstacles. Its landings count as entrances and exits only as far as lanes and
     ramps join them with the street; of stalls that are not joined with it nothing is proven.
     """
-    lanes = garage.lanes
-    reached = {node for arc in lanes.arriving for node in arc} & {node for arc in lanes.leaving for node in arc}
-    joined = {stall.name for stall in garage.stalls if stall.access in reached}
+    joined = {stall.name for stall in garage.stalls if stall.access in garage.lanes.driven}
     proofs: list[StallProof] = []
     for number, level in enumerate(garage.levels):
         driven = driven_garage(_joined_with_the_street(garage, number))

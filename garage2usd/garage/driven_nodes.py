@@ -34,7 +34,7 @@ class _Going(NamedTuple):
     since_m: float = 0.0
 
 
-def driven_nodes(lanes: LaneGraph, kind: LaneKind, *, least_turn_back_m: float = LEAST_TURN_BACK_M) -> frozenset[int]:
+def driven_nodes(lanes: LaneGraph, kind: LaneKind) -> frozenset[int]:
     """Return the nodes that a car reaches from the entrances, or those from which it reaches the exits.
 
     Parameters
@@ -43,29 +43,25 @@ def driven_nodes(lanes: LaneGraph, kind: LaneKind, *, least_turn_back_m: float =
         Lane graph, also of several levels.
     kind
         ``entrance`` or ``exit``.
-    least_turn_back_m
-        Least distance between two turns to the same side. Where they are closer than `LEAST_TURN_BACK_M`, it depends on
-        the room around whether a car turns back, which a search for its path tells.
 
     Notes
     -----
-    A car drives forwards and through no other portal.
+    A car drives forwards and through no other portal. Two turns to the same side are `LEAST_TURN_BACK_M` or more apart;
+    where they are closer, it depends on the room around whether a car turns back, which a search for its path tells.
     """
     ways = lanes.onward if kind == LaneKind.ENTRANCE else lanes.backward
     portals = lanes.portals(kind)
     going = {_Going(portal, other) for portal in portals for other in ways[portal]}
     waiting = deque(sorted(going))
     while waiting:
-        for following in _following(lanes, ways, waiting.popleft(), least_turn_back_m):
+        for following in _following(lanes, ways, waiting.popleft()):
             if following not in going:
                 going.add(following)
                 waiting.append(following)
     return frozenset(each.end for each in going).union(portals)
 
 
-def _following(
-    lanes: LaneGraph, ways: tuple[tuple[int, ...], ...], going: _Going, least_turn_back_m: float
-) -> Iterator[_Going]:
+def _following(lanes: LaneGraph, ways: tuple[tuple[int, ...], ...], going: _Going) -> Iterator[_Going]:
     start, end, turned, since_m = going
     if lanes.nodes[end].is_portal:
         return
@@ -79,5 +75,5 @@ def _following(
         if other == start or (side and side == turned):
             continue
         run_m = length_m if side else since_m + length_m
-        is_free = run_m >= least_turn_back_m
+        is_free = run_m >= LEAST_TURN_BACK_M
         yield _Going(end, other, 0 if is_free else side or turned, 0.0 if is_free else round(run_m, 3))

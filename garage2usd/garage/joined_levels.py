@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.garage.driven_nodes import LEAST_TURN_BACK_M, driven_nodes
+from garage2usd.garage.driven_nodes import driven_nodes
 from garage2usd.garage.lanes import LaneEdge, LaneGraph, LaneKind, LaneNode
 from garage2usd.garage.stalls import Stall
 
@@ -125,19 +125,21 @@ def join_levels(levels: Sequence[LevelLanes], ramps: Sequence[RampLane]) -> Join
     return JoinedLevels(LaneGraph(tuple(nodes), tuple(edges)), tuple(stalls), np.concatenate(squares))
 
 
-def unreached_stalls(joined: JoinedLevels, *, least_turn_back_m: float = LEAST_TURN_BACK_M) -> list[str]:
+def unreached_stalls(joined: JoinedLevels, *, may_turn_back: bool) -> list[str]:
     """Return the ids of the stalls that no car reaches from the street, or from which none reaches the street.
 
     Parameters
     ----------
     joined
         Lanes and stalls of all levels.
-    least_turn_back_m
-        As for `garage2usd.garage.driven_nodes.driven_nodes`.
+    may_turn_back
+        True if cars may turn back at once into the next aisle (`garage2usd.garage.driven_nodes`).
     """
-    kinds = LaneKind.ENTRANCE, LaneKind.EXIT
-    ways = [driven_nodes(joined.lane_graph, kind, least_turn_back_m=least_turn_back_m) for kind in kinds]
-    return [stall.name for stall in joined.quads if not all(stall.access in nodes for nodes in ways)]
+    lanes = joined.lane_graph
+    reached = lanes.driven
+    if not may_turn_back:
+        reached = driven_nodes(lanes, LaneKind.ENTRANCE) & driven_nodes(lanes, LaneKind.EXIT)
+    return [stall.name for stall in joined.quads if stall.access not in reached]
 
 
 def _on_level(stall: Stall, name: str, level: int, first: int) -> Stall:

@@ -210,6 +210,12 @@ class LaneGraph:
         """Arcs from which an exit is reachable by driving forward without a U-turn."""
         return frozenset((one, other) for other, one in self._spread(self.backward, LaneKind.EXIT))
 
+    @cached_property
+    def driven(self) -> frozenset[int]:
+        """Nodes that are reached from an entrance and from which an exit is reached, as by `arriving` and `leaving`."""
+        arriving, leaving = (frozenset(node for arc in arcs for node in arc) for arcs in (self.arriving, self.leaving))
+        return arriving & leaving
+
     def near(self, node: int, most_edges: int) -> list[Arc]:
         """Return the arcs between nodes within some number of edges of a lane node, the nearest first."""
         steps = nx.single_source_shortest_path_length(self._undirected, node, cutoff=most_edges)

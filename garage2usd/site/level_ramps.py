@@ -82,7 +82,8 @@ def draw_ramps(site: Structure, config: GarageConfig, attempt: int = 0) -> Ramps
         raise GenerationError("links", reason, seed=config.seed, attempts=attempt + 1)
     costs = {ramps: 0 if kind.cost is None else kind.cost(site, ramps) for ramps in places}
     for number in range(attempt + 1):
-        cheapest = [ramps for ramps, cost in costs.items() if cost == min(costs.values())]
+        least = min(costs.values())
+        cheapest = [ramps for ramps, cost in costs.items() if cost == least]
         drawn = cheapest[int(generator(config.seed, Step.LINKS, number).integers(len(cheapest)))]
         del costs[drawn]
     return drawn

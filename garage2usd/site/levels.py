@@ -59,7 +59,7 @@ def level_number(level: str | None, count: int) -> int:
 
 
 def make_level_sites(config: GarageConfig, attempt: int = 0) -> LevelSites:
-    """Make the sites of all levels and draw the ramps, as `garage2usd.generate_levels` does.
+    """Make the sites of all levels and draw the ramps, as each attempt of `garage2usd.generate_levels` does.
 
     Parameters
     ----------

@@ -11,13 +11,14 @@ import numpy as np
 import pytest
 import shapely
 from PIL import Image
+from support.drive_judge import GROOVE_M, GROOVES, MILLIMETRE, assert_driven_on, assert_on_the_ground
 from support.esmini_player import ESMINI, played
 from support.label_tables import labelled_objects
 from support.level_judge import LevelJudge, above, first_hits
 from support.newton_reader import needs_newton
 from support.openscenario_checker import issues_of, needs_checker
 from support.openscenario_reader import OpenScenario
-from support.small_levels import FLOORS_M, SMALL_LEVELS
+from support.small_levels import FLOORS_M, LIDAR, SMALL_LEVELS
 
 import garage2usd
 from garage2usd.as_built.levels import built_levels
@@ -34,28 +35,14 @@ from garage2usd.sensors.rig.rig import rig_from_mapping
 
 pytestmark = pytest.mark.client
 WHEELBASE_M, AHEAD_M, BEHIND_M, WIDTH_M = 2.7, 3.6, 1.2, 1.8
-MILLIMETRE = 1e-3
 FRONT_M = 2.5e-3
 """Where a slope changes by 7.5 %, the pitch is that of a place 3 cm ahead of the front axle."""
-GROOVE_M, GROOVES = 8e-3, 0.22
-"""Depth of a groove for grip across a ramp, and the greatest share of a ramp that is grooves."""
 RIG = {
     "name": "small",
     "title": "A LiDAR without noise and a front camera",
     "car": "hatchback",
     "sensors": [
-        {
-            "kind": "spinning_lidar",
-            "name": "lidar",
-            "position_m": [0.6, 0.0, 1.8],
-            "channels": 24,
-            "lowest_deg": -30.0,
-            "highest_deg": 10.0,
-            "azimuth_steps": 512,
-            "range_m": [0.5, 100.0],
-            "range_noise_m": 0.0,
-            "rate_hz": 10.0,
-        },
+        {**LIDAR, "name": "lidar", "rate_hz": 10.0},
         {
             "kind": "pinhole",
             "name": "front",
@@ -96,27 +83,6 @@ def scenario(built):
     return garage2usd.export(built.stage, [built.stage.with_suffix(".xosc")])[0]
 
 
-def assert_on_the_ground(ground, places, within_m=MILLIMETRE):
-    """All places, (x, y, z) with Y up, lie close to a floor, to a ramp, or to a ramp over a groove."""
-    heights, _ = ground.nearest(places)
-    off = np.abs(heights - places[:, 1])
-    is_sloped = (np.abs(places[:, 1, None] - [*FLOORS_M.values()]) > MILLIMETRE).all(axis=1)
-    assert off[~is_sloped].max(initial=0.0) < within_m
-    # nothing lies under a place just over the upright side of a groove, but for another level
-    over_groove = is_sloped & ~(off < within_m)
-    is_beside = np.isnan(off) | (off > 1.0)
-    assert off[over_groove & ~is_beside].max(initial=0.0) < GROOVE_M + within_m
-    return is_sloped.sum(), over_groove.sum(), is_beside.sum()
-
-
-def assert_driven_on(ground, places, within_m=MILLIMETRE):
-    """As `assert_on_the_ground`, of a whole drive, of which few places lie over grooves."""
-    sloped, over_groove, beside = assert_on_the_ground(ground, places, within_m)
-    assert sloped > 500
-    assert over_groove < GROOVES * sloped
-    assert beside < 0.05 * sloped
-
-
 def axles(track):
     """Where the middles of the rear and of the front axle of each vertex stand, (x, y, z) with Y up."""
     _, x, y, z, heading, pitch, _ = np.asarray(track).T
@@ -147,8 +113,8 @@ def street_m(judge, kind):
 def test_the_car_drives_on_the_floors_and_ramps_from_the_street_to_the_lowest_level_and_back(scenario, judge, ground):
     track = OpenScenario(scenario).track()
     rear, front = axles(track)
-    assert_driven_on(ground, rear)
-    assert_driven_on(ground, front, FRONT_M)
+    assert assert_driven_on(ground, rear, FLOORS_M.values()) > 500
+    assert assert_driven_on(ground, front, FLOORS_M.values(), FRONT_M) > 500
     assert track[:, 3].min() == pytest.approx(LOWEST_M, abs=1e-5)
     for end, kind in ((0, "entrance"), (-1, "exit")):
         assert track[end, 3] > 3.0  # at the top of a ramp to the street
@@ -235,7 +201,7 @@ if ESMINI is not None:
         rows, collisions = played(ESMINI, scenario, track[-1, 0])
         assert collisions == []
         places = np.stack([rows[:, 1], rows[:, 3], -rows[:, 2]], axis=1)
-        assert_driven_on(ground, places)
+        assert assert_driven_on(ground, places, FLOORS_M.values()) > 500
         assert rows[:, 3].min() == pytest.approx(LOWEST_M, abs=1e-4)
         assert np.abs(rows[-1, 1:4] - track[-1, 1:4]).max() < MILLIMETRE
         assert rows[-1, 3] > 3.0
@@ -276,7 +242,7 @@ def test_a_recording_is_made_on_the_floors_and_ramps_and_names_the_level(recorde
     _, table = recorded
     poses = vehicles(table)
     wheels = [pose @ [far, 0.0, 0.0, 1.0] for _, pose in poses for far in (0.0, WHEELBASE_M)]
-    assert_on_the_ground(ground, np.array(wheels)[:, :3], FRONT_M)
+    assert_on_the_ground(ground, np.array(wheels)[:, :3], FLOORS_M.values(), FRONT_M)
     names = [name for name, _ in poses]
     heights = [pose[1, 3] for _, pose in poses]
     assert names == ["U1" if height > LOWEST_M / 2 else "U2" for height in heights]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from support.label_tables import labelled_objects
 from support.sensor_judges import HAS_SENSOR_JUDGES, run_judge
-from support.small_levels import FLOORS_M, SMALL_LEVELS
+from support.small_levels import FLOORS_M, LIDAR, SMALL_LEVELS
 
 import garage2usd
 from garage2usd.recordings import CloudFormat, Sequence, record
@@ -23,17 +23,6 @@ pytestmark = [
 EVERY_M = 15.0
 """Distance of the poses, of which two are on the ramp: one above its middle, and one below."""
 MILLIMETRE = 1e-3
-LIDAR = {
-    "kind": "spinning_lidar",
-    "name": "top",
-    "position_m": [0.6, 0.0, 1.8],
-    "channels": 24,
-    "lowest_deg": -30.0,
-    "highest_deg": 10.0,
-    "azimuth_steps": 512,
-    "range_m": [0.5, 100.0],
-    "range_noise_m": 0.0,
-}
 U1, U2 = FLOORS_M
 HALF_WAY_M = (FLOORS_M[U1] + FLOORS_M[U2]) / 2
 

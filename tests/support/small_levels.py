@@ -11,3 +11,15 @@ SMALL_LEVELS = GarageConfig(
     plan={"episodes": 60, "starts": 1},
     parking={"occupancy": 0.1},
 )
+LIDAR = {
+    "kind": "spinning_lidar",
+    "name": "top",
+    "position_m": [0.6, 0.0, 1.8],
+    "channels": 24,
+    "lowest_deg": -30.0,
+    "highest_deg": 10.0,
+    "azimuth_steps": 512,
+    "range_m": [0.5, 100.0],
+    "range_noise_m": 0.0,
+}
+"""A LiDAR on the roof of a car that drives there."""
