@@ -8,6 +8,7 @@ import sys
 
 import newton
 import numpy as np
+import trimesh
 import warp as wp
 
 FAR_M = 1000.0
@@ -36,11 +37,16 @@ def main(stage, prim, rays, output):
     )
     far = wp.array(np.full(len(given["origins"]), np.inf, dtype=np.float32), dtype=float)
     for index in range(builder.shape_count):
-        source = builder.shape_source[index]
-        assert newton.GeoType(builder.shape_type[index]).name == "MESH", builder.shape_label[index]
+        kind = newton.GeoType(builder.shape_type[index])
+        if kind == newton.GeoType.BOX:
+            box = trimesh.creation.box(2 * np.array(builder.shape_scale[index]))
+            vertices, indices = box.vertices, box.faces.ravel()
+        else:
+            assert kind == newton.GeoType.MESH, builder.shape_label[index]
+            vertices, indices = builder.shape_source[index].vertices, builder.shape_source[index].indices
         turn = wp.transform(*builder.shape_transform[index])
-        points = np.array([wp.transform_point(turn, wp.vec3(*point)) for point in source.vertices.tolist()])
-        mesh = wp.Mesh(wp.array(points.astype(np.float32), dtype=wp.vec3), wp.array(source.indices, dtype=int))
+        points = np.array([wp.transform_point(turn, wp.vec3(*point)) for point in vertices.tolist()])
+        mesh = wp.Mesh(wp.array(points.astype(np.float32), dtype=wp.vec3), wp.array(indices, dtype=int))
         wp.launch(cast, dim=len(given["origins"]), inputs=[mesh.id, origins, directions, far])
     np.save(output, far.numpy())
 

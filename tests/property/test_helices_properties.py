@@ -1,13 +1,12 @@
 """Garages with helices between levels, judged on their written stages by pxr, networkx and numpy."""
 
-from itertools import pairwise
-
 import networkx as nx
 import numpy as np
 import pytest
 from support.coil_judge import CoilJudge
 from support.drive_judge import cars_drive_to_each_level
 from support.level_judge import built_and_judged
+from support.ramp_judge import a_large_car_drives_over
 from support.sign_judge import signs_are_right
 
 from garage2usd import GarageConfig
@@ -19,8 +18,6 @@ from garage2usd.profiles import PROFILE_NAMES
 from garage2usd.reading.labels import read_labels
 from garage2usd.reading.levels import levels_of
 from garage2usd.sensors.rays.driven_surface import DrivenSurface
-
-STEEPEST_PERCENT = {"cn-jgj100": 12.0, "de-garvo": 15.0, "uk-istructe": 10.0, "us-ada": 15.0}
 
 
 def settings(number):
@@ -45,7 +42,7 @@ def test_helices_are_reached_and_a_large_car_drives_over_them(number, tmp_path):
     signs_are_right(judge, config)
     walls = CoilJudge(judge)
     for ramp in ramps[-2:]:
-        drive = _a_large_car_drives_over(ramp, walls, config)
+        drive = a_large_car_drives_over(ramp, walls, config)
         _free_space_covers(drive, judge.stage)
     cars_drive_to_each_level(made.stage, judge)
 
@@ -65,21 +62,6 @@ def test_four_levels_have_a_helix_down_and_one_up_between_each_two():
             [lanes.nodes[number].height_m for number in nx.topological_sort(lanes.graph.subgraph(p))] for p in parts
         ]
         assert {tuple(heights) == tuple(sorted(heights)) for heights in rises} == {True, False}
-
-
-def _a_large_car_drives_over(ramp, judge, config):
-    """Turn, slope at the inner wall, surface, belly and nose, headroom and swept path, on triangles alone."""
-    assert judge.turned_deg(ramp) == pytest.approx(270.0, abs=1.0)
-    drive = judge.drive(ramp)
-    assert abs(ramp[0][1] - ramp[-1][1]) == pytest.approx(config.building.storey_m, abs=1e-4)
-    assert np.abs(drive.floor_m - drive.line[:, 1]).max() < 0.01
-    assert np.abs([high - low for low, high in pairwise(drive.floor_m)]).max() < 0.02  # no step in 0.1 m
-    assert 4.0 < drive.inner_slope_percent <= STEEPEST_PERCENT[config.profile] + 0.1
-    assert drive.inner_radius_m >= 6.0 - 0.05
-    assert drive.belly_m > 0.05
-    assert drive.headroom_m >= config.fittings.clear_height_m - 1e-5  # single precision
-    assert drive.beside_m > 0.25
-    return drive
 
 
 def _free_space_covers(drive, stage):

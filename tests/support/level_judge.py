@@ -1,9 +1,11 @@
 """Judge of garages of several levels by their written stages: pxr, networkx and trimesh, not garage2usd's readers."""
 
 import re
+from itertools import pairwise
 
 import networkx as nx
 import numpy as np
+import pytest
 import shapely
 import trimesh
 from pxr import Usd, UsdGeom
@@ -31,6 +33,8 @@ GROUND = (
     "stall_symbol",
 )
 """Classes of the floor, and of the paint that is let into it."""
+FLOORS = ("floor", "parking_stall", "ramp", "hatching", "crossing", "stall_symbol", "stall_line", "stall_number")
+"""Classes of what lies on floors of stalls: paint is cut out of them."""
 ON_M = 1e-4
 """Distance from a triangle, seen from above, within which a place counts as on it."""
 
@@ -84,6 +88,7 @@ class LevelJudge:
         counts = value(nodes, "curveVertexCounts")
         points = np.array(value(nodes, "points"))
         self.places = np.array([part.mean(axis=0) for part in np.split(points, np.cumsum(counts)[:-1])]) - [0, 0.05, 0]
+        self.widths = np.array(value(nodes, "garage:lane:widths")).reshape(-1, 2)
         self.kinds, self.levels = value(nodes, "garage:lane:kind"), value(nodes, "garage:lane:level")
         self.lanes = nx.DiGraph()
         self.lanes.add_nodes_from(range(len(counts)))
@@ -95,6 +100,7 @@ class LevelJudge:
                 self.lanes.add_edge(end, start)
         self.stall_ids, self.numbers = value(stalls, "garage:stall:id"), value(stalls, "garage:stall:number")
         self.access, self.stall_levels = value(stalls, "garage:stall:accessNode"), value(stalls, "garage:stall:level")
+        self.uses = value(stalls, "garage:stall:use")
         self.outlines = np.array(value(stalls, "points")).reshape(-1, 4, 3) - [0, 0.05, 0]
         self._read()
 
@@ -199,3 +205,58 @@ def belly_m(runs, heights):
         line = axles[0] + (under - rear) * (axles[1] - axles[0]) / WHEELBASE_M + CLEARANCE_M
         least = min(least, float((line - np.interp(under, runs, heights)).min()))
     return least
+
+
+def columns_stand_above_one_another(judge, garage):
+    grids = []
+    for structure in garage.building.levels:
+        grids.append((structure.column_edges_m, structure.row_edges_m))
+        assert np.array_equal(grids[0][0], grids[-1][0])
+        assert np.array_equal(grids[0][1], grids[-1][1])
+    corners = np.stack(np.meshgrid(*grids[0]), axis=-1).reshape(-1, 2)
+    stands = []
+    for name in judge.names:
+        places = np.array(judge.columns[name])[:, [0, 2]]
+        far = np.linalg.norm(places[:, None] - corners[None], axis=2)
+        assert far.min(axis=1).max() < 1e-3
+        stands.append(set(far.argmin(axis=1).tolist()))
+    for structure, own in zip(garage.building.levels, stands, strict=True):
+        for missing in set().union(*stands) - own:
+            # a column that another level has is only missing where four lanes meet
+            col = np.argmin(abs(structure.column_edges_m - corners[missing][0]))
+            row = np.argmin(abs(structure.row_edges_m - corners[missing][1]))
+            assert (structure.cells[row - 1 : row + 1, col - 1 : col + 1] > 0).all()
+
+
+def stairs_lead_up_to_the_street(judge):
+    """Each core stands below one of the level above, on the same ground, with or without a door there."""
+    for upper, lower in pairwise(judge.names):
+        above_it = np.array([*judge.shafts[upper].values()])
+        for ground in judge.shafts[lower].values():
+            assert np.abs(above_it - ground).max(axis=1).min() < 1e-3
+    assert not any(name.startswith("Shaft_") for name in judge.shafts[judge.names[-1]])
+
+
+def a_ray_down_each_stall_meets_one_floor(judge, config):
+    floors = judge.mesh(*FLOORS)
+    for outline, level in zip(judge.outlines, judge.stall_levels, strict=True):
+        middle = outline.mean(axis=0)
+        assert middle[1] == pytest.approx(-level * config.building.storey_m, abs=1e-4)
+        found = floors_under(floors, middle)
+        assert len(found) == 1
+        assert found[0] == pytest.approx(middle[1], abs=0.06)
+
+
+def levels_keep_apart(judge, config):
+    """Nothing of one level, but ramps, is between the floor of another and its clear height."""
+    for number, name in enumerate(judge.names):
+        floor_m = -number * config.building.storey_m
+        for (other, label), parts in judge.triangles.items():
+            if other == name or label == "ramp":
+                continue
+            heights = np.concatenate(parts)[..., 1]
+            is_over, is_under = (
+                heights.max(axis=1) > floor_m + 0.03,
+                heights.min(axis=1) < floor_m + config.fittings.clear_height_m,
+            )
+            assert not (is_over & is_under).any(), f"{label} of {other or 'all levels'} on {name}"

@@ -7,16 +7,10 @@ and the standard's equations judge what came out. Each garage is one line of the
 first one ended. Ends in 1 if a judge has a complaint.
 """
 
-import argparse
-import json
-import tempfile
-import time
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from pathlib import Path
-
 import numpy as np
 
 import garage2usd
+from support import batch
 from support.lanelet2_judge import Lanelet2Judge
 from support.map_judges import asam_issues
 from support.opendrive_judge import MapJudge
@@ -55,58 +49,29 @@ def settings_of(seed):
     }
 
 
-def judged(seed):
-    """What is said of one garage: its size, seconds, and complaints by judge."""
-    start, settings = time.perf_counter(), settings_of(seed)
-    site = settings["site"]
-    found = {"seed": seed, "rows": site["height_cells"], "cols": site["width_cells"], "complaints": {}}
-    with tempfile.TemporaryDirectory() as folder:
-        place = Path(folder)
-        try:
-            config = garage2usd.GarageConfig(**settings)
-            built = garage2usd.build(config, place / "garage.usdc")
-            found["stalls"] = len(built.garage.layout.stalls)
-            outputs = [place / f"garage.{suffix}" for suffix in ("xodr", "osm", "xosc")]
-            path, lanelets, scenario = garage2usd.export(built.stage, outputs, settings=config.maps)
-            origin = config.maps.latitude_deg, config.maps.longitude_deg
-            judge = MapJudge(built.stage, path, place)
-            judges = {
-                "asam-qc-opendrive": lambda: asam_issues(path, place),
-                "asam-qc-openscenarioxml": lambda: openscenario_issues(scenario, place),
-                "carla": judge.of_carla,
-                "sumo": judge.of_sumo,
-                "equations": judge.of_objects,
-                "lanelet2": Lanelet2Judge(built.stage, lanelets, place, origin=origin).complaints,
-            }
-            for name, complaints in judges.items():
-                found["complaints"][name] = list(complaints())
-        except Exception as error:  # noqa: BLE001 - a garage that fails is a line of the log, not the end of the run
-            found["complaints"]["failure"] = [f"{type(error).__name__}: {error}"[:500]]
-    return {**found, "seconds": round(time.perf_counter() - start, 1)}
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seeds", type=int, default=500)
-    parser.add_argument("--workers", type=int, default=1)
-    parser.add_argument("--log", type=Path, required=True)
-    asked = parser.parse_args()
-    lines = [json.loads(line) for line in asked.log.read_text().splitlines()] if asked.log.exists() else []
-    done = {line["seed"] for line in lines}
-    with ProcessPoolExecutor(asked.workers) as pool, asked.log.open("a") as log:
-        runs = [pool.submit(judged, seed) for seed in range(asked.seeds) if seed not in done]
-        for run in as_completed(runs):
-            lines.append(run.result())
-            log.write(json.dumps(lines[-1]) + "\n")
-            log.flush()
-    bad = [line for line in lines if any(line["complaints"].values())]
-    for line in bad:
-        print(line["seed"], {name: said[:3] for name, said in line["complaints"].items() if said})
-    print(
-        f"{len(lines)} garages with {sum(line.get('stalls', 0) for line in lines)} stalls, {len(bad)} with a complaint"
-    )
-    return int(bool(bad))
+def judges_of(seed, folder):
+    """The size of a garage, and the judges of its maps."""
+    settings = settings_of(seed)
+    config = garage2usd.GarageConfig(**settings)
+    built = garage2usd.build(config, folder / "garage.usdc")
+    outputs = [folder / f"garage.{suffix}" for suffix in ("xodr", "osm", "xosc")]
+    path, lanelets, scenario = garage2usd.export(built.stage, outputs, settings=config.maps)
+    origin = config.maps.latitude_deg, config.maps.longitude_deg
+    judge = MapJudge(built.stage, path, folder)
+    facts = {
+        "rows": config.site.height_cells,
+        "cols": config.site.width_cells,
+        "stalls": len(built.garage.layout.stalls),
+    }
+    return facts, {
+        "asam-qc-opendrive": lambda: asam_issues(path, folder),
+        "asam-qc-openscenarioxml": lambda: openscenario_issues(scenario, folder),
+        "carla": judge.of_carla,
+        "sumo": judge.of_sumo,
+        "equations": judge.of_objects,
+        "lanelet2": Lanelet2Judge(built.stage, lanelets, folder, origin=origin).complaints,
+    }
 
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    raise SystemExit(batch.main(judges_of, __doc__))
