@@ -248,15 +248,19 @@ def a_ray_down_each_stall_meets_one_floor(judge, config):
 
 
 def levels_keep_apart(judge, config):
-    """Nothing of one level, but ramps, is between the floor of another and its clear height."""
+    """Nothing of one level is between the floor of another and its clear height, but for ramps and what is in wells."""
+    ramps = [part for (_, label), parts in judge.triangles.items() if label == "ramp" for part in parts]
+    wells = shapely.union_all(
+        [shapely.box(*part[..., [0, 2]].min((0, 1)), *part[..., [0, 2]].max((0, 1))) for part in ramps]
+    )
+    shapely.prepare(wells)
     for number, name in enumerate(judge.names):
         floor_m = -number * config.building.storey_m
         for (other, label), parts in judge.triangles.items():
             if other == name or label == "ramp":
                 continue
-            heights = np.concatenate(parts)[..., 1]
-            is_over, is_under = (
-                heights.max(axis=1) > floor_m + 0.03,
-                heights.min(axis=1) < floor_m + config.fittings.clear_height_m,
-            )
-            assert not (is_over & is_under).any(), f"{label} of {other or 'all levels'} on {name}"
+            triangles = np.concatenate(parts)
+            is_over = triangles[..., 1].max(axis=1) > floor_m + 0.03
+            is_under = triangles[..., 1].min(axis=1) < floor_m + config.fittings.clear_height_m
+            middles = shapely.points(triangles[is_over & is_under][..., [0, 2]].mean(axis=1))
+            assert shapely.covers(wells, middles).all(), f"{label} of {other or 'all levels'} on {name}"
