@@ -105,7 +105,7 @@ class LevelJudge:
         self._read()
 
     def _read(self):
-        cache = UsdGeom.XformCache()
+        cache, self._meshes = UsdGeom.XformCache(), {}
         self.triangles, self.columns = {}, {name: [] for name in self.names}
         self.shafts = {name: {} for name in self.names}
         for prim in self.stage.Traverse(Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)):
@@ -124,15 +124,19 @@ class LevelJudge:
                 self.shafts[level][shaft[1]] = np.concatenate([ground.min(axis=0), ground.max(axis=0)])
 
     def mesh(self, *labels, level=None):
-        """The triangles of some classes, or of all."""
-        parts = [
-            part
-            for (own, label), triangles in self.triangles.items()
-            if (not labels or label in labels) and level in {None, own}
-            for part in triangles
-        ]
-        corners = np.concatenate(parts).reshape(-1, 3)
-        return trimesh.Trimesh(corners, np.arange(len(corners)).reshape(-1, 3), process=False, validate=False)
+        """The triangles of some classes, or of all; made once, as rays need a tree of them."""
+        asked = (frozenset(labels), level)
+        if asked not in self._meshes:
+            parts = [
+                part
+                for (own, label), triangles in self.triangles.items()
+                if (not labels or label in labels) and level in {None, own}
+                for part in triangles
+            ]
+            corners = np.concatenate(parts).reshape(-1, 3)
+            faces = np.arange(len(corners)).reshape(-1, 3)
+            self._meshes[asked] = trimesh.Trimesh(corners, faces, process=False, validate=False)
+        return self._meshes[asked]
 
     def ground(self):
         """The floors of all levels, their paint and the ramps."""
