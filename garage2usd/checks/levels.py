@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
@@ -83,14 +82,11 @@ def check_levels(garage: BuiltLevels, profile: Profile, rules: tuple[Rule, ...])
 
 def _routes(garage: BuiltLevels) -> Iterator[Finding]:
     """Yield stalls without a route from an entrance on the street, or to an exit on it."""
-    lanes = garage.lanes
-    graph = lanes.graph
-    for kind, ways, words in (
-        (LaneKind.ENTRANCE, graph, "no route from an entrance on the street"),
-        (LaneKind.EXIT, graph.reverse(copy=False), "no route to an exit on the street"),
+    for arcs, words in (
+        (garage.lanes.arriving, "no route from an entrance on the street"),
+        (garage.lanes.leaving, "no route to an exit on the street"),
     ):
-        portals = lanes.portals(kind)
-        reached = set(portals).union(*(nx.descendants(ways, portal) for portal in portals))
+        reached = {node for arc in arcs for node in arc}
         for stall in garage.stalls:
             if stall.access not in reached:
                 yield Finding("level-route", Severity.ERROR, stall.name, words, stall.centre)
