@@ -53,6 +53,8 @@ class FittingsConfig(Settings):
     """Sprinkler pipes along the aisles, where there is space above the clear height."""
     exit_signs: bool = True
     """Lit exit signs at junctions, where there is space above the clear height."""
+    fire_shutters: bool = Field(True, exclude_if=lambda has_any: has_any)
+    """Rolled-up fire shutters at the feet of the ramps between levels, where there is space above the clear height."""
     mirrors: bool = True
     """Convex mirrors at blind corners, on columns and walls."""
     hydrant_cabinets: bool = True

@@ -50,6 +50,7 @@ from garage2usd.layout.parking.zones import Zones, with_numbers
 from garage2usd.layout.placement import PlacedStall, Placement
 from garage2usd.layout.shell.boards import with_boards
 from garage2usd.layout.shell.building import columns, corner_columns, ground_inside, outer_walls
+from garage2usd.layout.shell.fire_shutters import fire_shutters
 from garage2usd.layout.shell.mounts import mounted_objects
 from garage2usd.layout.shell.ramps import barriers, ramp_lights, with_ramps
 from garage2usd.layout.shell.well import Well
@@ -378,6 +379,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         if well:
             yield (guards := well.walls(structure, fittings, look.walls))
             yield [*well.ramps(structure, fittings), *well.ceilings(structure, fittings)]
+            yield fire_shutters(well, structure, fittings)
             walls, tubes = [*walls, *well.beside_floors(guards)], [*tubes, *well.tubes(structure, fittings)]
         yield ramp_lamps(tubes, look.lights, illuminance.luminance_nit, seed=seed)
         yield (blocks := core_placements(structure, built, ceiling, look.walls, wells))

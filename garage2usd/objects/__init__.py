@@ -56,7 +56,7 @@ KINDS = _in_order([module.KIND for module in _MODULES if hasattr(module, "KIND")
 _ALL: list[Kind | PieceClass] = [*KINDS, *_OTHER_CARS, *PIECES]
 CLASSES: tuple[Kind | PieceClass, ...] = tuple(sorted(_ALL, key=lambda each: each.number))
 """All semantic classes of objects and of their pieces, by number: the only table of them."""
-CLASSES_VERSION = 7
+CLASSES_VERSION = 8
 """Version of the table of semantic classes, raised when a class is added or covers something else."""
 PIECE_LABELS = frozenset(piece.label for piece in PIECES)
 """Semantic classes of pieces; a piece belongs to the object that it is a part of."""

@@ -196,7 +196,7 @@ def test_frames_list_what_can_be_seen(data_set):
     assert [frame.about["frame"] for frame in made.frames] == [None, 96.0, None]
     assert sum(entry["class"] == "car" for entry in inside.about["instances"]) > 5
     assert not np.allclose(inside.eye, drive.eye)
-    hidden = {"ceiling", "beam", "duct", "cable_tray", "sprinkler", "exit_sign", "lane_sign"}
+    hidden = {"ceiling", "beam", "duct", "cable_tray", "sprinkler", "exit_sign", "lane_sign", "fire_shutter"}
     assert set(above.about["hidden_classes"]) == hidden
     assert not hidden & {entry["class"] for entry in above.about["instances"]}
     assert inside.about["hidden_classes"] == []

@@ -20,18 +20,20 @@ def said_of(judge):
 
 
 def judged(judges_of, seed):
-    """What is said of one garage: facts, seconds, and complaints by judge.
+    """What is said of one garage: facts, complaints by judge, and the seconds of each judge and of all.
 
     `judges_of`, called with a seed and an empty folder, returns the facts, for JSON, and a mapping of names to judges:
     callables without arguments which return complaints, or assert.
     """
-    start, found = time.perf_counter(), {"seed": seed, "complaints": {}}
+    start, found = time.perf_counter(), {"seed": seed, "complaints": {}, "judge_seconds": {}}
     with tempfile.TemporaryDirectory() as folder:
         try:
             facts, judges = judges_of(seed, Path(folder))
             found |= facts
             for name, judge in judges.items():
+                begun = time.perf_counter()
                 found["complaints"][name] = said_of(judge)
+                found["judge_seconds"][name] = round(time.perf_counter() - begun, 1)
         except Exception as error:  # noqa: BLE001 - a garage that fails is a line of the log, not the end of the run
             found["complaints"]["failure"] = [f"{type(error).__name__}: {error}"[:500]]
     return {**found, "seconds": round(time.perf_counter() - start, 1)}

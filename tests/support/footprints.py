@@ -20,6 +20,7 @@ from garage2usd.objects.drain import DrainSpec
 from garage2usd.objects.duct import DuctSpec
 from garage2usd.objects.exit_sign import ExitSignSpec
 from garage2usd.objects.fire_extinguisher import FireExtinguisherSpec
+from garage2usd.objects.fire_shutter import FireShutterSpec
 from garage2usd.objects.flight import FlightSpec
 from garage2usd.objects.floor_stain import PuddleSpec, StainSpec, TyreMarkSpec
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
@@ -114,6 +115,8 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(spec.height_m, 0.03)
         case LevelSignSpec():
             return _centred(spec.width_m, 0.03)
+        case FireShutterSpec():
+            return shapely.box(-spec.width_m / 2 - 0.1, 0, spec.width_m / 2 + 0.1, spec.depth_m + 0.08)
         case LevelPlateSpec():
             return shapely.box(-0.23, 0, 0.23, 0.01)
         case MirrorSpec():

@@ -23,6 +23,7 @@ from garage2usd.objects.drain import DrainSpec
 from garage2usd.objects.duct import DuctSpec
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
 from garage2usd.objects.fire_extinguisher import FireExtinguisherSpec
+from garage2usd.objects.fire_shutter import FireShutterSpec
 from garage2usd.objects.flight import FlightSpec
 from garage2usd.objects.floor import FloorSpec
 from garage2usd.objects.floor_stain import DirtSpec, PuddleSpec, StainMark, StainSpec, TyreMarkSpec
@@ -125,6 +126,7 @@ SPECS = {
     "pipe": SprinklerSpec(0.7, 0.03, 0.075, rods_at_m=(0.1,), heads_at_m=()),
     **{f"level_sign_{heading}": LevelSignSpec("U2", heading, 0.58, 0.4) for heading in (*Heading, None)},
     "level_sign_way_out": LevelSignSpec("U1", Heading.UP, 0.58, 0.4, is_way_out=True),
+    "fire_shutter": FireShutterSpec(6.0, 3.2, 2.78, 0.3),
     "level_plate": LevelPlateSpec("U2"),
     **{f"lane_sign_{text}": LaneSignSpec(text, 0.58, 0.4) for text in LaneSignText},
     **{f"exit_sign_{turn}": ExitSignSpec(turn, 0.58, 0.2) for turn in Turn},

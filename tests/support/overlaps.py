@@ -15,7 +15,7 @@ from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
 
 SERVICES = ("duct", "cable_tray", "sprinkler")
-HANGING = ("light", "beam", *SERVICES, "exit_sign", "lane_sign", "mirror")
+HANGING = ("light", "beam", *SERVICES, "exit_sign", "lane_sign", "fire_shutter", "mirror")
 BUILDING = ("column", "wall", "portal", "obstacle", "ramp")
 STANDING = (*BUILDING, "barrier", "car", "cone", "wheel_stop", "charger")
 STANDING = (*STANDING, "no_parking_sign", "hydrant_cabinet", "fire_extinguisher")

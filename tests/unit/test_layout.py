@@ -204,7 +204,7 @@ def test_settings_decide_what_is_there():
         "stall_number",
         "charger",
     }
-    empty |= {"sprinkler", "exit_sign", "lane_sign", "mirror", "floor_stain", "drain"}
+    empty |= {"sprinkler", "exit_sign", "lane_sign", "fire_shutter", "mirror", "floor_stain", "drain"}
     empty |= {kind.name for kind in KINDS if kind.group == "Clutter"}
     assert {kind for kind, count in bare.items() if count == 0} == empty
 

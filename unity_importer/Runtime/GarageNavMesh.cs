@@ -18,8 +18,8 @@ namespace Garage.Unity
         [Tooltip("Labels (class) of what is left out: all that hangs too high to be in the way, and what moves.")]
         [SerializeField] string[] leftOut =
         {
-            "ceiling", "beam", "duct", "cable_tray", "sprinkler", "light", "exit_sign", "lane_sign", "sky", "car",
-            "van", "truck", "number_plate", "barrier",
+            "ceiling", "beam", "duct", "cable_tray", "sprinkler", "light", "exit_sign", "lane_sign",
+            "fire_shutter", "sky", "car", "van", "truck", "number_plate", "barrier",
         };
 
         [SerializeField] bool buildsOnStart = true;

@@ -16,7 +16,7 @@ from garage2usd.config.look import WallsLook
 from garage2usd.garage.coil_line import CoilLine, heights_along
 from garage2usd.layout.ceiling.lamps import TUBE
 from garage2usd.layout.placement import Placement, edge_yaw_rad, placed, rounded, to_world
-from garage2usd.layout.shell.well import SLAB_M, Well, WellLane
+from garage2usd.layout.shell.well import SLAB_M, Opening, Well, WellLane
 from garage2usd.layout.tiles import CEILING_THICKNESS_M
 from garage2usd.native import elementary
 from garage2usd.objects.ceiling import CeilingSpec
@@ -135,6 +135,20 @@ class CoilWell(Well):
                     u, v = (across_m, middle) if along_v else (middle, across_m)
                     title = f"Wall_Well_{span.name}{name}{one.name}"
                     found.append(one.placed(title, own, u, v, faces=faces, height_m=low))
+        return found
+
+    def openings(self, structure: Structure) -> list[Opening]:
+        """Return the openings to the helices whose foot is on this level."""
+        if self.is_top:
+            return []
+        found = []
+        for one in self._blocks(structure):
+            line, block = one.line, one.block
+            if block.head_is_first:
+                place, faces = one.to_world(line.last_u_m, 0.0), block.aside.opposite
+            else:
+                place, faces = one.to_world(0.0, line.first_v_m), block.way.opposite
+            found.append(Opening(one.name, place, faces, line.width_m))
         return found
 
     def beside_floors(self, walls: list[Placement]) -> list[Placement]:

@@ -16,7 +16,7 @@ from garage2usd.config.look import WallsLook
 from garage2usd.garage.ramp_profile import ramp_profile
 from garage2usd.layout.ceiling.lamps import TUBE
 from garage2usd.layout.placement import Placement
-from garage2usd.layout.shell.well import SLAB_M, Well, WellLane
+from garage2usd.layout.shell.well import SLAB_M, Opening, Well, WellLane
 from garage2usd.layout.shell.well_frame import WellFrame
 from garage2usd.layout.tiles import CEILING_THICKNESS_M
 from garage2usd.objects.ceiling import CeilingSpec
@@ -117,6 +117,16 @@ class FlightWell(Well):
                 if spec.height_m > 0:
                     wall(f"{name}{lane.name}", spec, (lane.middle_m, along), faces, low)
         return found
+
+    def openings(self, structure: Structure) -> list[Opening]:
+        """Return the openings to the ramps whose foot is on this level."""
+        if self.is_top:
+            return []
+        frame = WellFrame.of(self.pair, structure)
+        return [
+            Opening(lane.name, frame.to_world((lane.middle_m, 0.0)), self.pair.way, lane.width_m)
+            for lane in self._lanes(structure)
+        ]
 
     def beside_floors(self, walls: list[Placement]) -> list[Placement]:
         """Return those of its walls that stand beside a floor, on which things can hang: not between the ramps."""

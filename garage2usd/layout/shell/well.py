@@ -13,7 +13,7 @@ from garage2usd.structure.building import Ramps, level_name
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["SLAB_M", "Departure", "Well", "WellLane"]
+__all__ = ["SLAB_M", "Departure", "Opening", "Well", "WellLane"]
 
 SLAB_M = 0.25
 """Thickness of a ramp's slab."""
@@ -60,6 +60,27 @@ class Departure(NamedTuple):
     way: Edge
     to: str
     is_up: bool
+
+
+class Opening(NamedTuple):
+    """An opening in the walls of the well, through which cars drive from a landing onto a ramp or from it.
+
+    Attributes
+    ----------
+    name
+        ``Down`` or ``Up``, as the ramp.
+    middle_m
+        (x, z) of its middle, on the face of the wall.
+    faces
+        Direction from the ramp to the landing.
+    width_m
+        Its width.
+    """
+
+    name: str
+    middle_m: Point
+    faces: Edge
+    width_m: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,6 +173,10 @@ class Well(ABC):
         ConfigError
             If a ramp is left too narrow for a car.
         """
+
+    @abstractmethod
+    def openings(self, structure: Structure) -> list[Opening]:
+        """Return the openings to the ramps whose foot is on this level."""
 
     @abstractmethod
     def beside_floors(self, walls: list[Placement]) -> list[Placement]:

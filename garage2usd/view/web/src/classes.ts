@@ -27,6 +27,7 @@ const COLOURS: Record<string, string> = {
   sprinkler: "#b3202c",
   exit_sign: "#00c9a7",
   lane_sign: "#2f6fd6",
+  fire_shutter: "#a86b5a",
   mirror: "#e6e9ee",
   floor_stain: "#4b3f38",
   drain: "#2f6f86",
@@ -80,6 +81,7 @@ export const OVERHEAD = new Set([
   "sprinkler",
   "exit_sign",
   "lane_sign",
+  "fire_shutter",
   "light",
 ]);
 
