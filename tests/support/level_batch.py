@@ -37,7 +37,7 @@ from support.ramp_judge import a_car_drives_over, a_large_car_drives_over
 from support.sign_judge import signs_are_right
 
 LIBOPENDRIVE = os.environ.get("GARAGE2USD_LIBOPENDRIVE")
-ASAM_SQUARES = 400
+ASAM_SQUARES = 300
 """Of all levels together: ASAM's checker takes minutes for a larger garage."""
 KINDS = "straight", "helix"
 
