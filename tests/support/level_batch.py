@@ -47,7 +47,7 @@ def settings_of(seed):
     draw = np.random.default_rng([38, seed])
     kind, levels = KINDS[seed % 2], 2 + seed // 2 % 3
     large = {"straight": (10, 11), "helix": (10, 10)}[kind]
-    rows, cols = (int(size + draw.integers(0, 5)) for size in large)
+    rows, cols = (int(size + draw.integers(0, 4)) for size in large)
     return {
         "seed": seed,
         "profile": PROFILE_NAMES[seed // 6 % len(PROFILE_NAMES)],
@@ -59,7 +59,7 @@ def settings_of(seed):
         },
         "building": {"levels": levels, "ramps": kind, "storey_m": float(draw.choice([3.6, 3.75, 3.9]))},
         "plan": {"episodes": 60, "starts": 1, "aisles": str(draw.choice(["two-way", "mixed"]))},
-        "parking": {"occupancy": round(float(draw.uniform(0.0, 0.5)), 2)},
+        "parking": {"occupancy": round(float(draw.uniform(0.0, 0.2)), 2)},
         "bay": {"square_side_m": 8.1} if draw.random() < 0.7 else {"dimensioned": True},
     }
 
