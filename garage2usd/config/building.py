@@ -1,12 +1,14 @@
 """Settings of a building of several levels."""
 
 from enum import StrEnum
-from typing import Annotated, Literal, Self
+from typing import Self
 
 from pydantic import Field, model_validator
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.settings import Settings
+from garage2usd.config.side import Side
+from garage2usd.config.site import SquareIndex
 
 __all__ = ["BuildingConfig", "LinkKind", "RampsPlace", "check_one_level"]
 
@@ -23,13 +25,13 @@ class LinkKind(StrEnum):
 class RampsPlace(Settings):
     """The squares of the ramps between levels, given instead of drawn."""
 
-    square: tuple[Annotated[int, Field(ge=0)], Annotated[int, Field(ge=0)]]
+    square: SquareIndex
     """(row, col) of the landing at the head of the ramp down; for helices, of the corner square of the one down,
     between its landings."""
-    way: Literal["up", "down", "left", "right"]
+    way: Side
     """Direction of the straight ramp down, in the plan; for helices, from the landings of both in a row into their
     blocks."""
-    aside: Literal["up", "down", "left", "right"] | None = None
+    aside: Side | None = None
     """For helices: direction from the one down to the one up. Of straight ramps it follows from the side of the road
     that cars keep to."""
     count: int | None = Field(None, ge=1, le=40)

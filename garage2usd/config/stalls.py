@@ -6,6 +6,7 @@ from typing import Annotated, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 
 from garage2usd.common.settings import Settings
+from garage2usd.config.side import Side
 from garage2usd.config.site import SquareIndex
 from garage2usd.garage.kinds import StallKind
 
@@ -62,7 +63,7 @@ class GivenRun(Settings):
     """(row, col) of the square at one end, the one nearer to [0, 0]."""
     last: SquareIndex
     """(row, col) of the square at the other end, on the same line."""
-    edge: Literal["up", "down", "left", "right"]
+    edge: Side
     """The side of the squares that the stalls open to, where the lane is."""
     kind: StallKind = StallKind.PERPENDICULAR
     """'perpendicular', 'angled' or 'parallel'."""
