@@ -7,7 +7,7 @@ import networkx as nx
 import numpy as np
 import shapely
 
-from support.drive_judge import assert_driven_on
+from support.drive_judge import assert_on_the_ground
 from support.libopendrive_judge import dumped
 from support.map_judges import carla_map, lanelet2_map, sumo_spaces
 from support.opendrive_judge import ACCESS
@@ -65,7 +65,7 @@ class LevelMapJudge:
     def of_lanes(self, points, ways):
         """Of rows (road, lane, x, z, height, ...) of places on lanes, and of pairs of lanes that follow each other."""
         places = points[:, [2, 4, 3]]
-        assert_driven_on(self.ground, places, self.floors_m)
+        assert_on_the_ground(self.ground, places, self.floors_m)
         lanes = [(int(road), int(lane)) for road, lane in points[:, :2]]
         street = {lane for lane, height in zip(lanes, points[:, 4], strict=True) if height > STREET_M}
         is_low = np.abs(points[:, 4] - self.floors_m[-1]) < MILLIMETRE
