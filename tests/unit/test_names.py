@@ -19,7 +19,8 @@ from garage2usd.common.errors import StageError
 from garage2usd.reading.files import open_stage
 from garage2usd.view.viewer import read_scene
 
-QUICK = "[site]\nwidth_cells = 4\nheight_cells = 4\n[plan]\nepisodes = 40\n[maps.grid]\nresolution_m = 0.5\n"
+# of this seed the first stall has a drive; of seed 0 the last one that is tried, which takes each scenario five seconds
+QUICK = "seed = 4\n[site]\nwidth_cells = 4\nheight_cells = 4\n[plan]\nepisodes = 40\n[maps.grid]\nresolution_m = 0.5\n"
 NAMES = [("*?]b[ q'\"{%d}%20#~$&<a>é😀", "usdz"), ("anon:a", "usdc")]
 NOT_UTF8, CONTROL = "a\udcff\udcfe", "a\x01\nb\x85"
 
@@ -214,11 +215,12 @@ def test_a_stream_that_is_closed_loses_what_goes_there(built, tmp_path, closed):
     assert ET.parse(out).find("header") is not None
 
 
-@pytest.mark.parametrize("arguments", [["build", "--sed", "1"], ["build", "-o", "a@b.usda"]])
-def test_a_full_standard_error_changes_no_exit_code(arguments):
+@pytest.mark.parametrize(
+    ("arguments", "code"), [(["build", "--sed", "1"], 2), (["build", "-o", "a@b.usda"], 2), (["check", "a.usda"], 1)]
+)
+def test_a_full_standard_error_changes_no_exit_code(arguments, code):
     with Path("/dev/full").open("w") as full:
-        assert in_program(*arguments, stderr=full).returncode == 2
-        assert in_program("check", "missing.usda", stderr=full).returncode == 1
+        assert in_program(*arguments, stderr=full).returncode == code
 
 
 @pytest.mark.parametrize(
