@@ -167,8 +167,10 @@ class Reader:
         elif arguments[0] == "look" and "--contact-sheet" in arguments:
             pytest.importorskip("bpy", reason="Blender's bpy is made for Python 3.11 only")
             arguments = [*arguments, "--seeds", "0", "--size", "32x18", "--samples", "1"]
-        elif arguments[0] == "dataset" and "--workers" not in arguments:
-            arguments = [*arguments, "--workers", "1"]  # not one a core, each of which loads all, for three garages
+        elif arguments[0] == "dataset":
+            # the last of an option counts: two garages of many, and not a worker for each core, which all load all
+            few = ["--count", "2"] if "--count" in arguments else []
+            arguments = [*arguments, *few, "--workers", "1"]
         with contextlib.chdir(self.folder):
             run = CliRunner().invoke(main, arguments)
         assert run.exit_code == code, f"{place}\n{run.output}{run.exception!r}"
