@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from pxr import Sdf, Usd, UsdValidation
+from support.label_tables import labelled_objects
 from support.sample_files import SAMPLES, each_build, each_package
 from support.small_garage import SETTINGS
 from support.small_levels import SMALL_LEVELS
@@ -17,11 +18,21 @@ from garage2usd import GarageConfig, build, build_levels
 
 pytestmark = pytest.mark.client
 
-# every choice of three variant sets is a stage of its own to NVIDIA's validator; one small garage is validated in each
-# visiting every mesh of every instance takes NVIDIA's validator 30 s to 120 s a sample, and 8 s without; the prototypes
-# of those, whose meshes it then does not see, are validated as files of their own
-IN_FULL = [sample for sample in SAMPLES if sample.stem == "paper_7x9"]
-
+# NVIDIA's validator takes every choice of a variant set for a stage of its own, which is done with a garage of nine
+# squares. Each thousand meshes of instances take it 1 to 2 s, so samples are validated without them, and with them a
+# small garage that has all kinds of things that the paper's has. It then does not see the meshes of the samples'
+# prototypes, which are validated as files of their own.
+ALL_KINDS = {
+    "seed": 4,
+    "site": {"width_cells": 4, "height_cells": 4},
+    "plan": {"episodes": 40},
+    "fittings": {"speed_bump_rate": 1.0},
+}
+VARIED = {
+    "site": {"structure": "...\nE=X\n...\n"},
+    "parking": {"occupancy": 0.0, "occupied_stalls": ["Stall_r00_c01_1"]},
+}
+PAPER = [sample for sample in SAMPLES if sample.stem == "paper_7x9"]
 MIXED = [sample for sample in SAMPLES if sample.stem == "mixed_stalls"]
 
 
@@ -53,9 +64,23 @@ def nvidia_findings(asset, output, *options):
 
 @each_build
 def test_nvidia_validation_finds_nothing(sample, extension, builds, tmp_path):
-    in_full = extension == "usdc" and sample in IN_FULL
-    options = ["--no-variants"] if in_full else ["--no-variants", "--no-instance-prototypes"]
+    options = ["--no-variants", "--no-instance-prototypes"]
     assert nvidia_findings(builds(sample, extension).stage, tmp_path / "findings.csv", *options) == []
+
+
+@pytest.fixture(scope="module")
+def all_kinds(tmp_path_factory):
+    """A garage of sixteen squares."""
+    return build(GarageConfig(**ALL_KINDS), tmp_path_factory.mktemp("kinds") / "small.usdc")
+
+
+def kinds_of(built):
+    return {entry["class"] for entry in labelled_objects(built.labels)}
+
+
+def test_nvidia_validation_of_every_instance_finds_nothing(all_kinds, builds, tmp_path):
+    assert kinds_of(all_kinds) >= kinds_of(builds(*PAPER, "usdc"))
+    assert nvidia_findings(all_kinds.stage, tmp_path / "findings.csv", "--no-variants") == []
 
 
 def test_validations_of_several_levels_find_nothing(tmp_path):
@@ -65,17 +90,16 @@ def test_validations_of_several_levels_find_nothing(tmp_path):
 
 
 def test_nvidia_validation_of_every_variant_finds_nothing(tmp_path):
-    config = GarageConfig(
-        site={"width_cells": 4, "height_cells": 3, "min_portal_distance_cells": 2},
-        plan={"episodes": 100},
-        parking={"occupancy": 0.2},
-    )
-    stage = build(config, tmp_path / "small.usdc").stage
+    stage = build(GarageConfig(**VARIED), tmp_path / "small.usdc").stage
+    opened = Usd.Stage.Open(str(stage))
+    prims = Usd.PrimRange(opened.GetPseudoRoot(), Usd.TraverseInstanceProxies())
+    names = {name for prim in prims for name in prim.GetVariantSets().GetNames()}
+    assert names == {"ceiling", "lights", "occupancy", "paint", "power"}
     assert nvidia_findings(stage, tmp_path / "findings.csv") == []
 
 
-def test_tiles_that_share_prototypes_pass_both(builds, tmp_path):
-    stage = builds(IN_FULL[0], "usdc", "nested").stage
+def test_tiles_that_share_prototypes_pass_both(tmp_path):
+    stage = build(GarageConfig(**ALL_KINDS, stage={"form": "nested"}), tmp_path / "small.usdc").stage
     assert usd_findings(stage) == []
     assert nvidia_findings(stage, tmp_path / "findings.csv", "--no-variants") == []
 
@@ -91,8 +115,6 @@ def test_shared_assets_and_a_stage_that_refers_to_them_pass_both(tmp_path):
 def test_nvidia_validation_of_prototypes_finds_nothing(builds, tmp_path):
     """Those of all samples at once, as most are of several."""
     for sample in SAMPLES:
-        if sample in IN_FULL:
-            continue
         folder = builds(sample, "usdc").asset_folder
         for file in filter(Path.is_file, folder.rglob("*")):
             copy = tmp_path / "assets" / file.relative_to(folder)
@@ -103,10 +125,9 @@ def test_nvidia_validation_of_prototypes_finds_nothing(builds, tmp_path):
     assert nvidia_findings(tmp_path / "assets", tmp_path / "findings.csv", "--no-variants") == []
 
 
-def test_nvidia_validation_sees_a_broken_prototype(builds, tmp_path):
+def test_nvidia_validation_sees_a_broken_prototype(all_kinds, tmp_path):
     """Or else the test above would prove nothing of a folder of prototypes."""
-    sample = next(sample for sample in SAMPLES if sample.stem == "paper_7x9")
-    folder = shutil.copytree(builds(sample, "usdc").asset_folder, tmp_path / "assets")
+    folder = shutil.copytree(all_kinds.asset_folder, tmp_path / "assets")
     layer = Sdf.Layer.FindOrOpen(str(min(folder.glob("Column_*.usdc"))))
     mesh = next(iter(layer.GetPrimAtPath("/Asset/Geom").nameChildren))
     mesh.attributes["extent"].default = [(0, 0, 0), (0.1, 0.1, 0.1)]
@@ -115,7 +136,7 @@ def test_nvidia_validation_sees_a_broken_prototype(builds, tmp_path):
     assert [finding["Rule"] for finding in findings] == ["ExtentsChecker"]
 
 
-@pytest.mark.parametrize("sample", [*IN_FULL, *MIXED], ids=lambda path: path.stem)
+@pytest.mark.parametrize("sample", [*PAPER, *MIXED], ids=lambda path: path.stem)
 def test_every_format_holds_the_same(sample, builds):
     """So that what one format passes in full, the others need not."""
     texts, assets = {}, {}
