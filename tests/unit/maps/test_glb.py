@@ -15,7 +15,7 @@ from support.glb_reader import Glb, assert_like_the_stage, assert_stalls
 from support.label_tables import labelled_objects
 from support.map_faults import Fault, planted
 from support.places import MILLIMETRE, assert_same_places
-from support.sample_files import each_sample
+from support.sample_files import each_small_sample
 from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
@@ -44,7 +44,7 @@ def test_it_is_the_stage(made, tmp_path):
     judge(write_glb, made, tmp_path)
 
 
-@each_sample
+@each_small_sample
 def test_it_is_the_stage_of_a_sample_and_little_larger(sample, builds, tmp_path):
     built = builds(sample, "usdz")
     judge(write_glb, built, tmp_path)
