@@ -1,13 +1,16 @@
 """The fenced blocks of a page, and a reader that does what they say, in order and in one folder."""
 
 import contextlib
+import functools
 import io
 import os
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import tomllib
 import urllib.request
 from dataclasses import dataclass
@@ -48,6 +51,14 @@ E=====.
 .......
 """
 _BUILDS_THE_GARAGE = re.compile(r"^garage2usd build(?!.*-o)", re.MULTILINE)
+
+
+@functools.cache
+def _garage():
+    """A folder with the garage that pages start with, which is built once."""
+    folder = tempfile.TemporaryDirectory()
+    garage2usd.build(garage2usd.GarageConfig(site={"structure": _SMALL}), Path(folder.name) / "garage.usdz")
+    return folder
 
 
 @dataclass(frozen=True)
@@ -104,8 +115,7 @@ class Reader:
             shim.chmod(0o755)
 
     def start_with_a_garage(self):
-        config = garage2usd.GarageConfig(site={"structure": _SMALL})
-        garage2usd.build(config, self.folder / "garage.usdz")
+        shutil.copytree(_garage().name, self.folder, dirs_exist_ok=True)
 
     def follow(self, block):
         """Do what a block says."""
