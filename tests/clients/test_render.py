@@ -19,7 +19,9 @@ from pxr import Usd
 from support.label_tables import cars_of_plates, labelled_objects
 from support.rays import Rays
 from support.sample_files import REPOSITORY
+from support.small_garage import SETTINGS
 
+from garage2usd import GarageConfig, build
 from garage2usd.objects.pieces import PAINT_CLASSES
 from garage2usd.render import Picture, render_stage
 
@@ -93,8 +95,8 @@ def read_frame(folder, frame):
     )
 
 
-def test_signs_that_blender_reads_in_paths_are_signs_of_names(builds, tmp_path, monkeypatch):
-    built = builds(HAND_DRAWN, "usdz")
+def test_signs_that_blender_reads_in_paths_are_signs_of_names(tmp_path, monkeypatch):
+    built = build(GarageConfig(**SETTINGS), tmp_path / "small" / "small.usdz")
     folder = tmp_path / "s#{b}[1]@"
     temporary = tmp_path / "t#{b}[1]@"
     temporary.mkdir()
