@@ -160,8 +160,10 @@ class SignJudge:
             (over,) = (s for s in hung if s.level == level and _is_over(s, ramp[0], ramp[1] - ramp[0]))
             assert (over.text, over.arrow) == (to, (0, 1 if rises else -1))
             assert (over.word in {signage.exit for signage in SIGNAGE.values()}) is rises
-            (there,) = (s for s in hung if s.level == to and _is_over(s, ramp[-1], ramp[-1] - ramp[-2]))
-            assert (there.text, there.arrow) == (to, None)
+            # signs of a junction right behind it have arrows
+            arrivals = [s for s in hung if s.level == to and s.arrow is None]
+            (there,) = (s for s in arrivals if _is_over(s, ramp[-1], ramp[-1] - ramp[-2]))
+            assert there.text == to
             assert there.word in {signage.level for signage in SIGNAGE.values()}
             hung = [sign for sign in hung if sign not in {over, there}]
         for sign in hung:
