@@ -26,6 +26,7 @@ from support.level_judge import (
     above,
     built_and_judged,
     columns_stand_above_one_another,
+    findings_of,
     levels_keep_apart,
     stairs_lead_up_to_the_street,
 )
@@ -74,7 +75,7 @@ def judges_of(seed, folder):
     except (ConfigError, GenerationError) as error:
         return {**facts, "refused": str(error)}, {}
     config = made.garage.config
-    facts["stalls"] = len(judge.stall_ids)
+    facts |= {"stalls": len(judge.stall_ids), "found": findings_of(made)}
     road, lanelets = garage2usd.export(made.stage, [folder / f"garage.{suffix}" for suffix in ("xodr", "osm")])
     maps = LevelMapJudge(judge, config.building.storey_m, folder)
     judges = {

@@ -169,11 +169,16 @@ class LevelJudge:
         return found
 
 
+def findings_of(made):
+    """What `check` finds on a garage of several levels, but for remarks, as words for each severity and rule."""
+    found = [finding for level in made.findings for finding in level if finding.severity is not Severity.INFO]
+    return sorted(f"{finding.severity}: {finding.rule}" for finding in found)
+
+
 def built_and_judged(config, path):
     """Build a garage of several levels; `check` has nothing against it but for want of room, and all is reached."""
     made = build_levels(config, path)
-    found = {finding.rule for level in made.findings for finding in level if finding.severity is not Severity.INFO}
-    assert found <= ALLOWED
+    assert {words.partition(": ")[2] for words in findings_of(made)} <= ALLOWED
     judge = LevelJudge(made.stage)
     assert judge.unreached() == []
     return made, judge
