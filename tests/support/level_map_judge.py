@@ -15,6 +15,8 @@ from support.opendrive_judge import ACCESS
 MILLIMETRE = 1e-3
 STREET_M = 2.5
 """Height over the upper floor at which the street is nearer than the garage."""
+LEAST_ON_RAMPS = 100
+"""Places every half metre on the lanes of all ramps between levels."""
 ROUNDED_M = 2e-3
 """Of heights in a Lanelet2 map."""
 
@@ -68,6 +70,9 @@ class LevelMapJudge:
         assert_on_the_ground(self.ground, places, self.floors_m)
         lanes = [(int(road), int(lane)) for road, lane in points[:, :2]]
         street = {lane for lane, height in zip(lanes, points[:, 4], strict=True) if height > STREET_M}
+        off_m = np.abs(points[:, 4, None] - self.floors_m).min(axis=1)
+        if ((points[:, 4] < -MILLIMETRE) & (off_m > MILLIMETRE)).sum() <= LEAST_ON_RAMPS:
+            yield "there are hardly any places on the ramps between levels"
         is_low = np.abs(points[:, 4] - self.floors_m[-1]) < MILLIMETRE
         for word, led in zip(("to", "from"), led_by(nx.DiGraph(ways), street), strict=True):
             on_led = shapely.multipoints(points[is_low & [lane in led for lane in lanes]][:, 2:4])
@@ -83,7 +88,7 @@ class LevelMapJudge:
             for thing in ET.parse(path).getroot().iter("object")
             if thing.get("type") == "parkingSpace"
         }
-        if spaces.keys() != names.keys():
+        if not spaces or spaces.keys() != names.keys():
             yield f"SUMO has {len(spaces)} of {len(names)} spaces"
         outlines = dict(zip(self.judge.stall_ids, self.judge.outlines, strict=True))
         for number in spaces.keys() & names.keys():
@@ -101,9 +106,18 @@ class LevelMapJudge:
             for number, lanelet in lanelets.items()
         }
         street = {number for number, height in heights.items() if height.max() > STREET_M}
-        if not street:
-            yield "no lanelet leads to the street"
+        portals = sum(kind in {"entrance", "exit"} for kind in self.judge.kinds)
+        if len(street) != portals:
+            yield f"{len(street)} lanelets lead over {portals} portals to the street"
         routes = nx.DiGraph((number, other) for number, lanelet in lanelets.items() for other in lanelet["following"])
+        out, into = led_by(routes, street)
+        rises = {number: np.ptp(height) for number, height in heights.items() if height.max() < MILLIMETRE}
+        climbing = {number for number, rise in rises.items() if rise > ROUNDED_M}
+        if not climbing <= out | into:
+            yield "a ramp between levels does not belong to a way from the street or to it"
+        storeys = sum(rises[number] for number in climbing) / -self.floors_m[1]
+        if abs(storeys - 2 * (len(self.floors_m) - 1)) > ROUNDED_M:
+            yield f"lanelets of ramps rise over {storeys:.3f} storeys"
         low = {
             number: shapely.Polygon(
                 [(x, -y) for x, y, _ in (*lanelet["left"]["places"], *reversed(lanelet["right"]["places"]))]
@@ -111,7 +125,7 @@ class LevelMapJudge:
             for number, lanelet in lanelets.items()
             if np.abs(heights[number] - self.floors_m[-1]).max() < ROUNDED_M
         }
-        for word, led in zip(("to", "from"), led_by(routes, street), strict=True):
+        for word, led in zip(("to", "from"), (out, into), strict=True):
             ground = shapely.union_all([low[number] for number in low.keys() & led])
             for node, square in self.squares.items():
                 if not square.intersection(ground).area > 1.0:
