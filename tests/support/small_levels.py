@@ -1,4 +1,4 @@
-"""The smallest usual garage of two levels."""
+"""The smallest usual garages of several levels."""
 
 from garage2usd import GarageConfig
 
@@ -11,6 +11,15 @@ SMALL_LEVELS = GarageConfig(
     plan={"episodes": 60, "starts": 1},
     parking={"occupancy": 0.1},
 )
+SMALL_HELICES = GarageConfig(
+    **{
+        **SMALL_LEVELS.model_dump(mode="json"),
+        "seed": 2,
+        "building": {"levels": 3, "storey_m": 3.6, "ramps": "helix"},
+        "site": {"width_cells": 10, "height_cells": 9},
+    }
+)
+"""Three levels with helices."""
 LIDAR = {
     "kind": "spinning_lidar",
     "name": "top",

@@ -4,21 +4,11 @@ import numpy as np
 import pytest
 from support.level_judge import LevelJudge, above, first_hits
 from support.overlaps import Solids
-from support.small_levels import SMALL_LEVELS
+from support.small_levels import SMALL_HELICES, SMALL_LEVELS
 
 from garage2usd import GarageConfig, build_levels, generate_levels
 
-GARAGES = {
-    "straight": SMALL_LEVELS,
-    "helix": GarageConfig(
-        **{
-            **SMALL_LEVELS.model_dump(mode="json"),
-            "building": {"levels": 3, "storey_m": 3.6, "ramps": "helix"},
-            "site": {"width_cells": 10, "height_cells": 9},
-            "seed": 2,
-        }
-    ),
-}
+GARAGES = {"straight": SMALL_LEVELS, "helix": SMALL_HELICES}
 
 
 @pytest.fixture(scope="module", params=GARAGES)

@@ -4,18 +4,16 @@ import pytest
 from support.level_judge import LevelJudge
 from support.overlaps import Solids
 from support.sign_judge import SignJudge
-from support.small_levels import SMALL_LEVELS
+from support.small_levels import SMALL_HELICES, SMALL_LEVELS
 
 from garage2usd import GarageConfig, build_levels, generate_levels
 from garage2usd.assets.countries import Country
 from garage2usd.objects.signage import SIGNAGE
 
-HELICES = {**SMALL_LEVELS.model_dump(mode="json"), "building": {"levels": 3, "storey_m": 3.6, "ramps": "helix"}}
-HELICES |= {"site": {"width_cells": 10, "height_cells": 9}, "seed": 2}
 STRAIGHT = {**SMALL_LEVELS.model_dump(mode="json"), "look": {"signs": {"of": "profile"}}}
 GARAGES = {
     "straight": GarageConfig(**{**STRAIGHT, "profile": "de-garvo"}),
-    "helix": GarageConfig(**HELICES),
+    "helix": SMALL_HELICES,
 }
 
 
