@@ -17,11 +17,13 @@ from pxr import Usd, UsdGeom
 
 from garage2usd.common.limits import lift
 from garage2usd.common.progress import Announce, Progress, time_in_words, unheard
+from garage2usd.common.system import cores
 from garage2usd.reading.labels import Labels
 from garage2usd.render.blender_process import run_blender
 from garage2usd.render.cameras import View
 from garage2usd.render.devices import CPU, ComputeDevice
 from garage2usd.render.drawn_prims import SHAPE_PROPERTY, DrawnPrims, read_drawn_prims, write_shapes
+from garage2usd.render.effort import drawing_s
 from garage2usd.render.overhead import Overhead, find_overhead
 from garage2usd.render.pictures import (
     INDEX_LIMIT,
@@ -311,12 +313,22 @@ class Drawing:
         told = [f"{count} of {size}" for size, count in sizes.items()]
         there = sum(not job["colour"] and not job["data"] for job in jobs)
         finished = f", {there} of them finished before" if there else ""
+        count = "1 sample" if self.samples == 1 else f"{self.samples} samples"
         kinds = ", ".join(
-            f"colour with {self.samples} samples on {self.device.words}" if kind is Picture.COLOUR else str(kind)
+            f"colour with {count} on {self.device.words}" if kind is Picture.COLOUR else str(kind)
             for kind in self.kinds
         )
         views = "1 view" if len(self.views) == 1 else f"{len(self.views)} views"
-        return f"{views}, {' and '.join(told)} pixels{finished}: {kinds}"
+        words = f"{views}, {' and '.join(told)} pixels{finished}: {kinds}"
+        if self.device.kind != CPU.kind and self._has_colour:
+            return words  # as GPUs differ too much
+        seconds = drawing_s(
+            [job["size_px"] for job in jobs if job["colour"]],
+            [job["size_px"] for job in jobs if job["data"]],
+            samples=self.samples,
+            cores=cores(),
+        )
+        return f"{words}; about {time_in_words(seconds)}"
 
 
 class _Tempo:
