@@ -130,9 +130,7 @@ class Drawing:
             raise TypeError(f"motion is drawn with {missing}")
         for folder in (*self.kinds, _SEEN, _EFFECTS, _LIGHT):
             (self.finished / folder).mkdir(parents=True, exist_ok=True)
-        progress("scene", 0, 1)
-        scene = read_drawn_prims(self.stage, self.labels.ids)
-        digits = 1 + int(scene.instance.max(initial=0) >= INDEX_LIMIT)
+        digits = 1 + int(max(self.labels.ids.values(), default=0) >= INDEX_LIMIT)
         moved = self.moved or [None] * len(self.views)
         unseen = self.unseen or [()] * len(self.views)
         frames = zip(self.views, self.hidden, unseen, moved, strict=True)
@@ -143,9 +141,11 @@ class Drawing:
         order = self._order()
         total = len(self.views) * (self.samples * self._has_colour + self._has_data)
         left = sum(self.samples * bool(job["colour"]) + bool(job["data"]) for job in jobs)
-        progress("render", total - left, total)
         if left:
             announce(self._described(jobs))
+            progress("scene", 0, 1)
+            scene = read_drawn_prims(self.stage, self.labels.ids)
+            progress("render", total - left, total)
             tempo = _Tempo(self.samples if any(job["colour"] for job in jobs) else 1, jobs, announce)
             waiting = _Waiting(self, [(self.views[number], jobs[number]) for number in order])
             lift()
