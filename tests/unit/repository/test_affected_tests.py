@@ -141,9 +141,17 @@ def test_what_is_left_out_is_told(monkeypatch, capsys):
     assert main() == 0
     said = capsys.readouterr().out.splitlines()
     count = len(affected(["garage2usd/checks/egress.py"]))
-    assert f"{count} of {len(files_of_tests())} test files can be affected, 3 are run, about 15 s on 2 cores" in said[0]
+    room = [file for file in files_of_tests() if file.startswith("tests/unit/checks/")]
+    run = f"{len(room)} are run, about {5 * len(room)} s on 2 cores of the {5 * count} s that all of them take"
+    assert f"{count} of {len(files_of_tests())} test files can be affected, {run}" in said[0]
     assert said[1].startswith("left to `make test`, the nearest first: ")
-    assert said[1].endswith(f"(10 s), and {count - 3 - 12} more")
-    assert said[2:] == [file for file in said[2:] if file in files_of_tests()]
+    assert said[1].endswith(f"(10 s), and {count - len(room) - 12} more")
+    assert sorted(said[2:]) == room
     assert said[2] == "tests/unit/checks/test_egress.py"
-    assert len(said) == 5
+
+
+def test_the_tests_of_a_changed_room_are_all_run():
+    assert affected_tests.rooms_of(["garage2usd/checks/egress.py", "docs/check.md"]) == {"tests/unit/checks"}
+    steps = {"tests/unit/checks/far.py": 9, "tests/unit/maps/near.py": 0, "tests/unit/maps/nearer.py": 0}
+    run, left = chosen(steps, dict.fromkeys(steps, 10.0), 15.0, rooms={"tests/unit/checks"})
+    assert (run, left) == (["tests/unit/checks/far.py"], ["tests/unit/maps/near.py", "tests/unit/maps/nearer.py"])
