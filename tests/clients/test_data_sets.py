@@ -89,6 +89,7 @@ def test_two_workers_of_which_one_is_killed_give_the_same_bytes(recipe_file, who
     assert tree_of(folder) == whole[1]
 
 
+@pytest.mark.soak
 def test_a_run_that_is_killed_three_times_goes_on_to_the_same_bytes(recipe_file, whole, tmp_path):
     folder = tmp_path / "garages"
     shards = folder / "shards"
@@ -219,6 +220,7 @@ print(json.dumps(dict(
     assert found["prims"] > 100
 
 
+@pytest.mark.soak
 def test_the_lines_of_the_data_card_load_a_set_that_is_compressed(tmp_path):
     grid = {"maps": {"grid": {"resolution_m": 0.5, "keepout": True}}}
     settings = {**SMALL, "count": 2, "splits": {"part": 1}, "garage": {**SMALL["garage"], **grid}}

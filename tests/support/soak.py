@@ -32,7 +32,8 @@ def chosen(items, *, soak, part, durations):
 
 
 def _soak(case):
-    values = case.values if isinstance(case, type(pytest.param())) else case if isinstance(case, tuple) else (case,)
+    is_several = isinstance(case, tuple) and not hasattr(case, "_fields")  # of several parameters
+    values = case.values if isinstance(case, type(pytest.param())) else case if is_several else (case,)
     marks = getattr(case, "marks", ())
     return pytest.param(*values, marks=[*marks, pytest.mark.soak], id=getattr(case, "id", None))
 
