@@ -10,6 +10,7 @@ import pytest
 from click.testing import CliRunner
 from support.hatch_building import LIBRARY, TARGETS, asked_target
 from support.sample_files import REPOSITORY
+from support.soak import soak_but
 
 from garage2usd import native
 from garage2usd.cli import main
@@ -32,7 +33,7 @@ exports = ["xodr"]
 """
 
 
-@pytest.fixture(params=OTHERS)
+@pytest.fixture(params=soak_but(1, OTHERS))
 def system(request):
     return request.param
 
