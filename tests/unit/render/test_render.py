@@ -11,6 +11,7 @@ from click.testing import CliRunner
 from pxr import Gf, Usd, UsdGeom
 from support.label_tables import labelled_objects
 from support.sample_files import REPOSITORY
+from support.soak import soak_but
 
 from garage2usd.cli import main
 from garage2usd.common import extras
@@ -38,7 +39,7 @@ def run(*arguments):
     return CliRunner().invoke(main, ["render", *(str(argument) for argument in arguments)])
 
 
-@pytest.mark.parametrize("form", ["instanced", "nested", "flat"])
+@pytest.mark.parametrize("form", soak_but(1, ["instanced", "nested", "flat"]))
 def test_a_stage_without_a_table_tells_the_same_objects_and_classes(builds, tmp_path, form):
     made = builds(HAND_DRAWN, "usdc", form)
     stage = Usd.Stage.Open(str(made.stage))
