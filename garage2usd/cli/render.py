@@ -55,7 +55,7 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     "--samples",
     metavar="N",
     type=click.IntRange(1, 65536),
-    help="Samples of each pixel of the colour.  [default: 3 to 64, as many as two cores draw in two minutes]",
+    help="Samples of each pixel of the colour.  [default: 2 to 64, as many as two cores draw in two minutes]",
 )
 @click.option(
     "--seed",

@@ -90,7 +90,7 @@ def render_stage(
     size_px
         Width and height; the width takes the cameras' horizontal aperture.
     samples
-        Samples per pixel of the colour picture; None for as many as two cores draw in two minutes, from 3 to 64.
+        Samples per pixel of the colour picture; None for as many as two cores draw in two minutes, from 2 to 64.
     seed
         Seed of the colour picture's samples.
     pictures

@@ -5,10 +5,10 @@ from collections.abc import Iterable
 __all__ = ["default_samples", "drawing_s"]
 
 _BUDGET_S, _BUDGET_CORES = 120.0, 2
-_LEAST, _MOST = 3, 64
-_SCENE_S = 14.0
+_LEAST, _MOST = 2, 64
+_SCENE_S = 11.0
 """Seconds in which one core reads the stage and Blender reads the scene."""
-_SAMPLE_S, _FINISH_S, _DATA_S = 26.0, 20.0, 9.0
+_SAMPLE_S, _FINISH_S, _DATA_S = 33.0, 40.0, 12.0
 """Seconds of a core for a million pixels: of one sample, of the denoiser, and of all pictures other than colour."""
 _MILLION = 1e6
 
@@ -16,7 +16,7 @@ _MILLION = 1e6
 def default_samples(sizes_px: Iterable[tuple[int, int]]) -> int:
     """Return the number of samples with which two cores draw colour pictures of some sizes in two minutes.
 
-    At least 3, which the denoiser makes smooth, though many pictures take longer; at most 64.
+    At least 2, which the denoiser makes smooth, though many pictures take longer; at most 64.
     """
     pixels = _pixels(sizes_px)
     left_s = (_BUDGET_S - _SCENE_S) * _BUDGET_CORES - (_FINISH_S + _DATA_S) * pixels / _MILLION

@@ -12,4 +12,4 @@ def test_without_samples_two_cores_draw_in_two_minutes():
 
 
 def test_many_pictures_get_a_few_samples_and_small_ones_not_too_many():
-    assert (default_samples([WIDE] * 300), default_samples([(64, 36)]), default_samples([])) == (3, 64, 64)
+    assert (default_samples([WIDE] * 300), default_samples([(64, 36)]), default_samples([])) == (2, 64, 64)
