@@ -36,8 +36,8 @@ _RAYS = Path(__file__).with_name("rays.osl")
 _PARTS = "parts"
 """Folder of unfinished pictures."""
 _SAMPLE = re.compile(r"(?:Rendered (\d+)/(\d+) Tiles, )?Sample (\d+)/\d+")
-_TILE_PX, _WHOLE_PX = 256, 2048
-"""Sides of the tiles of a colour picture, after each of which Blender tells its progress, and of all others."""
+_WHOLE_PX = 2048
+"""Side of the tiles of pictures other than colour."""
 
 
 def main() -> None:
@@ -320,7 +320,7 @@ def _set_up_colour(scene: bpy.types.Scene, job: dict[str, Any]) -> None:
             device.use = device.type == job["device"]
         scene.cycles.device = "GPU"
     else:
-        scene.cycles.tile_size = _TILE_PX
+        scene.cycles.tile_size = job["tile_px"]
     scene.cycles.use_denoising = True
     scene.cycles.denoising_quality = "FAST" if job["is_draft"] else "HIGH"
     scene.cycles.use_light_tree = not job["is_draft"]

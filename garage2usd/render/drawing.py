@@ -50,6 +50,8 @@ _BLENDER_FROM = {
     UsdGeom.Tokens.z: np.eye(3),
 }
 """Rotation from a stage's axes, by its up axis, to Blender's."""
+_TILE_PX = 256
+"""Side of the tiles of a colour picture; Blender tells its progress after each."""
 _SEEN = "seen"
 _EFFECTS = "effects"
 _LIGHT = "light"
@@ -294,6 +296,7 @@ class Drawing:
             "property": SHAPE_PROPERTY,
             "to_blender": to_blender.tolist(),
             "samples": self.samples,
+            "tile_px": _TILE_PX,
             "seed": self.seed,
             "is_draft": self.is_draft,
             "device": self.device.kind,

@@ -26,7 +26,7 @@ def test_effects_change_colour_alone_and_the_car_is_where_its_mask_says(tmp_path
     def recorded(name, **settings):
         sensors = [{**front, **settings}]
         rig = rig_from_mapping({"name": "r", "ego_visible": True, "sensors": sensors})
-        asked = {"along": ":Stall_r00_c01_2", "every_m": 80, "scale": 0.15, "samples": 2, "slots": ()}
+        asked = {"along": ":Stall_r00_c01_2", "every_m": 24, "scale": 0.15, "samples": 2, "slots": ()}
         return record(built.stage, tmp_path / name, rig=rig, pictures=(Picture.COLOUR, *TRUTH), **asked).folder
 
     perfect, real = recorded("perfect"), recorded("real", effects=effects)

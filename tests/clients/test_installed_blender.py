@@ -16,7 +16,7 @@ from garage2usd import GarageConfig, build
 from garage2usd.cli import main
 from garage2usd.common import extras, system
 from garage2usd.common.errors import ConfigError, MissingExtraError
-from garage2usd.render import Picture, blender_process, render_stage
+from garage2usd.render import Picture, blender_process, drawing, render_stage
 from garage2usd.render.blender_process import BLENDER_MODULE, Blender, find_blender
 
 PROGRAM = """#!{python}
@@ -61,8 +61,9 @@ def made(tmp_path_factory):
 
 @pytest.mark.client
 @pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="Blender's bpy is made for Python 3.11 only")
-def test_a_program_draws_what_the_module_draws_and_tells_how_far_a_picture_is(made, tmp_path):
-    asked = {"cameras": ["Inside"], "size_px": (272, 32), "samples": 8, "pictures": (Picture.COLOUR, Picture.DEPTH)}
+def test_a_program_draws_what_the_module_draws_and_tells_how_far_a_picture_is(made, tmp_path, monkeypatch):
+    monkeypatch.setattr(drawing, "_TILE_PX", 32)
+    asked = {"cameras": ["Inside"], "size_px": (64, 36), "samples": 8, "pictures": (Picture.COLOUR, Picture.DEPTH)}
     installed = program(tmp_path / "Blender 5.0" / "blender")
     told = []
     by_program = render_stage(
@@ -72,10 +73,9 @@ def test_a_program_draws_what_the_module_draws_and_tells_how_far_a_picture_is(ma
     one, other = (np.asarray(Image.open(each.folder / "colour" / "Inside.png")) for each in (by_program, by_module))
     assert (one == other).all()
     assert one.max() > 0
-    # a picture of two tiles: after the first one Blender has drawn half of its samples
     drawn = [done for step, done, _ in told if step == "render"]
     assert drawn == sorted(drawn)
-    assert {0, 4, 8, 9} <= {*drawn}
+    assert {0, 2, 4, 6, 8, 9} <= {*drawn}  # a picture of four tiles
     assert told[-1] == ("render", 9, 9)
 
 
