@@ -72,6 +72,16 @@ def test_build_says_what_it_made(tmp_path, config, extension):
     assert {path.name for path in out.parent.iterdir()} == names
 
 
+def test_a_build_without_an_output_says_what_it_replaces(tmp_path, config, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    small = config('[site]\nstructure = """\n...\nE=X\n...\n"""\n[bay]\ndimensioned = false\n')
+    assert "replaced" not in run("build", small, "-o", "garage.usdz").output
+    result = run("build", small)
+    names = "garage.usdz, garage_plan.png, garage_report.json, garage_labels.json"
+    assert f"replaced  {names} of before; -o FILE names others" in result.output
+    assert "replaced" not in run("build", small, "-o", "garage.usdz").output
+
+
 @pytest.mark.parametrize(
     ("settings", "said"),
     [
