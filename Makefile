@@ -1,6 +1,7 @@
 # Two commands for a fresh Debian or Ubuntu with Python 3.11 to 3.14: `make demo` and `make test`. While one works, `make check`
-# runs what a change can affect, `make check BASE=commit` what differs from a commit.
-.PHONY: demo test check lint wheels
+# runs what a change can affect, `make check BASE=commit` what differs from a commit. `make soak` runs the wide tests, which
+# take hours, and `make soak PART=3` an eighth of them.
+.PHONY: demo test check soak lint wheels
 
 demo:
 	@./environment.sh demo
@@ -8,12 +9,16 @@ demo:
 	@echo "Open out/garage.usdz in Blender (File > Import > Universal Scene Description); out/garage_plan.png is its plan."
 
 # where Python is told to keep no compiled files, each command that a test starts would compile all it imports
-test check: export PYTHONDONTWRITEBYTECODE =
+test check soak: export PYTHONDONTWRITEBYTECODE =
 test: lint
 	@.venv/bin/python -m pytest -n auto --dist worksteal
 
 check: lint
 	@PYTHONPATH=tests .venv/bin/python -m support.affected_tests $(if $(BASE),--base $(BASE))
+
+soak:
+	@./environment.sh test
+	@.venv/bin/python -m pytest -n auto --dist worksteal --soak $(if $(PART),--part $(PART))
 
 # the wheels of all systems and the source distribution into dist/, checked; `release/release.sh` does it on a clean clone
 wheels:
@@ -27,6 +32,4 @@ lint:
 	@.venv/bin/ruff format --quiet --check .
 	@.venv/bin/ruff check --quiet --preview --select PLW1514 garage2usd
 	@.venv/bin/mypy
-	@.venv/bin/mypy --platform win32 --cache-dir .mypy_cache/win32
-	@.venv/bin/mypy --platform darwin --cache-dir .mypy_cache/darwin
 	@.venv/bin/lint-imports

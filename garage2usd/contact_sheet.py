@@ -18,12 +18,13 @@ from garage2usd.common.progress import Announce, Progress, silent, unheard
 from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
 from garage2usd.config.look_text import look_in_words
-from garage2usd.config.stage import AssetPlace, StageForm
+from garage2usd.config.stage import AssetPlace, StageForm, TextureQuality
 from garage2usd.layout import Layout
 from garage2usd.pipeline import generate, stage_metadata
 from garage2usd.planning import Plan
 from garage2usd.render import Device, Picture, render_stage
 from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
+from garage2usd.render.devices import CPU, find_device
 from garage2usd.stage import arrangement_of, asset_folder_name, write_stage
 from garage2usd.stage.cameras import APERTURE_MM, FOCAL_MM
 from garage2usd.stage.levels import write_levels_stage
@@ -91,7 +92,7 @@ def draw_contact_sheet(
     output: Path,
     *,
     size_px: tuple[int, int] = (320, 180),
-    samples: int = 16,
+    samples: int = 2,
     columns: int = 3,
     device: Device = Device.AUTO,
     progress: Progress = silent,
@@ -139,6 +140,8 @@ def draw_contact_sheet(
         raise ConfigError("contact-sheet", f"{len(garages)} garages", f"some, on at most {_MOST_PX} pixels a side")
     require("render", modules_of(find_blender()), without=WITHOUT_MODULE)
     check_file(output)
+    if find_device(device, has_rays=False, blender=find_blender()).kind == CPU.kind:
+        device = Device.CPU  # so that Blender is not asked again for each picture
     with unfinished_folder(output, _key(garages, size_px, samples, device)) as work:
         cells: list[Path] = []
         for number, garage in enumerate(garages):
@@ -189,7 +192,8 @@ def _written(garage: SheetGarage, folder: Path) -> tuple[Path, list[_Level]]:
     place = folder / "stage"
     place.mkdir()
     stage = place / "garage.usdc"
-    config = garage.config.stage.model_copy(update={"assets": AssetPlace.OWN})
+    plain = {"assets": AssetPlace.OWN, "texture_quality": TextureQuality.LOW}  # more is not seen in small pictures
+    config = garage.config.stage.model_copy(update=plain)
     if garage.config.building.levels == 1:
         made = generate(garage.config, plan=garage.plan)
         arrangement = arrangement_of(made.layout, config)

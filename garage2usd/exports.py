@@ -10,7 +10,7 @@ from typing import NamedTuple
 from garage2usd.as_built import BuiltGarage
 from garage2usd.as_built.levels import BuiltLevels, built_levels
 from garage2usd.as_built.stage_reader import garage_of_stage
-from garage2usd.common.errors import ConfigError
+from garage2usd.common.errors import ConfigError, MissingExtraError
 from garage2usd.common.extras import require
 from garage2usd.common.output import check_file, check_name, drafting, publish_at, staging_folder
 from garage2usd.common.processes import run_in_forks, without_collector
@@ -36,7 +36,7 @@ from garage2usd.reading.values import metres_y_up
 from garage2usd.reading.walk import placed_objects
 from garage2usd.reading.whole_garage import open_garage
 
-__all__ = ["EXPORT_SUFFIXES", "check_exports", "check_formats", "export"]
+__all__ = ["EXPORT_SUFFIXES", "check_exports", "check_formats", "export", "without_lacking"]
 
 _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO, _GRID = ".json", ".glb", ".osm", ".xodr", ".xosc", ".yaml"
 _AREAS = ".add.xml"
@@ -378,6 +378,26 @@ def check_formats(suffixes: Iterable[str]) -> None:
     wanted = {*suffixes}
     asked = [needed for suffix, needed in _OF_EXTRA.items() if suffix in wanted]
     require(" and ".join(purpose for purpose, _ in asked), [module for _, module in asked])
+
+
+def without_lacking(outputs: Sequence[Path]) -> tuple[tuple[Path, ...], tuple[str, ...]]:
+    """Split outputs into those whose extra is installed or not needed, and a line on each of the others.
+
+    Raises
+    ------
+    MissingExtraError
+        If no output is left.
+    """
+    lacking: dict[Path, str] = {}
+    for output in outputs:
+        try:
+            check_formats([_format_of(output)])
+        except MissingExtraError as error:
+            lacking[output] = f"{output} is not written: {error}"
+    written = tuple(output for output in outputs if output not in lacking)
+    if not written:
+        check_formats(map(_format_of, outputs))
+    return written, tuple(lacking.values())
 
 
 def _asked(places: Sequence[Path], settings: MapsConfig, joint: str) -> list[_Asked]:

@@ -8,7 +8,8 @@ from itertools import chain
 
 import pytest
 from filelock import FileLock
-from support.durations import write_durations
+from support.durations import outdated, processor_time_s, read_durations, write_durations
+from support.soak import PARTS, chosen
 
 import garage2usd
 from garage2usd.common.limits import ONE_THREAD
@@ -20,6 +21,8 @@ for variable, value in ONE_THREAD.items():
 def pytest_addoption(parser):
     parser.addoption("--write-pictures", action="store_true", help="replace the stored pictures by what is drawn now")
     parser.addoption("--write-durations", action="store_true", help="note how long each file took, for `make check`")
+    parser.addoption("--soak", action="store_true", help="run the wide tests, and only those")
+    parser.addoption("--part", type=int, choices=range(PARTS), help="with --soak: which eighth of them; by default all")
 
 
 def pytest_configure():
@@ -28,15 +31,33 @@ def pytest_configure():
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(config, items):
+    soak, part = config.getoption("--soak"), config.getoption("--part")
+    if part is not None and not soak:
+        raise pytest.UsageError("--part is for --soak")
+    items[:], left = chosen(items, soak=soak, part=part, durations=read_durations())
+    if left:
+        config.hook.pytest_deselected(items=left)
+
+
 def pytest_collection_finish():
     # what is loaded by now stays, so the collector need not look through it again and again
     gc.collect()
     gc.freeze()
 
 
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_runtest_setup(item):
+    item.processor_time_begin_s = processor_time_s()
+    return (yield)
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
     report = yield
+    if call.when == "teardown":
+        report.user_properties.append(("processor_time_s", processor_time_s() - item.processor_time_begin_s))
     if os.environ.get("CI") and report.skipped and not hasattr(report, "wasxfail"):
         report.outcome = "failed"
         report.longrepr = f"skipped in CI: {report.longrepr}"
@@ -44,9 +65,15 @@ def pytest_runtest_makereport(item, call):
 
 
 def pytest_terminal_summary(terminalreporter):
-    if terminalreporter.config.getoption("--write-durations"):
-        reports = chain.from_iterable(terminalreporter.stats.values())
-        write_durations(report for report in reports if isinstance(report, pytest.TestReport))
+    config, soak = terminalreporter.config, terminalreporter.config.getoption("--soak")
+    reports = [
+        part for part in chain.from_iterable(terminalreporter.stats.values()) if isinstance(part, pytest.TestReport)
+    ]
+    if config.getoption("--write-durations"):
+        write_durations(reports, soak=soak)
+    elif soak:
+        for key, noted_s, measured_s in outdated(reports, soak=soak):
+            terminalreporter.line(f"tests/durations.json is off by more than half: {key} {noted_s} -> {measured_s} s")
 
 
 @pytest.fixture(scope="session")

@@ -57,20 +57,7 @@ def _move_camera(camera: bpy.types.Object, at: list[float]) -> None:
 def _open_the_roof(scene: bpy.types.Scene) -> None:
     """Hide what hangs overhead and light the garage with a soft sky."""
     for item in scene.objects:
-        if item.name.startswith(
-            (
-                "Ceiling",
-                "Beam",
-                "Tube",
-                "Duct",
-                "CableTray",
-                "Sky",
-                "Sprinkler",
-                "ExitSign",
-                "NoEntrySign",
-                "OneWaySign",
-            )
-        ):
+        if item.name.startswith(_OVERHEAD):
             item.hide_render = True
     world = bpy.data.worlds.new("Sky")
     world.use_nodes = True

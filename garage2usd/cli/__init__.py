@@ -37,7 +37,8 @@ alive."""
 _MANY_THREADS = {"render", "dataset", "look"}
 """Commands that use threads of Blender, or processes whose threads are limited at their start."""
 _EXIT_CODES = """Results go to standard output, messages to standard error. The exit code is 1 where something was
-refused or found wrong, also for a file that is missing; 2 for wrong usage; else 0."""
+refused or found wrong, also for a file that is missing; 2 for wrong usage; 3 where all files were written
+except exports whose extra is not installed; else 0."""
 
 
 @click.group(

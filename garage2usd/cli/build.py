@@ -5,9 +5,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from click.core import ParameterSource
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, echo_notices, echo_table, profile_option, seed_option
+from garage2usd.cli.parameters import (
+    INPUT_FILE,
+    echo_notices,
+    echo_table,
+    end_incomplete,
+    profile_option,
+    seed_option,
+)
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -60,7 +68,9 @@ _COLUMNS_NAMED = 3
     show_default=True,
     help="The stage: .usda, .usdc or .usdz. Its folder is made; files of that name are replaced.",
 )
+@click.pass_context
 def build(
+    ctx: click.Context,
     *,
     config: Path | None,
     seed: int | None,
@@ -94,9 +104,10 @@ def build(
         settings = GarageConfig(**({} if profile is None else {"profile": profile_setting(profile)}))
     if settings.building.levels > 1:
         refused = {"learning-curve": learning_curve, "best-plans": best_plans, "with": formats}
-        _build_levels(settings, output, seed, tape, refused)
+        _build_levels(settings, output, seed, tape, refused, _earlier(ctx, output))
         return
-    exports = _exports(output, formats, settings.maps)
+    exports, lacking = _exports(output, formats, settings.maps)
+    earlier = _earlier(ctx, output)
     notices: list[str] = []
     with Bars(sys.stderr) as progress:
         made = build_garage(
@@ -120,6 +131,8 @@ def build(
         click.echo(f"not designed to {entry.clause}: {entry.reason}", err=True)
     _describe(made)
     echo_table(("export", str(file)) for file in exports)
+    _say_replaced(earlier, made.stage, *made.pictures, made.report, made.labels, *exports)
+    end_incomplete(lacking)
 
 
 def _build_levels(
@@ -128,6 +141,7 @@ def _build_levels(
     seed: int | None,
     tape: str | None,
     refused: "Mapping[str, object]",
+    earlier: frozenset[str],
 ) -> None:
     """Build a garage of several levels; `refused` has the options that go with one level only."""
     from garage2usd.buildings import build_levels  # noqa: PLC0415 - keeps --help instant
@@ -159,18 +173,34 @@ def _build_levels(
         ("seconds", ", ".join(f"{step} {value:.2f}" for step, value in made.seconds.items())),
     ]
     echo_table(lines)
+    _say_replaced(earlier, made.stage, *made.pictures, made.report, made.labels)
 
 
-def _exports(output: Path, formats: str | None, settings: "MapsConfig") -> tuple[Path, ...]:
-    """Paths of the exports beside a stage, validated before the garage is made."""
+def _earlier(ctx: click.Context, output: Path) -> frozenset[str]:
+    """Names of the files that are there before a build whose output is not given; none if it is given."""
+    if ctx.get_parameter_source("output") is not ParameterSource.DEFAULT:
+        return frozenset()
+    return frozenset(file.name for file in output.parent.glob("*"))
+
+
+def _say_replaced(earlier: frozenset[str], *files: Path) -> None:
+    """Say which files of a build replaced earlier ones."""
+    replaced = [file.name for file in files if file.name in earlier]
+    if replaced:
+        echo_table([("replaced", f"{', '.join(replaced)} of before; -o FILE names others")])
+
+
+def _exports(output: Path, formats: str | None, settings: "MapsConfig") -> tuple[tuple[Path, ...], tuple[str, ...]]:
+    """Paths of the exports beside a stage, validated before the garage is made; a line on each that lacks its extra."""
     if formats is None:
-        return ()
-    from garage2usd.exports import check_exports  # noqa: PLC0415 - most builds are not exported
+        return (), ()
+    from garage2usd.exports import check_exports, without_lacking  # noqa: PLC0415 - most builds are not exported
 
     if not output.name:
         raise ConfigError("output", str(output), "a path with a name, beside which exports go")
     files = [output.with_name(f"{output.stem}.{name.strip()}") for name in formats.split(",")]
-    return check_exports(files, settings=settings)
+    written, lacking = without_lacking(files)
+    return check_exports(written, settings=settings), lacking
 
 
 def _describe(made: "Build") -> None:

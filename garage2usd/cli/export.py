@@ -6,7 +6,7 @@ from pathlib import Path
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, drive_options, echo_notices, echo_table
+from garage2usd.cli.parameters import INPUT_FILE, drive_options, echo_notices, echo_table, end_incomplete
 
 __all__ = ["export"]
 
@@ -56,6 +56,7 @@ def export(
     whose garage is rebuilt.
 
     Parts of a stage that a format cannot represent, such as area lights, are reported on standard error and left out.
+    If the extra `maps` is missing, the files that do without it are written and the others named; the exit code is 3.
 
     The car of a scenario drives from an entrance to a stall, parks, and drives to an exit, as with `garage2usd drive
     --stall`. Any option on the drive replaces the whole section maps.scenario of the configuration.
@@ -70,16 +71,19 @@ def export(
     from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
     from garage2usd.config.maps import ScenarioConfig  # noqa: PLC0415
     from garage2usd.exports import export as export_garage  # noqa: PLC0415
+    from garage2usd.exports import without_lacking  # noqa: PLC0415
 
     settings = load_config(config).maps if config else None
     asked = {"stall": stall, "entrance": entrance, "exit": exit_, "leg": leg}
     given = {name: value for name, value in asked.items() if value is not None}
-    scenario = ScenarioConfig.model_validate(given) if given else None
+    written, lacking = without_lacking(outputs)
+    is_driven = not any(path.suffix.lower() == ".xosc" for path in {*outputs} - {*written})
+    scenario = ScenarioConfig.model_validate(given) if given and is_driven else None
     notices: list[str] = []
     with Bars(sys.stderr) as progress:
         files = export_garage(
             path,
-            outputs,
+            written,
             settings=settings,
             scenario=scenario,
             progress=progress,
@@ -88,3 +92,4 @@ def export(
         )
     echo_notices(notices)
     echo_table(("file", str(file)) for file in files)
+    end_incomplete(lacking)

@@ -1,6 +1,6 @@
 """Options and tables shared by several commands, with the same names, help and completion."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -9,8 +9,18 @@ from click.shell_completion import CompletionItem
 
 from garage2usd.common.errors import ConfigError
 
-__all__ = ["INPUT_FILE", "drive_options", "echo_notices", "echo_table", "profile_option", "refuse_seed", "seed_option"]
+__all__ = [
+    "INPUT_FILE",
+    "drive_options",
+    "echo_notices",
+    "echo_table",
+    "end_incomplete",
+    "profile_option",
+    "refuse_seed",
+    "seed_option",
+]
 
+_INCOMPLETE = 3
 INPUT_FILE = click.Path(dir_okay=False, path_type=Path)
 """An input file; a missing or damaged one ends in exit code 1, with the error of its reader."""
 
@@ -62,6 +72,14 @@ def echo_notices(notices: Iterable[str]) -> None:
     """Print data that export formats cannot represent, on standard error."""
     for notice in notices:
         click.echo(notice, err=True)
+
+
+def end_incomplete(lacking: Sequence[str]) -> None:
+    """Name the files that were not written for want of an extra, on standard error, and end with an exit code of 3."""
+    for line in lacking:
+        click.echo(f"Error: {line}", err=True)
+    if lacking:
+        raise click.exceptions.Exit(_INCOMPLETE)
 
 
 def refuse_seed(seed: int | None) -> None:

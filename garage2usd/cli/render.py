@@ -37,7 +37,11 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
 @click.command(short_help="Render a stage's cameras with ground truth, by Blender.")
 @click.argument("stage", metavar="PATH", type=INPUT_FILE)
 @click.option(
-    "--camera", "cameras", metavar="NAME|PRIM", multiple=True, help="A camera; may be repeated.  [default: all]"
+    "--camera",
+    "cameras",
+    metavar="NAME|PRIM",
+    multiple=True,
+    help="A camera; may be repeated.  [default: all that stand still]",
 )
 @click.option(
     "--frames",
@@ -51,9 +55,7 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     "--samples",
     metavar="N",
     type=click.IntRange(1, 65536),
-    default=64,
-    show_default=True,
-    help="Samples of each pixel of the colour.",
+    help="Samples of each pixel of the colour.  [default: 2 to 64, as many as two cores draw in two minutes]",
 )
 @click.option(
     "--seed",
@@ -144,7 +146,7 @@ def render(
     at_m: tuple[float, float, float] | None,
     look_at_m: tuple[float, float, float] | None,
     size: tuple[int, int] | None,
-    samples: int,
+    samples: int | None,
     seed: int,
     device: str,
     blender: Path | None,
@@ -236,7 +238,7 @@ def _record(
     along: str | None,
     every_m: float,
     scale: float,
-    samples: int,
+    samples: int | None,
     seed: int,
     device: "Device",
     blender: Path | None,

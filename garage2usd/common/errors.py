@@ -166,12 +166,14 @@ class MissingExtraError(Garage2UsdError):
         Name of the extra that installs the missing package.
     brings
         Description of the missing package.
+    install
+        Command that installs the extra.
     """
 
-    def __init__(self, command: str, extra: str, brings: str) -> None:
+    def __init__(self, command: str, extra: str, brings: str, install: str) -> None:
         self.command = command
         self.extra = extra
-        super().__init__(f"{command} needs {brings}: pip install 'garage2usd[{extra}]'")
+        super().__init__(f"{command} needs {brings}: {install}")
 
 
 class RenderError(Garage2UsdError):

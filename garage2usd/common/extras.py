@@ -1,14 +1,19 @@
 """Optional extras of garage2usd: modules that each installs, and checks for them before the work."""
 
+import json
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from importlib.metadata import distribution
 from importlib.util import find_spec
+from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 from garage2usd.common.errors import MissingExtraError
 from garage2usd.common.system import HAS_EMBREE
 
-__all__ = ["BLENDER", "PICTURES", "RAYS", "is_there", "of_extra", "require"]
+__all__ = ["BLENDER", "PICTURES", "RAYS", "installation_of", "is_there", "of_extra", "require"]
 
 BLENDER = ("bpy", "OpenEXR")
 """Modules for rendering with Blender and reading the images."""
@@ -90,4 +95,18 @@ def _missing(purpose: str, modules: list[str], without: str = "") -> MissingExtr
         brings = f"Python {needed} instead of {found}, and in it {brings}"
     if without and set(BLENDER).intersection(modules):
         brings = f"{brings} ({without})"
-    return MissingExtraError(purpose, ",".join(extras), brings)
+    return MissingExtraError(purpose, ",".join(extras), brings, installation_of(",".join(extras)))
+
+
+def installation_of(extras: str) -> str:
+    """Return the command that installs extras for garage2usd as it is installed: in a checkout or from an index."""
+    origin = json.loads(distribution("garage2usd").read_text("direct_url.json") or "{}")
+    place = Path(url2pathname(urlsplit(origin.get("url", "")).path))
+    if "url" not in origin or (
+        "dir_info" in origin and not place.is_dir()
+    ):  # from an index, or a checkout that is gone
+        return f"pip install 'garage2usd[{extras}]'"
+    if "dir_info" not in origin:  # a wheel, or a repository elsewhere
+        return f"pip install 'garage2usd[{extras}] @ {origin['url']}'"
+    option = "-e " if origin["dir_info"].get("editable") else ""
+    return f"pip install {option}'{'.' if place == Path.cwd() else place}[{extras}]'"

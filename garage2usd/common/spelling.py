@@ -1,9 +1,13 @@
 """Lookup of names as users spell them."""
 
-from collections.abc import Collection, Mapping
+import re
+from collections.abc import Collection, Iterable, Mapping
 from typing import TypeVar
 
-__all__ = ["find_named"]
+__all__ = ["find_named", "spans_in_words"]
+
+_SPANS = 12
+_COUNTED = re.compile(r"(.*?)(\d{1,9})", re.DOTALL)
 
 _Key = TypeVar("_Key")
 
@@ -21,3 +25,32 @@ def find_named(query: str, names: Mapping[_Key, Collection[str]]) -> list[_Key]:
     exactly = [key for key, own in names.items() if query in own]
     folded = query.casefold()
     return exactly or [key for key, own in names.items() if folded in {name.casefold() for name in own}]
+
+
+def spans_in_words(names: Iterable[str]) -> str:
+    """List names in order, consecutive numbers as spans: ``A1-01 to A1-29, A1-31, B1-01, B1-02``.
+
+    Of more than twelve spans the rest is counted.
+    """
+    spans: list[list[str]] = []
+    before: tuple[str, int, int] | None = None
+    for *key, name in sorted((*_counted(name), name) for name in set(names)):
+        prefix, number, digits = key
+        if before in {(prefix, number - 1, digits), (prefix, number - 1, len(str(number - 1)))}:
+            spans[-1].append(name)
+        else:
+            spans.append([name])
+        before = prefix, number, digits
+    shown = [name for span in spans[:_SPANS] for name in _ends(span)]
+    left = sum(map(len, spans[_SPANS:]))
+    return ", ".join([*shown, *([f"and {left} more"] if left else [])])
+
+
+def _ends(span: list[str]) -> list[str]:
+    return [f"{span[0]} to {span[-1]}"] if len(span) > 2 else span  # noqa: PLR2004 - a pair
+
+
+def _counted(name: str) -> tuple[str, int, int]:
+    """Split a name into a prefix and the number at its end, with the number of its digits; -1 without one."""
+    found = _COUNTED.fullmatch(name)
+    return (found[1], int(found[2]), len(found[2])) if found else (name, -1, 0)

@@ -1,13 +1,13 @@
 """Planning of a drive through a garage: from stall, entrance and exit to the car's motion."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from garage2usd.as_built.driven_road import driven_road
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.spelling import find_named
+from garage2usd.common.spelling import find_named, spans_in_words
 from garage2usd.config.maps import DriveConfig, Leg
 from garage2usd.driving import DesignCar, Portal, StallProof
 from garage2usd.driving.route import Route, Router
@@ -16,7 +16,7 @@ from garage2usd.driving.trajectory import Trajectory
 from garage2usd.driving.turns import Steering
 from garage2usd.garage import LaneKind, Stall
 
-__all__ = ["Drive", "DrivePlanner", "portals_asked"]
+__all__ = ["Drive", "DrivePlanner", "portals_asked", "unknown_stall"]
 
 _NAMED = 6
 _STEP_S = 0.05
@@ -110,6 +110,8 @@ class DrivePlanner:
         ConfigError
             If the stall does not exist, or no such route is found.
         """
+        if not (entrances and exits):
+            raise ConfigError("stall", stall, "a stall that lanes and ramps join with the street")
         lack = "a garage with a stall that a drive is found for"
         for candidate in self._in_order() if stall is None else [self._stall(stall)]:
             route = self.router.route(candidate, entrances=entrances, exits=exits)
@@ -165,8 +167,7 @@ class DrivePlanner:
             return self._driven[names[0]]
         if find_named(asked, self._others):
             raise ConfigError("stall", asked, "a stall that takes a car, which this one does not")
-        known = ", ".join([*self._outlines][:_NAMED]) + (", ..." if len(self._outlines) > _NAMED else "")
-        raise ConfigError("stall", asked, f"one of the garage's {len(self._outlines)} stalls: {known}")
+        raise unknown_stall(asked, self._outlines.values(), names)
 
     def _in_order(self) -> list[Stall]:
         """Order the stalls for cars as in the garage, free ones first."""
@@ -186,6 +187,14 @@ def portals_asked(field: str, number: int | None, portals: Sequence[Portal]) -> 
     if not 1 <= number <= len(portals):
         raise ConfigError(field, number, f"1 to {len(portals)}" if len(portals) > 1 else "1")
     return (portals[number - 1],)
+
+
+def unknown_stall(asked: str, stalls: Collection[Stall], found: Sequence[str]) -> ConfigError:
+    """Make the error on a stall that no stall, or several are called; it lists the painted numbers."""
+    if found:
+        return ConfigError("stall", asked, f"a number that is painted once, or else a name: {', '.join(found)}")
+    known = spans_in_words(str(stall.number or stall.name) for stall in stalls)
+    return ConfigError("stall", asked, f"one of the garage's {len(stalls)} stalls: {known}")
 
 
 def _names(stall: Stall) -> list[str]:

@@ -20,11 +20,10 @@ from garage2usd.driving.road import FloorSpan
 from garage2usd.driving.route import Route
 from garage2usd.driving.timing import timed
 from garage2usd.garage import LaneKind, Stall
-from garage2usd.maps.drives import Drive, DrivePlanner, portals_asked
+from garage2usd.maps.drives import Drive, DrivePlanner, portals_asked, unknown_stall
 
 __all__ = ["LevelsDrivePlanner", "drive_planner"]
 
-_NAMED = 6
 _BEYOND_FOOT_M = 2.0
 _RISE_M = 0.01
 _EASING_M = 8.0
@@ -168,8 +167,7 @@ class LevelsDrivePlanner:
         stalls = {stall.name: stall for stall in self._garage.stalls if stall.takes_cars}
         names = find_named(asked, {name: [name, str(stall.number or "")] for name, stall in stalls.items()})
         if len(names) != 1:
-            known = ", ".join(str(stall.number or name) for name, stall in [*stalls.items()][:_NAMED])
-            raise ConfigError("stall", asked, f"one of the garage's {len(stalls)} stalls with its level: {known}, ...")
+            raise unknown_stall(asked, stalls.values(), names)
         return stalls[names[0]]
 
     def _planner(self, level: int) -> DrivePlanner:

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from PIL import Image
 from pxr import Ar
 
+from garage2usd.common.extras import installation_of
+
 __all__ = ["ALPHA", "Band", "Bands", "Picture", "Pictures", "factored", "sampled"]
 
 _PLAIN_KINDS = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
@@ -97,7 +99,7 @@ class Pictures:
             try:
                 self._read(file)
             except ModuleNotFoundError:
-                self._faults[file] = "need OpenEXR (pip install 'garage2usd[blender]')"
+                self._faults[file] = f"need OpenEXR ({installation_of('blender')})"
             except Exception:  # noqa: BLE001 - decoders of damaged files fail in every way
                 self._faults[file] = "cannot be decoded" if self.data(file) else "are empty"
             else:

@@ -20,6 +20,7 @@ from garage2usd.recordings.way import Way
 from garage2usd.render import Picture, SlotFormat
 from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
 from garage2usd.render.devices import CPU, Device, find_device
+from garage2usd.render.effort import default_samples
 from garage2usd.render.frames_file import write_frames
 from garage2usd.render.pictures import with_needed, write_mask
 from garage2usd.render.slot_labels import NEEDED, SlotLabels, check_slots
@@ -69,7 +70,7 @@ def record(  # noqa: PLR0915 - the road of a recording, step by step
     along: str | None = None,
     every_m: float = 1.0,
     scale: float = 1.0,
-    samples: int = 64,
+    samples: int | None = None,
     seed: int = 0,
     pictures: Collection[Picture] = tuple(Picture),
     slots: Collection[SlotFormat] | None = None,
@@ -160,7 +161,8 @@ def record(  # noqa: PLR0915 - the road of a recording, step by step
         sweeps = Sweeps(opened, scene.labels, way, chosen, formats, seed)
     needed = {*(() if slots is None and birds_eye is None else NEEDED), *scene.needed(kinds)}
     drawn = with_needed(kinds, needed)
-    key = scene.key(path, drawn, samples=samples, seed=seed, device=drawn_on)
+    count = samples or default_samples(view.size_px for view in scene.views)
+    key = scene.key(path, drawn, samples=count, seed=seed, device=drawn_on)
     with unfinished_folder(folder, key) as unfinished:
         finished, work = unfinished / "finished", unfinished / "work"
         work.mkdir(exist_ok=True)
@@ -170,7 +172,7 @@ def record(  # noqa: PLR0915 - the road of a recording, step by step
         made = [finished / kind for kind in kinds]
         about: dict[str, object] = {"rig": chosen.model_dump(mode="json"), "drive": way.about}
         if chosen.cameras:
-            drawing = scene.drawing(work, finished, drawn, samples=samples, seed=seed, device=drawn_on)
+            drawing = scene.drawing(work, finished, drawn, samples=count, seed=seed, device=drawn_on)
             visible = drawing.draw(work, progress, announce)
             views = [replace(view, facts=drawing.facts(view)) for view in views]
             made += _write_calibrations(chosen, finished)

@@ -19,6 +19,7 @@ from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modu
 from garage2usd.render.cameras import View, find_views
 from garage2usd.render.devices import Device, find_device
 from garage2usd.render.drawing import Drawing
+from garage2usd.render.effort import default_samples
 from garage2usd.render.frames_file import write_frames
 from garage2usd.render.free_camera import free_view
 from garage2usd.render.pictures import Picture, with_needed
@@ -64,7 +65,7 @@ def render_stage(
     at_m: tuple[float, float, float] | None = None,
     look_at_m: tuple[float, float, float] | None = None,
     size_px: tuple[int, int] = (1280, 720),
-    samples: int = 64,
+    samples: int | None = None,
     seed: int = 0,
     pictures: Collection[Picture] = tuple(Picture),
     slots: Collection[SlotFormat] | None = None,
@@ -82,14 +83,14 @@ def render_stage(
     output
         Folder that the data set goes to; files of the same names are replaced.
     cameras, frames
-        As for `garage2usd.render.cameras.find_views`.
+        As for `garage2usd.render.cameras.find_views`; without both only the cameras that stand still, if there are any.
     at_m, look_at_m
         Position and target of an additional camera, as for `garage2usd.render.free_camera.free_view`; both or none. If
         `cameras` is empty, it replaces all cameras of the stage.
     size_px
         Width and height; the width takes the cameras' horizontal aperture.
     samples
-        Samples per pixel of the colour picture.
+        Samples per pixel of the colour picture; None for as many as two cores draw in two minutes, from 2 to 64.
     seed
         Seed of the colour picture's samples.
     pictures
@@ -143,7 +144,8 @@ def render_stage(
     with staging_folder(folder) as staging:
         finished = staging / "finished"
         drawn = with_needed(kinds, NEEDED if slots is not None else ())
-        drawing = Drawing(opened, labels, views, hidden, drawn, samples, seed, finished, device=drawn_on)
+        count = samples or default_samples(view.size_px for view in views)
+        drawing = Drawing(opened, labels, views, hidden, drawn, count, seed, finished, device=drawn_on)
         visible = drawing.draw(staging, progress, announce)
         classes = [sorted(OVERHEAD) if hide else [] for hide in hidden]
         table = write_frames(
@@ -169,7 +171,9 @@ def _views(
 ) -> list[View]:
     """Collect the views of the stage's cameras and of the free camera."""
     if at_m is None and look_at_m is None:
-        return find_views(stage, cameras=cameras, frames=frames, size_px=size_px)
+        views = find_views(stage, cameras=cameras, frames=frames, size_px=size_px)
+        still = [] if cameras or frames is not None else [view for view in views if view.frame is None]
+        return still or views
     if at_m is None:
         raise ConfigError("at", None, "the place of the camera that looks at look_at")
     if look_at_m is None:

@@ -35,7 +35,9 @@ _LENS = "lens"
 _RAYS = Path(__file__).with_name("rays.osl")
 _PARTS = "parts"
 """Folder of unfinished pictures."""
-_SAMPLE = re.compile(r"Sample (\d+)/\d+")
+_SAMPLE = re.compile(r"(?:Rendered (\d+)/(\d+) Tiles, )?Sample (\d+)/\d+")
+_WHOLE_PX = 2048
+"""Side of the tiles of pictures other than colour."""
 
 
 def main() -> None:
@@ -103,6 +105,7 @@ class _Reporter:
         self._file = path.open("w", encoding="ascii", newline="\n", buffering=1)
         self._done = 0
         self._most = 0
+        self._told = 0
         bpy.app.handlers.render_stats.append(self._on_statistics)
 
     def watch(self, samples: int) -> None:
@@ -113,12 +116,19 @@ class _Reporter:
         """Add the samples of a finished picture."""
         self._done += samples
         self._most = 0
-        print(self._done, file=self._file)
+        self._tell(self._done)
 
     def _on_statistics(self, text: str, *_: object) -> None:
         found = _SAMPLE.search(str(text))
-        if found:
-            print(self._done + min(int(found[1]), self._most), file=self._file)
+        if found and found[1]:
+            self._tell(self._done + self._most * int(found[1]) // int(found[2]))
+        elif found:
+            self._tell(self._done + min(int(found[3]), self._most))
+
+    def _tell(self, done: int) -> None:
+        if done >= self._told:
+            self._told = done
+            print(done, file=self._file)
 
 
 def _build(job: dict[str, Any], to_blender: Matrix) -> tuple[bpy.types.Scene, list[_Drawn]]:
@@ -295,6 +305,7 @@ def _set_up(scene: bpy.types.Scene, *, samples: int, seed: int) -> None:
     scene.cycles.samples = samples
     scene.cycles.seed = seed
     scene.cycles.use_adaptive_sampling = False
+    scene.cycles.tile_size = _WHOLE_PX
     scene.cycles.transparent_max_bounces = _TRANSPARENT_BOUNCES
     scene.render.use_persistent_data = True
 
@@ -308,6 +319,8 @@ def _set_up_colour(scene: bpy.types.Scene, job: dict[str, Any]) -> None:
         for device in preferences.devices:
             device.use = device.type == job["device"]
         scene.cycles.device = "GPU"
+    else:
+        scene.cycles.tile_size = job["tile_px"]
     scene.cycles.use_denoising = True
     scene.cycles.denoising_quality = "FAST" if job["is_draft"] else "HIGH"
     scene.cycles.use_light_tree = not job["is_draft"]

@@ -17,11 +17,13 @@ from pxr import Usd, UsdGeom
 
 from garage2usd.common.limits import lift
 from garage2usd.common.progress import Announce, Progress, time_in_words, unheard
+from garage2usd.common.system import cores
 from garage2usd.reading.labels import Labels
 from garage2usd.render.blender_process import run_blender
 from garage2usd.render.cameras import View
 from garage2usd.render.devices import CPU, ComputeDevice
 from garage2usd.render.drawn_prims import SHAPE_PROPERTY, DrawnPrims, read_drawn_prims, write_shapes
+from garage2usd.render.effort import drawing_s
 from garage2usd.render.overhead import Overhead, find_overhead
 from garage2usd.render.pictures import (
     INDEX_LIMIT,
@@ -48,6 +50,8 @@ _BLENDER_FROM = {
     UsdGeom.Tokens.z: np.eye(3),
 }
 """Rotation from a stage's axes, by its up axis, to Blender's."""
+_TILE_PX = 256
+"""Side of the tiles of a colour picture; Blender tells its progress after each."""
 _SEEN = "seen"
 _EFFECTS = "effects"
 _LIGHT = "light"
@@ -128,9 +132,7 @@ class Drawing:
             raise TypeError(f"motion is drawn with {missing}")
         for folder in (*self.kinds, _SEEN, _EFFECTS, _LIGHT):
             (self.finished / folder).mkdir(parents=True, exist_ok=True)
-        progress("scene", 0, 1)
-        scene = read_drawn_prims(self.stage, self.labels.ids)
-        digits = 1 + int(scene.instance.max(initial=0) >= INDEX_LIMIT)
+        digits = 1 + int(max(self.labels.ids.values(), default=0) >= INDEX_LIMIT)
         moved = self.moved or [None] * len(self.views)
         unseen = self.unseen or [()] * len(self.views)
         frames = zip(self.views, self.hidden, unseen, moved, strict=True)
@@ -141,9 +143,11 @@ class Drawing:
         order = self._order()
         total = len(self.views) * (self.samples * self._has_colour + self._has_data)
         left = sum(self.samples * bool(job["colour"]) + bool(job["data"]) for job in jobs)
-        progress("render", total - left, total)
         if left:
             announce(self._described(jobs))
+            progress("scene", 0, 1)
+            scene = read_drawn_prims(self.stage, self.labels.ids)
+            progress("render", total - left, total)
             tempo = _Tempo(self.samples if any(job["colour"] for job in jobs) else 1, jobs, announce)
             waiting = _Waiting(self, [(self.views[number], jobs[number]) for number in order])
             lift()
@@ -292,6 +296,7 @@ class Drawing:
             "property": SHAPE_PROPERTY,
             "to_blender": to_blender.tolist(),
             "samples": self.samples,
+            "tile_px": _TILE_PX,
             "seed": self.seed,
             "is_draft": self.is_draft,
             "device": self.device.kind,
@@ -311,12 +316,22 @@ class Drawing:
         told = [f"{count} of {size}" for size, count in sizes.items()]
         there = sum(not job["colour"] and not job["data"] for job in jobs)
         finished = f", {there} of them finished before" if there else ""
+        count = "1 sample" if self.samples == 1 else f"{self.samples} samples"
         kinds = ", ".join(
-            f"colour with {self.samples} samples on {self.device.words}" if kind is Picture.COLOUR else str(kind)
+            f"colour with {count} on {self.device.words}" if kind is Picture.COLOUR else str(kind)
             for kind in self.kinds
         )
         views = "1 view" if len(self.views) == 1 else f"{len(self.views)} views"
-        return f"{views}, {' and '.join(told)} pixels{finished}: {kinds}"
+        words = f"{views}, {' and '.join(told)} pixels{finished}: {kinds}"
+        if self.device.kind != CPU.kind and self._has_colour:
+            return words  # as GPUs differ too much
+        seconds = drawing_s(
+            [job["size_px"] for job in jobs if job["colour"]],
+            [job["size_px"] for job in jobs if job["data"]],
+            samples=self.samples,
+            cores=cores(),
+        )
+        return f"{words}; about {time_in_words(seconds)}"
 
 
 class _Tempo:

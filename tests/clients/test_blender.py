@@ -82,7 +82,7 @@ def test_blender_agrees_with_the_layout(sample, extension, builds, imported):
 
 
 def test_blender_draws_every_mesh_of_tiles_that_share_prototypes(builds, imported):
-    build = builds(REPOSITORY / "samples" / "irregular.toml", "usdc", "nested")
+    build = builds(REPOSITORY / "samples" / "paper_7x9.toml", "usdc", "nested")
     expected, found = {}, {}
     for placement in build.garage.layout.placements:
         for part in asset_of(placement.spec).parts:

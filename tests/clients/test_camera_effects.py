@@ -5,8 +5,9 @@ import json
 import numpy as np
 import pytest
 from PIL import Image
-from support.sample_files import REPOSITORY
+from support.small_garage import SETTINGS
 
+from garage2usd import GarageConfig, build
 from garage2usd.recordings import record
 from garage2usd.render import Picture
 from garage2usd.render.pictures import read_ids
@@ -16,8 +17,8 @@ pytest.importorskip("bpy", reason="extra: blender")
 TRUTH = Picture.DEPTH, Picture.INSTANCE, Picture.SEMANTIC
 
 
-def test_effects_change_colour_alone_and_the_car_is_where_its_mask_says(builds, tmp_path):
-    built = builds(REPOSITORY / "samples" / "hand_drawn.toml", "usdc", "instanced")
+def test_effects_change_colour_alone_and_the_car_is_where_its_mask_says(tmp_path):
+    built = build(GarageConfig(**SETTINGS), tmp_path / "small.usdc")
     front = read_rig("avp_surround").model_dump(mode="json")["sensors"][0]
     motion = {"exposure_s": 0.03, "readout_s": 0.05}
     effects = {"full_well_electrons": 2000.0, "exposure_spread_ev": 0.5, "jpeg_quality": 80, "dirt": 4, **motion}
@@ -25,7 +26,7 @@ def test_effects_change_colour_alone_and_the_car_is_where_its_mask_says(builds, 
     def recorded(name, **settings):
         sensors = [{**front, **settings}]
         rig = rig_from_mapping({"name": "r", "ego_visible": True, "sensors": sensors})
-        asked = {"along": ":Stall_r00_c01_1", "every_m": 80, "scale": 0.15, "samples": 2, "slots": ()}
+        asked = {"along": ":Stall_r00_c01_2", "every_m": 24, "scale": 0.15, "samples": 2, "slots": ()}
         return record(built.stage, tmp_path / name, rig=rig, pictures=(Picture.COLOUR, *TRUTH), **asked).folder
 
     perfect, real = recorded("perfect"), recorded("real", effects=effects)

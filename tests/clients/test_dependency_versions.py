@@ -1,7 +1,8 @@
 """Every command works with the lowest and the newest versions that `pyproject.toml` allows, on each Python it names.
 
-Environments are made anew by uv, one a test. The digests of plans and all that is text are those of what the tests' own
-environment makes; pictures and binary stages differ by what Pillow and USD write.
+Environments are made anew by uv, one a test: `make test` makes that of the lowest versions on the oldest Python.
+The digests of plans and all that is text are those of what the tests' own environment makes;
+pictures and binary stages differ by what Pillow and USD write.
 """
 
 import json
@@ -14,13 +15,15 @@ from pathlib import Path
 import pytest
 from support.fresh_environments import EXTRAS, NAMED, PROJECT, WITHOUT_WHEELS, compiled, make_environment, pythons, uv
 from support.sample_files import REPOSITORY
+from support.soak import soak_but
 
 import garage2usd
 from garage2usd.datasets import load_recipe
 
 PYTHONS = pythons()
 BY_AGE = sorted(PYTHONS, key=lambda version: int(version.partition(".")[2]))
-EXTREMES = {(BY_AGE[0], "lowest-direct"), (BY_AGE[-1], "highest")}
+ENVIRONMENTS = [(version, resolution) for version in BY_AGE for resolution in ("lowest-direct", "highest")]
+EXTREMES = [ENVIRONMENTS[0], ENVIRONMENTS[-1]]
 """Environments in which data sets and recordings are made too, which take longer than all else."""
 SETTINGS = "seed = 3\n[site]\nwidth_cells = 5\nheight_cells = 5\n[plan]\nepisodes = 100\n"
 RECIPE = """
@@ -115,21 +118,29 @@ def expected(tmp_path_factory):
     return made(folder)
 
 
+def fresh(version, resolution, wheel, folder):
+    """A runner of programs in a new environment, and the folder in which they run."""
+    environment = make_environment(folder / "environment", PYTHONS[version], resolution, wheel)
+    (folder / "work").mkdir()
+    return runner(environment / "bin", folder / "work"), folder / "work"
+
+
 @pytest.mark.client
-@pytest.mark.parametrize("resolution", ["lowest-direct", "highest"])
-@pytest.mark.parametrize("version", PYTHONS)
+@pytest.mark.parametrize(("version", "resolution"), soak_but(1, ENVIRONMENTS))
 def test_all_commands_make_the_same_in_a_fresh_environment(version, resolution, wheel, expected, tmp_path):
-    environment = make_environment(tmp_path / "environment", PYTHONS[version], resolution, wheel)
-    folder = tmp_path / "work"
-    folder.mkdir()
-    run = runner(environment / "bin", folder)
+    run, folder = fresh(version, resolution, wheel, tmp_path)
     for command in GARAGE:
         run("garage2usd", *command.split())
     run("python", "-c", PLAN_BY_AN_AGENT)
     assert made(folder) == expected
-    if (version, resolution) not in EXTREMES:
-        return
-    for command in MANY:
+
+
+@pytest.mark.soak
+@pytest.mark.client
+@pytest.mark.parametrize(("version", "resolution"), EXTREMES)
+def test_data_sets_and_recordings_are_made_in_a_fresh_environment(version, resolution, wheel, tmp_path):
+    run, folder = fresh(version, resolution, wheel, tmp_path)
+    for command in (GARAGE[0], *MANY):
         run("garage2usd", *command.split())
     rows = [json.loads(line) for line in (folder / "set" / "manifest.jsonl").read_text().splitlines()]
     recipe = load_recipe(folder / "recipe.toml")
@@ -138,6 +149,7 @@ def test_all_commands_make_the_same_in_a_fresh_environment(version, resolution, 
     assert len(planned) == recipe.count
 
 
+@pytest.mark.soak
 @pytest.mark.client
 @pytest.mark.parametrize("resolution", ["lowest-direct", "highest"])
 @pytest.mark.parametrize("version", NAMED)

@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from PIL import Image
-from support.sample_files import REPOSITORY
+from support.small_garage import SETTINGS
 
+from garage2usd import GarageConfig, build
 from garage2usd.cli import main
 from garage2usd.common import extras, system
 from garage2usd.common.errors import ConfigError, MissingExtraError
-from garage2usd.render import Picture, blender_process, render_stage
+from garage2usd.render import Picture, blender_process, drawing, render_stage
 from garage2usd.render.blender_process import BLENDER_MODULE, Blender, find_blender
 
 PROGRAM = """#!{python}
@@ -53,11 +54,16 @@ def without_module(monkeypatch):
     monkeypatch.setenv("PATH", "")
 
 
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    return build(GarageConfig(**SETTINGS), tmp_path_factory.mktemp("installed") / "small.usdc")
+
+
 @pytest.mark.client
 @pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="Blender's bpy is made for Python 3.11 only")
-def test_a_program_draws_what_the_module_draws(builds, tmp_path):
-    made = builds(REPOSITORY / "samples" / "hand_drawn.toml", "usdc", "instanced")
-    asked = {"cameras": ["Inside"], "size_px": (64, 36), "samples": 2, "pictures": (Picture.COLOUR, Picture.DEPTH)}
+def test_a_program_draws_what_the_module_draws_and_tells_how_far_a_picture_is(made, tmp_path, monkeypatch):
+    monkeypatch.setattr(drawing, "_TILE_PX", 32)
+    asked = {"cameras": ["Inside"], "size_px": (64, 36), "samples": 8, "pictures": (Picture.COLOUR, Picture.DEPTH)}
     installed = program(tmp_path / "Blender 5.0" / "blender")
     told = []
     by_program = render_stage(
@@ -67,11 +73,13 @@ def test_a_program_draws_what_the_module_draws(builds, tmp_path):
     one, other = (np.asarray(Image.open(each.folder / "colour" / "Inside.png")) for each in (by_program, by_module))
     assert (one == other).all()
     assert one.max() > 0
-    assert told[-1] == ("render", 3, 3)
+    drawn = [done for step, done, _ in told if step == "render"]
+    assert drawn == sorted(drawn)
+    assert {0, 2, 4, 6, 8, 9} <= {*drawn}  # a picture of four tiles
+    assert told[-1] == ("render", 9, 9)
 
 
-def test_a_path_that_is_no_blender_is_an_error_in_one_line(builds, tmp_path):
-    made = builds(REPOSITORY / "samples" / "hand_drawn.toml", "usdc", "instanced")
+def test_a_path_that_is_no_blender_is_an_error_in_one_line(made, tmp_path):
     (tmp_path / "empty").mkdir()
     says_nothing = program(tmp_path / "other", text="#!/bin/sh\nexit 0\n")
     no_program = tmp_path / "text"

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 import shapely
 from support.map_judges import JUDGES, has
-from support.sample_files import each_small_sample
+from support.sample_files import REPOSITORY, SMALL_SAMPLES
+from support.soak import soak_but
 
 from garage2usd.checks import read_garage
 from garage2usd.config.maps import GridConfig
@@ -21,6 +22,7 @@ pytestmark = [
     pytest.mark.client,
     pytest.mark.skipif(not ("IRSIM_PYTHON" in os.environ or has("irsim")), reason="no environment with ir-sim"),
 ]
+LOOKS = REPOSITORY / "samples/looks.toml"
 RANGE_M, RAYS = 30.0, 361
 NEAR_M = 0.15
 """A cell's diagonal, a quarter of a cell, and the step of ir-sim's LiDAR."""
@@ -44,7 +46,7 @@ def distances(tree, place, angles):
     return np.array(found)
 
 
-@each_small_sample
+@pytest.mark.parametrize("sample", soak_but([LOOKS], SMALL_SAMPLES), ids=lambda path: path.stem)
 def test_the_lidar_sees_what_stands_there(sample, builds, tmp_path):
     subject, _ = read_garage(builds(sample, "usdc").stage)
     write_grid(subject, tmp_path / "map.yaml", GridConfig())

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 from PIL import Image
-from support.sample_files import REPOSITORY
+from support.small_garage import SETTINGS
 
+from garage2usd import GarageConfig, build
 from garage2usd.recordings import record
 from garage2usd.render import Picture
 from garage2usd.sensors.rig.rig import read_rig, rig_from_mapping
@@ -13,8 +14,8 @@ pytest.importorskip("bpy", reason="extra: blender")
 TRUTH = Picture.DEPTH, Picture.INSTANCE, Picture.SEMANTIC
 
 
-def test_lamps_light_what_is_before_and_behind_the_car_and_change_no_truth(builds, tmp_path):
-    built = builds(REPOSITORY / "samples" / "hand_drawn.toml", "usdc", "instanced")
+def test_lamps_light_what_is_before_and_behind_the_car_and_change_no_truth(tmp_path):
+    built = build(GarageConfig(**SETTINGS), tmp_path / "small.usdc")
     sensors = [
         sensor
         for sensor in read_rig("avp_surround").model_dump(mode="json")["sensors"]
@@ -23,7 +24,7 @@ def test_lamps_light_what_is_before_and_behind_the_car_and_change_no_truth(build
 
     def recorded(lamps):
         rig = rig_from_mapping({"name": "r", "lamps": lamps, "sensors": sensors})
-        asked = {"along": ":Stall_r00_c01_1", "every_m": 500, "scale": 0.05, "samples": 16, "slots": ()}
+        asked = {"along": ":Stall_r00_c01_2", "every_m": 500, "scale": 0.05, "samples": 16, "slots": ()}
         return record(built.stage, tmp_path / lamps, rig=rig, pictures=(Picture.COLOUR, *TRUTH), **asked).folder
 
     dark, bright = recorded("off"), recorded("on")

@@ -6,6 +6,7 @@ from support.lanelet2_judge import Lanelet2Judge
 from support.map_faults import Fault, first_complaint, planted
 from support.map_judges import HAS_LANELET2, run_python
 from support.sample_files import REPOSITORY, each_sample
+from support.soak import soak_but
 from support.stage_lanes import read_stage
 
 import garage2usd
@@ -111,7 +112,7 @@ def subject(builds):
     return read_garage(builds(FAULTY, "usdc").stage)[0]
 
 
-@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.name)
+@pytest.mark.parametrize("fault", soak_but(3, FAULTS), ids=lambda fault: fault.name)
 def test_a_planted_fault_is_found(fault, subject, builds, tmp_path):
     path = tmp_path / "garage.osm"
     with planted(fault, "lanelet2") as module:

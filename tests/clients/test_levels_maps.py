@@ -5,6 +5,7 @@ from support.level_judge import LevelJudge
 from support.level_map_judge import LevelMapJudge
 from support.map_judges import HAS_JUDGES, HAS_LANELET2, asam_issues
 from support.sample_files import HELIX_SAMPLE, LEVELS_SAMPLE
+from support.soak import soak_but
 
 import garage2usd
 from garage2usd.buildings import build_levels
@@ -17,7 +18,7 @@ SITES = {LEVELS_SAMPLE: {"width_cells": 8, "height_cells": 9}, HELIX_SAMPLE: {}}
 """Changes of the samples' sites: ASAM's checker is slow."""
 
 
-@pytest.fixture(scope="module", params=SITES, ids=lambda path: path.stem)
+@pytest.fixture(scope="module", params=soak_but([HELIX_SAMPLE], SITES), ids=lambda path: path.stem)
 def exported(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("levels")
     config = garage2usd.load_config(request.param)
@@ -43,6 +44,7 @@ def test_lanelet2_routes_from_every_stall_of_the_lowest_level_to_the_street_and_
     assert [*judge.of_lanelet2(path)] == []
 
 
+@pytest.mark.soak
 def test_asam_s_checker_has_no_issue(exported, tmp_path):
     _, path, _ = exported
     assert asam_issues(path, tmp_path) == []

@@ -11,6 +11,7 @@ from pxr import Usd
 from support.label_tables import cars_of_plates, labelled_objects
 from support.sample_files import REPOSITORY
 from support.sensor_judges import HAS_SENSOR_JUDGES, open3d_cast, run_judge
+from support.soak import soak_but
 from support.solid_triangles import solid_triangles
 
 from garage2usd.reading.files import open_stage
@@ -122,7 +123,7 @@ def seen_shares(paper, cars, folder):
 
 
 @needs_blender
-@pytest.mark.parametrize("form", ["instanced", "nested"])
+@pytest.mark.parametrize("form", soak_but(1, ["instanced", "nested"]))
 def test_rays_meet_what_cycles_draws(form, builds, tmp_path):
     import OpenEXR
 

@@ -132,6 +132,7 @@ def test_lanelet2_reads_which_stalls_are_taken(made, tmp_path):
 
 
 @pytest.mark.client
+@pytest.mark.soak
 @pytest.mark.skipif(not HAS_JUDGES, reason="no environment with asam-qc-opendrive, CARLA and SUMO")
 def test_asam_carla_and_sumo_have_nothing_against_it(made, tmp_path):
     judge = MapJudge(made[0].stage, made[1] / "garage.xodr", tmp_path)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from support.newton_reader import needs_newton, running_newton
 from support.places import MILLIMETRE, assert_same_places
-from support.sample_files import REPOSITORY, SAMPLES
+from support.sample_files import REPOSITORY
+from support.soak import soak_but
 
 from garage2usd.assets import Collider
 from garage2usd.layout.placement import to_world
@@ -13,6 +14,8 @@ from garage2usd.stage.prototypes import asset_of
 pytestmark = [pytest.mark.client, needs_newton]
 
 SHAPES = {Collider.MESH: "MESH", Collider.BOX: "BOX", Collider.CONVEX_HULL: "CONVEX_MESH"}
+CASES = [("looks", None), ("paper_7x9", None), ("mixed_stalls", None), ("irregular", "nested")]
+"""Samples with all kinds of objects, and forms of their stages."""
 # newton turns a box to fit its points, which on a square slab is off by up to 15 mm
 BOX_TOLERANCE_M = 0.02
 # newton keeps the 64 most important points of a hull
@@ -81,17 +84,9 @@ def assert_same_sizes(shapes, expected):
             assert any(fits), (shape["path"], off_m)
 
 
-@pytest.mark.parametrize(
-    ("sample", "form"),
-    [
-        # the others take long, and have no other kinds of objects
-        *((sample, None) for sample in SAMPLES if sample.stem in {"paper_7x9", "mixed_stalls", "looks"}),
-        (REPOSITORY / "samples" / "irregular.toml", "nested"),
-    ],
-    ids=lambda value: getattr(value, "stem", value),
-)
-def test_newton_agrees_with_the_layout(sample, form, builds, load_in_newton):
-    build = builds(sample, "usdc", form)
+@pytest.mark.parametrize(("name", "form"), soak_but(1, CASES))
+def test_newton_agrees_with_the_layout(name, form, builds, load_in_newton):
+    build = builds(REPOSITORY / f"samples/{name}.toml", "usdc", form)
     scene = load_in_newton(build.stage)
     expected = list(colliders(build.garage.layout))
     assert expected

@@ -5,6 +5,7 @@ from support.map_faults import Fault, first_complaint, planted
 from support.map_judges import HAS_JUDGES, asam_issues
 from support.opendrive_judge import MapJudge
 from support.sample_files import REPOSITORY, SAMPLES, each_sample
+from support.soak import soak_but
 
 import garage2usd
 from garage2usd.checks import read_garage
@@ -17,6 +18,7 @@ pytestmark = [
 ]
 # its time grows with the square of the objects: two minutes and more for the largest sample; a command checks them all
 QUICK = [sample for sample in SAMPLES if sample.stem in {"irregular", "mixed_stalls", "paper_7x9"}]
+MIXED = [sample for sample in QUICK if sample.stem == "mixed_stalls"]
 FAULTY = REPOSITORY / "samples/hand_drawn.toml"
 
 
@@ -33,7 +35,7 @@ def exported(builds, tmp_path_factory):
     return export
 
 
-@pytest.mark.parametrize("sample", QUICK, ids=lambda path: path.stem)
+@pytest.mark.parametrize("sample", soak_but(MIXED, QUICK), ids=lambda path: path.stem)
 def test_asam_s_checker_has_no_issue(sample, exported, tmp_path):
     assert asam_issues(exported(sample)[1], tmp_path) == []
 
@@ -121,7 +123,7 @@ def subject(builds):
     return read_garage(builds(FAULTY, "usdc").stage)[0]
 
 
-@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.name)
+@pytest.mark.parametrize("fault", soak_but(3, FAULTS), ids=lambda fault: fault.name)
 def test_a_planted_fault_is_found(fault, subject, builds, tmp_path):
     path = tmp_path / "garage.xodr"
     with planted(fault, "opendrive") as module:

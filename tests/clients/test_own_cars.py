@@ -187,6 +187,7 @@ def test_unity_imports_them_with_colliders(own, tmp_path_factory):
     assert all(item["collider"].get("convex") for item in hulls)
 
 
+@pytest.mark.soak
 def test_a_build_in_another_process_is_the_same_bytes(own, tmp_path):
     config, again = own.folder / "garage.toml", tmp_path / "garage.usdc"
     config.write_text(
@@ -281,6 +282,7 @@ def test_masks_along_a_drive_show_them_within_their_boxes(own):
 
 
 @pytest.mark.skipif(not HAS_SENSOR_JUDGES, reason="no environment with nuscenes-devkit")
+@pytest.mark.soak
 def test_nuscenes_devkit_finds_their_points_in_their_boxes(own, tmp_path):
     (tmp_path / "recorded").mkdir()
     (tmp_path / "data").mkdir()

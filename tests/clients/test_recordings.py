@@ -19,7 +19,9 @@ from support.label_tables import cars_of_plates, labelled_objects
 from support.rays import Rays
 from support.sample_files import REPOSITORY
 from support.slot_corners import judge_corners
+from support.small_garage import SETTINGS
 
+from garage2usd import GarageConfig, build
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
 from garage2usd.recordings import record
@@ -33,7 +35,8 @@ pytestmark = [
 
 HAND_DRAWN = REPOSITORY / "samples" / "hand_drawn.toml"
 MOST_STRAY_PIXELS = 0.003
-KINDS = (Picture.COLOUR, Picture.DEPTH, Picture.INSTANCE, Picture.SEMANTIC)
+TRUTH = (Picture.DEPTH, Picture.INSTANCE, Picture.SEMANTIC)
+KINDS = (Picture.COLOUR, *TRUTH)
 ROOF = {
     "kind": "pinhole",
     "name": "roof",
@@ -92,8 +95,7 @@ def recorded(drive, tmp_path_factory):
         along=drive.along,
         every_m=40.0,
         scale=SCALE,
-        samples=2,
-        pictures=KINDS,
+        pictures=TRUTH,
         slots=[SlotFormat.COCO],
     )
     table = json.loads((folder / "frames.json").read_text())
@@ -325,16 +327,19 @@ def test_shots_tell_what_was_recorded(recorded):
         assert shot.sensor.lens.parameters() == frame["lens"]
 
 
-def test_what_was_finished_before_a_kill_is_not_drawn_again_and_gives_the_same_bytes(recorded, drive, tmp_path):
-    rig = tmp_path / "rig.json"
-    rig.write_text(mixed_rig().model_dump_json())
-    out = tmp_path / "drive"
+def test_what_was_finished_before_a_kill_is_not_drawn_again_and_gives_the_same_bytes(tmp_path):
+    stage = build(GarageConfig(**SETTINGS), tmp_path / "small" / "small.usdc").stage
+    rig = rig_from_mapping({"name": "two", "sensors": [ROOF, COLUMN]})
+    settings = {"along": "1:Stall_r00_c01_2", "every_m": 5.0, "pictures": KINDS}
+    whole = record(stage, tmp_path / "whole", rig=rig, samples=2, slots=[SlotFormat.COCO], **settings)
+    out, file = tmp_path / "drive", tmp_path / "rig.json"
+    file.write_text(rig.model_dump_json())
     program = (
-        "import sys; from garage2usd.recordings import record; from garage2usd.render import Picture; "
+        "from garage2usd.recordings import record; from garage2usd.render import Picture; "
         "from garage2usd.sensors.rig.rig import Rig; "
-        f"record({str(drive.stage)!r}, {str(out)!r}, rig=Rig.model_validate_json(open({str(rig)!r}).read()), "
-        f"along={drive.along!r}, every_m=40.0, scale={SCALE}, samples=2, "
-        f"pictures={[kind.value for kind in KINDS]!r} and [Picture(k) for k in {[kind.value for kind in KINDS]!r}])"
+        f"record({str(stage)!r}, {str(out)!r}, rig=Rig.model_validate_json(open({str(file)!r}).read()), "
+        f"along={settings['along']!r}, every_m={settings['every_m']}, samples=2, "
+        f"pictures=[Picture(kind) for kind in {[kind.value for kind in KINDS]!r}])"
     )
     process = subprocess.Popen([sys.executable, "-c", program], env=os.environ, stderr=subprocess.DEVNULL)
     finished = tmp_path / "drive.unfinished" / "finished"
@@ -342,35 +347,28 @@ def test_what_was_finished_before_a_kill_is_not_drawn_again_and_gives_the_same_b
     while len(list((finished / "seen").glob("[!.]*"))) < 2:
         assert process.poll() is None
         assert time.monotonic() < deadline
-        time.sleep(0.02)
+        time.sleep(0.01)
     process.send_signal(signal.SIGKILL)
     process.wait()
     assert not out.exists()
     time.sleep(1.0)  # Blender ends with whom it draws for
     kept = {path: path.stat().st_mtime_ns for path in finished.rglob("[!.]*.png")}
     drawn = len(list((finished / "seen").glob("[!.]*")))
-    settings = {"along": drive.along, "every_m": 40.0, "scale": SCALE, "pictures": KINDS}
     with pytest.raises(ConfigError, match=r"drive\.unfinished is removed"):
-        record(drive.stage, out, rig=mixed_rig(), samples=3, **settings)
+        record(stage, out, rig=rig, samples=3, **settings)
     assert {path: path.stat().st_mtime_ns for path in kept} == kept
     said = []
     record(
-        drive.stage,
-        out,
-        rig=mixed_rig(),
-        samples=2,
-        slots=[SlotFormat.COCO],
-        progress=lambda *told: said.append(told),
-        **settings,
+        stage, out, rig=rig, samples=2, slots=[SlotFormat.COCO], progress=lambda *told: said.append(told), **settings
     )
-    count = len(recorded.frames)
+    count = len(whole.recording.shots)
     first = next(told for told in said if told[0] == "render")
     assert first == ("render", 2 * count + drawn, 3 * count)
     assert drawn < count
     assert not finished.parent.exists()
-    theirs = {path.relative_to(out): path.read_bytes() for path in out.rglob("*") if path.is_file()}
-    ours = {
-        path.relative_to(recorded.folder): path.read_bytes() for path in recorded.folder.rglob("*") if path.is_file()
-    }
+    theirs, ours = (
+        {path.relative_to(place): path.read_bytes() for path in place.rglob("*") if path.is_file()}
+        for place in (out, whole.folder)
+    )
     assert theirs == ours
-    assert len(theirs) == len(KINDS) * count + 3 + 4 + 3
+    assert len(theirs) == len(KINDS) * count + 3 + 2 + 1

@@ -20,6 +20,7 @@ from support.label_tables import cars_of_plates, labelled_objects
 from support.rays import Rays
 from support.sample_files import REPOSITORY
 from support.small_garage import SETTINGS
+from support.soak import soak_but
 
 from garage2usd import GarageConfig, build
 from garage2usd.objects.pieces import PAINT_CLASSES
@@ -112,7 +113,7 @@ def test_signs_that_blender_reads_in_paths_are_signs_of_names(tmp_path, monkeypa
     assert not list(temporary.iterdir())
 
 
-@pytest.mark.parametrize("form", ["instanced", "nested"])
+@pytest.mark.parametrize("form", soak_but(1, ["instanced", "nested"]))
 def test_each_pixel_lies_in_the_box_of_its_instance(data_set, form):
     made = data_set(form)
     boxes = {entry["id"]: (entry["min_m"], entry["max_m"]) for entry in made.objects}
@@ -127,7 +128,7 @@ def test_each_pixel_lies_in_the_box_of_its_instance(data_set, form):
         assert outside.max() < MILLIMETRE + 2e-5 * frame.depth[seen].max()
 
 
-@pytest.mark.parametrize("form", ["instanced", "nested"])
+@pytest.mark.parametrize("form", soak_but(1, ["instanced", "nested"]))
 def test_classes_are_those_of_the_table(data_set, form):
     made = data_set(form)
     class_ids = {entry["name"]: entry["id"] for entry in made.labels["classes"]}
@@ -144,7 +145,7 @@ def test_classes_are_those_of_the_table(data_set, form):
         assert (frame.preview == np.array(expected)).all()
 
 
-@pytest.mark.parametrize("name", ["hand_drawn", "irregular", "paper_7x9"])
+@pytest.mark.parametrize("name", soak_but(1, ["hand_drawn", "irregular", "paper_7x9"]))
 def test_what_is_painted_has_classes_of_its_own_and_no_pixel_is_lost(builds, name, tmp_path):
     built = builds(REPOSITORY / "samples" / f"{name}.toml", "usdc")
     kinds = Picture.INSTANCE, Picture.SEMANTIC
@@ -277,8 +278,9 @@ def test_ids_of_more_than_fifteen_bits_stay_exact_and_all_else_the_same_bytes(da
         assert (tmp_path / "out" / name).read_bytes() == (made.folder / name).read_bytes()
 
 
-def test_a_kill_in_mid_render_leaves_no_file_and_no_blender(builds, tmp_path):
-    stage, out, temporary = builds(HAND_DRAWN, "usdc", "instanced").stage, tmp_path / "out", tmp_path / "tmp"
+def test_a_kill_in_mid_render_leaves_no_file_and_no_blender(tmp_path):
+    stage = build(GarageConfig(**SETTINGS), tmp_path / "small" / "small.usdc").stage
+    out, temporary = tmp_path / "out", tmp_path / "tmp"
     temporary.mkdir()
     command = [sys.executable, "-m", "garage2usd", "render", str(stage), "-o", str(out), "--samples", "4096"]
     process = subprocess.Popen(

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from support.map_judges import HAS_JUDGES, run_sumo, sumo_network, sumo_parked
 from support.sample_files import REPOSITORY, SAMPLES
+from support.soak import soak_but
 from support.stage_lanes import judged_stage
 
 import garage2usd
@@ -132,7 +133,7 @@ def mixed(builds, tmp_path_factory):
     return Sumo(builds(MIXED, "usdc").stage, tmp_path_factory.mktemp("mixed"))
 
 
-@pytest.mark.parametrize("sample", QUICK, ids=lambda path: path.stem)
+@pytest.mark.parametrize("sample", soak_but([MIXED], QUICK), ids=lambda path: path.stem)
 def test_vehicles_park_in_every_stall(sample, builds, tmp_path):
     assert list(Sumo(builds(sample, "usdc").stage, tmp_path).complaints()) == []
 

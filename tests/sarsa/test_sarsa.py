@@ -30,6 +30,7 @@ def test_each_fault_fits_one_place(mutant):
     assert mutant.new != mutant.old
 
 
+@pytest.mark.soak
 def test_every_fault_is_found():
     command = [sys.executable, "-m", "support.sarsa.mutations"]
     environment = os.environ | {"PYTHONPATH": str(REPOSITORY)}

@@ -1,4 +1,4 @@
-"""The test files that a change can affect, the nearest first, as many as fit into a time.
+"""The test files that a change can affect: those of its rooms, then the nearest others, as many as fit into a time.
 
 ``python -m support.affected_tests`` runs them by pytest. A test file is as near to a changed file as the shortest way
 from file to file that uses it: by imports, which grimp knows of the package; by starting one of its commands; and, for
@@ -16,13 +16,13 @@ from pathlib import Path
 import grimp
 import networkx as nx
 
-from support.durations import read_durations
+from support.durations import UNKNOWN_S, read_durations
 
 ROOT = Path(__file__).parents[2]
 
 _CORES = 2
-_UNKNOWN_S = 5.0  # a file that is new
 _WORKERS_FROM_S = 10.0  # for less, it takes longer to start them than they save
+_OF_THE_ROOM = 99  # steps to a test that uses nothing of what changed
 _TOLD = 12  # of those that are left
 _PACKAGE = "garage2usd"
 _CHANGED = "changed"
@@ -41,12 +41,12 @@ def main():
     base = arguments.base or branched_from()
     changed = changed_since(base)
     steps, durations, everything = affected(changed), read_durations(), files_of_tests()
-    run, left = chosen(steps, durations, _CORES * arguments.seconds)
-    time_s = sum(_duration(durations, file) for file in run) / _CORES
+    run, left = chosen(steps, durations, _CORES * arguments.seconds, rooms=rooms_of(changed))
+    time_s, all_s = (sum(_duration(durations, file) for file in files) / _CORES for files in (run, steps))
     say = sys.stdout.write
     say(
         f"{len(changed)} files differ from {base[:12]}: {len(steps)} of {len(everything)} test files can be affected,"
-        f" {len(run)} are run, about {time_s:.0f} s on {_CORES} cores\n"
+        f" {len(run)} are run, about {time_s:.0f} s on {_CORES} cores of the {all_s:.0f} s that all of them take\n"
     )
     if left:
         told = [f"{file.removeprefix('tests/')} ({_duration(durations, file):.0f} s)" for file in left[:_TOLD]]
@@ -85,7 +85,7 @@ def files_of_tests():
 
 
 def affected(changed):
-    """By how many steps each test file that can be affected is away from the changed files."""
+    """Steps from the changed files to each test file that they can affect, or that is of their rooms."""
     if _EVERYWHERE & set(changed):
         return dict.fromkeys(files_of_tests(), 1)
     uses = _uses().copy()
@@ -93,14 +93,24 @@ def affected(changed):
         uses.add_edge(_CHANGED, file, weight=0)
         uses.add_weighted_edges_from((file, user, steps) for user, steps in _named_by(file).items())
     steps = nx.single_source_dijkstra_path_length(uses, _CHANGED) if changed else {}
-    return {file: steps[file] for file in files_of_tests() if file in steps}
+    rooms = rooms_of(changed)
+    beside = {file for file in files_of_tests() if Path(file).parent.as_posix() in rooms}
+    return {file: steps.get(file, _OF_THE_ROOM) for file in files_of_tests() if file in steps or file in beside}
 
 
-def chosen(steps, durations, seconds):
-    """Test files that are run, as many as fit, and those that are left; the nearest first, of these the shortest."""
+def rooms_of(changed):
+    """Folders of unit tests whose rooms hold a changed file of the package."""
+    parts = [Path(file).parts for file in changed]
+    rooms = {Path(part[1]).stem for part in parts if len(part) > 1 and part[0] == _PACKAGE}
+    return {f"tests/unit/{room}" for room in rooms}
+
+
+def chosen(steps, durations, seconds, *, rooms=frozenset()):
+    """Test files that are run and those that are left: all of the rooms, then the nearest and shortest that fit."""
     run, left = [], []
-    for file in sorted(steps, key=lambda file: (steps[file], _duration(durations, file), file)):
-        fits = _duration(durations, file) <= seconds
+    beside = {file: Path(file).parent.as_posix() not in rooms for file in steps}
+    for file in sorted(steps, key=lambda file: (beside[file], steps[file], _duration(durations, file), file)):
+        fits = not beside[file] or _duration(durations, file) <= seconds
         (run if fits else left).append(file)
         seconds -= fits * _duration(durations, file)
     return run, left
@@ -187,7 +197,7 @@ def _test_module(file):
 
 
 def _duration(durations, file):
-    return durations.get(file, _UNKNOWN_S)
+    return durations.get(file, UNKNOWN_S)
 
 
 def _git(*words, check=True):

@@ -3,6 +3,7 @@
 import contextlib
 import functools
 import io
+import itertools
 import os
 import re
 import shlex
@@ -43,6 +44,7 @@ _BLOCK = re.compile(
 _FILE = re.compile(r"# (?P<name>[\w.]+\.(?:py|toml))\b")
 _EXIT_CODE = re.compile(r"#.*\bexit code (\d)")
 _CHANGES_THE_MACHINE = {"pip", "make", "apt-get", "sudo", "npm"}
+_SHELL = {">", "|", "&&", ";"}
 _SMALL = """
 .......
 E=====.
@@ -97,6 +99,26 @@ def blocks(page):
             yield Block(page, line, found["language"], found["text"], found["reason"])
 
 
+def checked_settings(block):
+    """Check a file by what it is: a drawn garage, a rig, a recipe or a profile; return settings of a garage."""
+    settings = tomllib.loads(block.text)
+    if isinstance(settings.get("stalls"), list) or not settings.keys().isdisjoint({"runs", "lanes"}):
+        assert validated(DrawnGarage, settings), block
+    elif "sensors" in settings:
+        assert rig_from_mapping(settings).sensors, block
+    elif not settings.keys().isdisjoint({"garage", "make"}):
+        recipe = Recipe(**{"name": "page", **settings})
+        recipe.check()
+        if recipe.make.drives:
+            check_drives(recipe.make.drives)
+    elif "name" in settings:
+        assert list(read_profile(settings).clauses()), block
+    else:
+        assert config_from_mapping(settings)
+        return settings
+    return None
+
+
 class Reader:
     """Someone who goes through a page in a folder that has the samples and, as after the first page, a garage."""
 
@@ -122,26 +144,10 @@ class Reader:
         {"sh": self._shell, "python": self._python, "toml": self._toml}[block.language](block)
 
     def _toml(self, block):
-        settings = tomllib.loads(block.text)
         if block.file_name:
             (self.folder / block.file_name).write_text(block.text)
-        if isinstance(settings.get("stalls"), list) or not settings.keys().isdisjoint({"runs", "lanes"}):
-            assert validated(DrawnGarage, settings), block
-            return
-        if "sensors" in settings:
-            assert rig_from_mapping(settings).sensors, block
-            return
-        if not settings.keys().isdisjoint({"garage", "make"}):
-            recipe = Recipe(**{"name": "page", **settings})
-            recipe.check()
-            if recipe.make.drives:
-                check_drives(recipe.make.drives)
-            return
-        if "name" in settings:
-            assert list(read_profile(settings).clauses()), block
-            return
-        assert config_from_mapping(settings)
-        if not block.file_name:
+        settings = checked_settings(block)
+        if settings is not None and not block.file_name:
             # that it can be built is told as well by lanes that were learnt for a moment only
             settings["plan"] = {**settings.get("plan", {}), "episodes": 100}
             config = config_from_mapping(settings)
@@ -164,7 +170,7 @@ class Reader:
             assert not _CHANGES_THE_MACHINE & set(words), f"{block}: {line} needs a mark why it is not run"
             if words[:2] == ["garage2usd", "view"]:
                 self._view(words[1:])
-            elif words[0] == "garage2usd" and not {">", "|", "&&", ";"} & set(words):
+            elif words[0] == "garage2usd" and not _SHELL & set(words):
                 self._command(words[1:], code, f"{block}: {line}")
             else:
                 self._bash(line, code, block)
@@ -216,15 +222,17 @@ class Reader:
         assert run.returncode == code, f"{block}: {line}\n{run.stdout}{run.stderr}"
 
 
-def check_unrun(block):
-    """What can be said of a block that is not run: its syntax, and that its commands and options exist."""
-    if block.language == "toml":
+def check_text(block):
+    """Check what a block tells without doing it: its syntax, its settings, and that its commands and options exist."""
+    if block.language == "toml" and block.reason is None:
+        checked_settings(block)
+    elif block.language == "toml":
         tomllib.loads(block.text)
     elif block.language == "python":
         compile(block.text, str(block), "exec")
     elif block.language == "sh":
         for line, _ in block.commands():
-            words = shlex.split(line, comments=True)
+            words = list(itertools.takewhile(lambda word: word not in _SHELL, shlex.split(line, comments=True)))
             if words[0] == "garage2usd":
                 group = click.Context(main)
                 name, command, rest = main.resolve_command(group, words[1:])

@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from support.soak import soak_but
+
 REPOSITORY = Path(__file__).parents[2]
 LEVELS_SAMPLE, HELIX_SAMPLE = REPOSITORY / "samples/two_levels.toml", REPOSITORY / "samples/three_levels.toml"
 """Garages of several levels, which have readers and tests of their own."""
@@ -13,9 +15,16 @@ SMALL_SAMPLES = [sample for sample in SAMPLES if sample.stem != "large_20x30"]
 OBJECT_SAMPLES = [sample for sample in SMALL_SAMPLES if sample.stem not in {"dimensioned", "hand_drawn"}]
 """Samples that have all kinds of objects between them; the others differ in their plans."""
 
-each_sample = pytest.mark.parametrize("sample", SAMPLES, ids=lambda path: path.stem)
-each_small_sample = pytest.mark.parametrize("sample", SMALL_SAMPLES, ids=lambda path: path.stem)
-each_object_sample = pytest.mark.parametrize("sample", OBJECT_SAMPLES, ids=lambda path: path.stem)
+USUAL_SAMPLES = [sample for sample in SAMPLES if sample.stem in {"looks", "mixed_stalls"}]
+"""Samples that `make test` takes: one with all kinds of objects, one with all kinds of stalls; the rest is soak."""
+
+each_sample = pytest.mark.parametrize("sample", soak_but(USUAL_SAMPLES, SAMPLES), ids=lambda path: path.stem)
+each_small_sample = pytest.mark.parametrize(
+    "sample", soak_but(USUAL_SAMPLES, SMALL_SAMPLES), ids=lambda path: path.stem
+)
+each_object_sample = pytest.mark.parametrize(
+    "sample", soak_but(USUAL_SAMPLES, OBJECT_SAMPLES), ids=lambda path: path.stem
+)
 
 
 def _each_sample_as(usual):
@@ -25,7 +34,9 @@ def _each_sample_as(usual):
     }
     cases = [(sample, extension) for sample, extensions in formats.items() for extension in extensions]
     return pytest.mark.parametrize(
-        ("sample", "extension"), cases, ids=lambda value: value.stem if isinstance(value, Path) else value
+        ("sample", "extension"),
+        soak_but([(sample, usual) for sample in USUAL_SAMPLES], cases),
+        ids=lambda value: value.stem if isinstance(value, Path) else value,
     )
 
 

@@ -5,6 +5,7 @@ import json
 import pytest
 from support.broken_plans import CLIENTS, DRAWN, KINDS, LONG_AISLE, SETTINGS_BROKEN, M
 from support.small_garage import PLAN, SETTINGS
+from support.soak import soak_but
 
 from garage2usd import GarageConfig, build
 from garage2usd.as_built.layout_reader import garage_of_layout
@@ -202,7 +203,7 @@ def test_circulation_is_measured_in_metres(rule, drawing):
         assert found_in(settings, profile) - FOUND_IN_GOOD_ONE == rules
 
 
-@pytest.mark.parametrize("form", ["instanced", "nested", "flat"])
+@pytest.mark.parametrize("form", soak_but(1, ["instanced", "nested", "flat"]))
 def test_a_stage_and_its_report_say_the_same_of_circulation(form, tmp_path):
     drawing = "\n".join([*DRAWN["a dead end with branches that are short"][1].split("\n"), "..=.=.."])
     settings = settings_with(

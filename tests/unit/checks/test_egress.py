@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from pxr import Usd, Vt
+from support.soak import soak_but
 
 from garage2usd import GarageConfig, build
 from garage2usd.as_built.core_reader import core_doors
@@ -22,7 +23,7 @@ PLAN = PLAN.replace("............\n.=........=.", ".=........=.\n.=........=.")
 FORMS = ["instanced", "nested", "flat"]
 
 
-@pytest.fixture(scope="module", params=FORMS)
+@pytest.fixture(scope="module", params=soak_but(1, FORMS))
 def made(request, tmp_path_factory):
     config = GarageConfig(
         site={"structure": PLAN},

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from pxr import Usd, UsdGeom, UsdSemantics
 from support.label_tables import labelled_objects
+from support.soak import soak_but
 
 from garage2usd.as_built.contents import read_contents
 from garage2usd.as_built.solids import Solids
@@ -26,7 +27,7 @@ def level_area_m2(thing):
     return area
 
 
-@pytest.mark.parametrize("form", ["instanced", "nested", "flat"])
+@pytest.mark.parametrize("form", soak_but(1, ["instanced", "nested", "flat"]))
 def test_floors_and_stalls_with_their_paint_cover_every_square_once(form, tmp_path):
     config = GarageConfig(seed=6, site=SITE, plan={"episodes": 200}, stage={"form": form})
     built = build(config, tmp_path / "garage.usdc")

@@ -60,6 +60,8 @@ def test_a_stall_is_found_by_name_and_number_in_letters_of_another_case(made, tm
     assert len(set(said)) == 1
     result = driven(made.stage, "--stall", f"{number.lower()}x")
     assert (result.exit_code, "one of the garage's" in result.output) == (1, True)
+    assert result.output.rstrip().endswith("stalls: A1-01 to A1-11")
+    assert len(result.output.splitlines()) == 1
 
 
 def test_csv_and_json_hold_the_same(made, tmp_path):

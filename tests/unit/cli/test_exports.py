@@ -16,6 +16,7 @@ from support.map_reader import read_map
 
 import garage2usd
 from garage2usd.cli import main
+from garage2usd.common import extras
 from garage2usd.common.errors import ConfigError, MissingExtraError, ReportError, StageError
 from garage2usd.config.maps import MapsConfig
 
@@ -185,12 +186,33 @@ def test_build_refuses_formats_before_it_works(tmp_path):
 
 def test_without_pyproj_a_lanelet2_map_is_refused_before_a_garage_is_made(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyproj", None)
-    with pytest.raises(MissingExtraError, match=r"pyproj.*garage2usd\[maps\]"):
+    with pytest.raises(MissingExtraError, match=r"pyproj.*pip install .*\[maps\]"):
         garage2usd.export(tmp_path / "none.usdc", [tmp_path / "g.osm"])
     run = CliRunner().invoke(main, ["build", "--with", "osm", "-o", str(tmp_path / "g.usdz")])
     assert run.exit_code != 0
-    assert "garage2usd[maps]" in run.output + str(run.exception)
+    assert "[maps]" in run.output + str(run.exception)
     assert not list(tmp_path.iterdir())
+
+
+def test_files_that_need_no_extra_are_written_and_the_others_named(made, tmp_path, monkeypatch):
+    monkeypatch.setattr(extras, "find_spec", lambda module: None if module == "scenariogeneration" else module)
+    names = "g.xodr", "g.xosc", "g.osm", "g.yaml", "g.add.xml"
+    asked = [word for name in names for word in ("-o", str(tmp_path / name))]
+    run = CliRunner().invoke(main, ["export", str(made / "g.usdc"), *asked, "--stall", "A1-01"])
+    assert run.exit_code == 3, run.output
+    line = run.stderr.splitlines()[-1]
+    assert line.startswith(
+        f"Error: {tmp_path / 'g.xosc'} is not written: a scenario needs scenariogeneration: pip install"
+    )
+    assert {file.name for file in tmp_path.iterdir()} == {*names, "g.pgm", "g.netccfg"} - {"g.xosc"}
+    config = tmp_path / "small.toml"
+    config.write_text('[site]\nstructure = """\n....\nE==X\n....\n"""\n[bay]\ndimensioned = false\n')
+    run = CliRunner().invoke(
+        main, ["build", str(config), "--with", "xosc,xodr", "-o", str(tmp_path / "new" / "a.usdc")]
+    )
+    assert run.exit_code == 3, run.output
+    assert "a.xosc is not written: a scenario needs" in run.stderr
+    assert {file.suffix for file in (tmp_path / "new").iterdir()} == {".usdc", ".xodr", ".png", ".json", ""}
 
 
 def test_settings_of_maps_that_cannot_be_are_refused():

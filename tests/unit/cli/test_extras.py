@@ -1,5 +1,6 @@
 """What an extra brings is looked for before the work: one line names the extra, and nothing is left."""
 
+import json
 import sys
 import tomllib
 from importlib.metadata import packages_distributions
@@ -23,7 +24,7 @@ CASES = {
     "a recipe with LiDARs": (["embreex"], ["dataset", "lidar.toml", "-o", "out"], "sensors"),
     "a recipe with bags": (["rosbags"], ["dataset", "lidar.toml", "-o", "out"], "sensors"),
     "maps of a build": (["scenariogeneration", "pyproj"], ["build", "--with", "xosc,osm", "-o", "g.usdz"], "maps"),
-    "an export": (["pyproj"], ["export", "none.usdz", "-o", "out.glb", "-o", "out.osm"], "maps"),
+    "an export": (["pyproj"], ["export", "none.usdz", "-o", "out.osm"], "maps"),
     "pictures": (["bpy"], RENDER, "blender"),
     "pictures that are read": (["OpenEXR"], RENDER, "blender"),
     "fisheyes": (["embreex"], [*RENDER, "--rig", "avp_surround", *ALONG], "sensors"),
@@ -65,8 +66,35 @@ def test_what_is_missing_is_named_before_the_work(case, inputs, tmp_path, monkey
     run = CliRunner().invoke(main, [str(word) for word in command])
     assert run.exit_code == 1, run.output
     (line,) = [line for line in run.stderr.splitlines() if " gets none of the " not in line]  # so few garages
-    assert line.endswith(f"pip install 'garage2usd[{extra}]'")
+    assert line.endswith(extras.installation_of(extra))
     assert {path.name for path in tmp_path.iterdir()} == inputs
+
+
+@pytest.mark.parametrize(
+    ("origin", "command"),
+    [
+        (None, "pip install 'garage2usd[maps]'"),
+        ({"url": "HERE", "dir_info": {}}, "pip install '.[maps]'"),
+        ({"url": "HERE", "dir_info": {"editable": True}}, "pip install -e '.[maps]'"),
+        ({"url": "HERE/my%20garages", "dir_info": {}}, "pip install 'PLACE/my garages[maps]'"),
+        ({"url": "HERE/gone", "dir_info": {"editable": True}}, "pip install 'garage2usd[maps]'"),
+        ({"url": "HERE/g.whl", "archive_info": {}}, "pip install 'garage2usd[maps] @ HERE/g.whl'"),
+    ],
+)
+def test_a_hint_installs_an_extra_as_garage2usd_was_installed(origin, command, tmp_path, monkeypatch):
+    class Installed:
+        def read_text(self, name):
+            assert name == "direct_url.json"
+            return origin and json.dumps(origin).replace("HERE", tmp_path.as_uri())
+
+    (tmp_path / "my garages").mkdir()
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(extras, "distribution", lambda _name: Installed())
+    told = command.replace("HERE", tmp_path.as_uri()).replace("PLACE", str(tmp_path))
+    monkeypatch.setattr(extras, "find_spec", lambda _name: None)
+    with pytest.raises(extras.MissingExtraError) as raised:
+        extras.require("a map", ["pyproj"])
+    assert str(raised.value) == f"a map needs pyproj: {told}"
 
 
 def test_without_its_python_blender_is_said_to_need_it(monkeypatch):

@@ -13,6 +13,7 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 from support.browser import find_browser
 from support.sample_files import REPOSITORY
+from support.soak import soak_but
 
 from garage2usd.datasets.charts import bars, histogram, split_colours
 from garage2usd.datasets.contour import contour_shape
@@ -122,8 +123,8 @@ def browser():
 
 
 @pytest.mark.skipif(find_browser() is None, reason="no Chromium")
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("width_px", [1280, 390])
+@pytest.mark.parametrize("scheme", soak_but(1, ["light", "dark"]))
+@pytest.mark.parametrize("width_px", soak_but([390], [1280, 390]))
 def test_a_browser_shows_it_without_a_complaint_or_a_request(browser, page, plans, scheme, width_px):
     complaints, asked = [], []
     with browser.new_page(viewport={"width": width_px, "height": 900}, color_scheme=scheme) as tab:

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from support.data_sets import small_recipe, tree_of
+from support.soak import soak_but
 
 from garage2usd.checks import Severity, check_file
 from garage2usd.common.errors import OutputError
@@ -45,7 +46,7 @@ def test_garages_without_a_plan_are_in_no_shard():
     assert sorted(drawn.number for shard in shards for drawn in shard.plans) == [0, 1, 3, 4, 6, 7, 8]
 
 
-@pytest.fixture(scope="module", params=["tar", "folder"])
+@pytest.fixture(scope="module", params=soak_but(1, ["tar", "folder"]))
 def made(request, tmp_path_factory):
     """A data set of one shard, and its rows."""
     recipe = small_recipe(splits={"train": 1}, shards={"garages": 2, "form": request.param})

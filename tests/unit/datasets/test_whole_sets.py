@@ -9,6 +9,7 @@ import pytest
 import yaml
 from click.testing import CliRunner
 from support.data_sets import SMALL, small_recipe, tree_of
+from support.soak import soak_but
 
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
@@ -41,15 +42,18 @@ def in_one_process(monkeypatch):
 
 @pytest.mark.parametrize(
     ("form", "is_gzip", "is_self_contained", "exports"),
-    [
-        ("tar", False, False, ALL),
-        ("tar", True, True, ALL),
-        ("folder", False, True, ALL),
-        ("folder", True, False, ALL),
-        ("tar", True, False, ["yaml"]),
-        ("folder", False, False, ["xosc"]),
-        ("tar", False, True, []),
-    ],
+    soak_but(
+        [("tar", True, True, ALL), ("folder", False, False, ["xosc"])],
+        [
+            ("tar", False, False, ALL),
+            ("tar", True, True, ALL),
+            ("folder", False, True, ALL),
+            ("folder", True, False, ALL),
+            ("tar", True, False, ["yaml"]),
+            ("folder", False, False, ["xosc"]),
+            ("tar", False, True, []),
+        ],
+    ),
 )
 def test_every_file_belongs_to_its_garage_and_a_fresh_set_verifies(
     in_one_process, tmp_path, form, is_gzip, is_self_contained, exports

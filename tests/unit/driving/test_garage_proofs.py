@@ -11,6 +11,7 @@ import shapely
 from pxr import Usd, UsdGeom
 from support.driving_simulation import World, drive_stalls, ground
 from support.sample_files import REPOSITORY
+from support.soak import soak_but
 
 import garage2usd
 from garage2usd.checks import check_file
@@ -60,9 +61,10 @@ def proofs(garage):
     return proofs_of(garage)
 
 
-def test_a_simulated_car_drives_150_stalls_of_default_garages_as_claimed():
-    driven, faults, unproven = drive_stalls(150, seed=400)
-    assert (driven, faults, unproven) == (150, [], [])
+@pytest.mark.parametrize("count", soak_but(1, [30, 150]))
+def test_a_simulated_car_drives_stalls_of_default_garages_as_claimed(count):
+    driven, faults, unproven = drive_stalls(count, seed=400)
+    assert (driven, faults, unproven) == (count, [], [])
 
 
 def test_the_simulation_sees_ways_that_are_not_as_claimed(garage, proofs):

@@ -12,6 +12,7 @@ from support.sample_files import REPOSITORY
 
 import garage2usd
 from garage2usd.common.errors import ConfigError
+from garage2usd.common.extras import installation_of
 from garage2usd.config import GarageConfig
 from garage2usd.environment import ENVIRONMENT_ID, LanesEnvironment
 from garage2usd.planning import evaluate, is_feasible
@@ -118,4 +119,4 @@ def test_without_gymnasium_the_extra_is_named():
         [sys.executable, "-c", script], cwd=REPOSITORY, capture_output=True, text=True, check=False, timeout=60
     )
     assert run.returncode == 1
-    assert "garage2usd.environment needs Gymnasium: pip install 'garage2usd[gymnasium]'" in run.stderr
+    assert f"garage2usd.environment needs Gymnasium: {installation_of('gymnasium')}" in run.stderr

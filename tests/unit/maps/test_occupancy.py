@@ -13,6 +13,7 @@ from support.map_faults import Fault, planted
 from support.map_reader import FREE, OCCUPIED, UNKNOWN, read_map
 from support.sample_files import each_sample
 from support.small_garage import SETTINGS
+from support.soak import soak_but
 
 from garage2usd import GarageConfig, build
 from garage2usd.as_built.driven_ground import driven_garage
@@ -124,7 +125,7 @@ def _middle_of(low, high):
     return (x - 0.5, y - 0.5), (x + 0.5, y + 0.5)
 
 
-@pytest.mark.parametrize("side_m", [0.02, 0.05, 0.2])
+@pytest.mark.parametrize("side_m", soak_but([0.05], [0.02, 0.05, 0.2]))
 def test_it_is_the_garage(made, side_m, tmp_path):
     read = judge(write_grid, made, tmp_path, side_m=side_m)
     assert set(np.unique(read.cells)) == {OCCUPIED, FREE, UNKNOWN}
@@ -183,7 +184,7 @@ FAULTS = (
 )
 
 
-@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.name)
+@pytest.mark.parametrize("fault", soak_but(3, FAULTS), ids=lambda fault: fault.name)
 def test_a_planted_fault_is_found(fault, made, tmp_path):
     with planted(fault, "occupancy") as module, pytest.raises((AssertionError, ValueError)):
         judge(module.write_grid, made, tmp_path)
@@ -209,7 +210,7 @@ NAMES = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", soak_but(4, NAMES))
 def test_any_name_is_read_back_as_it_is(made, tmp_path, name):
     files = write_grid(made[1], tmp_path / f"{name}.yaml", GridConfig(resolution_m=1.0, keepout=True))
     for file, picture in zip(files[::2], files[1::2], strict=True):

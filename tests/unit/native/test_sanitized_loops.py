@@ -56,6 +56,7 @@ def test_planning_and_driving_are_clean(tmp_path, runtimes):
     assert (run.returncode, run.stdout) == (0, "clean\n"), run.stderr
 
 
+@pytest.mark.soak
 def test_a_write_past_an_array_is_found(tmp_path, runtimes):
     old = "q < ground->cells.count; q++) {\n        AT(board->cells, q)"
     run = run_of(tmp_path, runtimes, ("board.c", old, old.replace("q < ", "q <= ")), SANITIZED)
@@ -67,6 +68,7 @@ READ_PAST_A_ROW = "board.c", "square, AT(edges, square))", "square, 16 + AT(edge
 """Takes the stalls of the square beside, which the sanitizers find nothing wrong with."""
 
 
+@pytest.mark.soak
 def test_a_read_past_a_row_is_found_by_its_bounds(tmp_path, runtimes):
     run = run_of(tmp_path, runtimes, READ_PAST_A_ROW)
     assert run.returncode != 0

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from support.inner_loops import resize, settle, sync_sides, weigh
+from support.soak import soak_but
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning import area_per_stall_m2, dimension, evaluate
@@ -66,7 +67,7 @@ def test_settled_sides_count_the_stalls_and_floor_of_the_structure():
     assert best <= area_per_stall_m2(found, BAY) <= 1.03 * best
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", soak_but(3, range(8)))
 def test_a_line_is_weighed_as_it_is_resized(seed):
     rng = np.random.default_rng(seed)
     site = ladder()

@@ -5,6 +5,7 @@ import pytest
 from pxr import Gf, Usd, UsdGeom
 from support.held_stage import held_aloft
 from support.sample_files import REPOSITORY
+from support.soak import soak_but
 
 from garage2usd.assets.faces import box_faces
 from garage2usd.reading.labels import read_labels
@@ -57,7 +58,7 @@ def test_what_hangs_and_where_the_rest_is_cut(is_z_up):
     assert cuts == {"Gallows": pytest.approx(2.19, abs=1e-3)}
 
 
-@pytest.mark.parametrize("form", ["instanced", "nested", "flat"])
+@pytest.mark.parametrize("form", soak_but(1, ["instanced", "nested", "flat"]))
 def test_portals_and_ramps_are_open_from_above_in_every_form(builds, form):
     made = builds(HAND_DRAWN, "usdc", form)
     stage = Usd.Stage.Open(str(made.stage))

@@ -11,16 +11,19 @@ from click.testing import CliRunner
 from pxr import Gf, Usd, UsdGeom
 from support.label_tables import labelled_objects
 from support.sample_files import REPOSITORY
+from support.soak import soak_but
 
 from garage2usd.cli import main
 from garage2usd.common import extras
 from garage2usd.common.errors import ConfigError, StageError
-from garage2usd.common.progress import silent
+from garage2usd.common.extras import installation_of
+from garage2usd.common.progress import silent, time_in_words
 from garage2usd.reading.labels import read_labels
 from garage2usd.render import Picture, blender_process, devices, drawing
 from garage2usd.render.cameras import find_views
 from garage2usd.render.devices import ComputeDevice, Device, find_device
 from garage2usd.render.drawn_prims import read_drawn_prims
+from garage2usd.render.effort import drawing_s
 from garage2usd.render.free_camera import free_view
 from garage2usd.render.pictures import visible_instances
 
@@ -36,7 +39,7 @@ def run(*arguments):
     return CliRunner().invoke(main, ["render", *(str(argument) for argument in arguments)])
 
 
-@pytest.mark.parametrize("form", ["instanced", "nested", "flat"])
+@pytest.mark.parametrize("form", soak_but(1, ["instanced", "nested", "flat"]))
 def test_a_stage_without_a_table_tells_the_same_objects_and_classes(builds, tmp_path, form):
     made = builds(HAND_DRAWN, "usdc", form)
     stage = Usd.Stage.Open(str(made.stage))
@@ -287,6 +290,13 @@ def test_what_is_drawn_is_said_before_and_how_long_a_picture_takes_when_one_is(b
         "a picture takes 9.0 s, 2 more about 18 s",
     ]
     assert jobs[0]["device"] == "OPTIX"
+    said.clear()
+    seconds = iter([100.0, 104.0, 109.0, 112.0, 130.0])
+    monkeypatch.setattr(drawing, "cores", lambda: 2)
+    kinds = [Picture.COLOUR, Picture.DEPTH]
+    drawing.Drawing(stage, labels, views[:1], [[]], kinds, 1, 0, tmp_path / "cpu").draw(work, silent, said.append)
+    took = time_in_words(drawing_s([(64, 36)], [(64, 36)], samples=1, cores=2))
+    assert said[0] == f"1 view, 1 of 64 x 36 pixels: colour with 1 sample on the CPU, depth; about {took}"
 
 
 def test_a_process_that_says_nothing_is_heard_of_every_second(tmp_path, monkeypatch):
@@ -344,7 +354,7 @@ def test_without_blender_one_line_names_the_extra(build, tmp_path, monkeypatch):
     result = run(build.stage, "-o", tmp_path / "out")
     assert result.exit_code == 1
     (line,) = result.output.strip().splitlines()
-    assert "pip install 'garage2usd[blender]'" in line
+    assert installation_of("blender") in line
     assert not (tmp_path / "out").exists()
 
 

@@ -7,6 +7,7 @@ import sys
 import pytest
 from support import affected_tests
 from support.affected_tests import ROOT, affected, changed_since, chosen, files_of_tests, main
+from support.soak import soak_but
 
 # those that use several rooms, in a second
 WATCHED = [
@@ -34,7 +35,7 @@ def pytest_unconfigure():
 """
 
 
-@pytest.mark.parametrize("file", WATCHED)
+@pytest.mark.parametrize("file", soak_but(["tests/unit/planning/test_score.py"], WATCHED))
 def test_no_module_whose_functions_a_test_file_calls_changes_without_it(file, tmp_path):
     (tmp_path / "watch.py").write_text(WATCH)
     command = [sys.executable, "-m", "pytest", "-q", "-p", "watch", "-p", "no:cacheprovider", file]
@@ -141,9 +142,17 @@ def test_what_is_left_out_is_told(monkeypatch, capsys):
     assert main() == 0
     said = capsys.readouterr().out.splitlines()
     count = len(affected(["garage2usd/checks/egress.py"]))
-    assert f"{count} of {len(files_of_tests())} test files can be affected, 3 are run, about 15 s on 2 cores" in said[0]
+    room = [file for file in files_of_tests() if file.startswith("tests/unit/checks/")]
+    run = f"{len(room)} are run, about {5 * len(room)} s on 2 cores of the {5 * count} s that all of them take"
+    assert f"{count} of {len(files_of_tests())} test files can be affected, {run}" in said[0]
     assert said[1].startswith("left to `make test`, the nearest first: ")
-    assert said[1].endswith(f"(10 s), and {count - 3 - 12} more")
-    assert said[2:] == [file for file in said[2:] if file in files_of_tests()]
+    assert said[1].endswith(f"(10 s), and {count - len(room) - 12} more")
+    assert sorted(said[2:]) == room
     assert said[2] == "tests/unit/checks/test_egress.py"
-    assert len(said) == 5
+
+
+def test_the_tests_of_a_changed_room_are_all_run():
+    assert affected_tests.rooms_of(["garage2usd/checks/egress.py", "docs/check.md"]) == {"tests/unit/checks"}
+    steps = {"tests/unit/checks/far.py": 9, "tests/unit/maps/near.py": 0, "tests/unit/maps/nearer.py": 0}
+    run, left = chosen(steps, dict.fromkeys(steps, 10.0), 15.0, rooms={"tests/unit/checks"})
+    assert (run, left) == (["tests/unit/checks/far.py"], ["tests/unit/maps/near.py", "tests/unit/maps/nearer.py"])

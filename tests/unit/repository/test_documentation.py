@@ -10,12 +10,14 @@ from collections import Counter
 from importlib import import_module
 
 import pytest
-from support.documentation import PAGES, README, RUN, SHOWN, Reader, blocks, check_unrun, follow_page
+from support.documentation import PAGES, README, RUN, SHOWN, Reader, blocks, check_text, follow_page
 from support.sample_files import REPOSITORY
+from support.soak import soak_but
 
 EVERY_BLOCK = [block for page in PAGES for block in blocks(page)]
 # test_wheel.py follows the README, as someone who has the wheel alone
 PAGES_THAT_RUN = [page for page in PAGES if page != README and any(block.language in RUN for block in blocks(page))]
+FIRST_PAGES = [REPOSITORY / "docs" / name for name in ("guides/first_garages.md", "guides/lane_graph.md")]
 MOST_THAT_ARE_NOT_RUN = 17
 MOST_LINES = 300
 
@@ -39,7 +41,7 @@ def page_name(page):
     return page.relative_to(REPOSITORY).as_posix()
 
 
-@pytest.mark.parametrize("page", PAGES_THAT_RUN, ids=page_name)
+@pytest.mark.parametrize("page", soak_but(FIRST_PAGES, PAGES_THAT_RUN), ids=page_name)
 def test_a_page_can_be_followed_from_top_to_bottom(page, tmp_path):
     follow_page(page, tmp_path)
 
@@ -47,8 +49,13 @@ def test_a_page_can_be_followed_from_top_to_bottom(page, tmp_path):
 def test_blocks_that_are_not_run_are_few_and_well_formed():
     unrun = [block for block in EVERY_BLOCK if block.reason]
     assert len(unrun) <= MOST_THAT_ARE_NOT_RUN, [str(block) for block in unrun]
-    for block in unrun:
-        check_unrun(block)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=page_name)
+def test_settings_commands_and_options_of_every_page_exist(page, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for block in blocks(page):
+        check_text(block)
 
 
 def test_every_block_says_what_it_is():

@@ -78,6 +78,7 @@ def test_smooth_paths_are_the_same_to_the_last_bit():
     assert now == then
 
 
+@pytest.mark.soak
 def test_garages_are_the_same(tmp_path):
     script = (str(REPOSITORY / "benchmarks/digests.py"), "--file", str(tmp_path / "digests.json"))
     written = said(script, "--write", *GARAGES, environment=dict(os.environ))

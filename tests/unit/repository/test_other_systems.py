@@ -10,6 +10,7 @@ import pytest
 from click.testing import CliRunner
 from support.hatch_building import LIBRARY, TARGETS, asked_target
 from support.sample_files import REPOSITORY
+from support.soak import soak_but
 
 from garage2usd import native
 from garage2usd.cli import main
@@ -32,7 +33,7 @@ exports = ["xodr"]
 """
 
 
-@pytest.fixture(params=OTHERS)
+@pytest.fixture(params=soak_but(1, OTHERS))
 def system(request):
     return request.param
 
@@ -85,6 +86,7 @@ def test_commands_run_and_make_the_same_garage(system, site):
     assert not [path for path in site.rglob("*") if path.name.startswith(".")]
 
 
+@pytest.mark.soak
 def test_the_doctor_tells_of_the_same_garage(site):
     reports = [run_as_on(system, site, "doctor", "--seeds", "1") for system in (None, "win32")]
     for report in reports:
@@ -104,6 +106,7 @@ def test_the_doctor_finds_loops_that_cannot_be_loaded(monkeypatch):
     assert run.output.splitlines()[-1].endswith("faults  loops: loops.so is stale")
 
 
+@pytest.mark.soak
 def test_a_data_set_is_made_and_verified(system, site):
     done = run_as_on(system, site, "dataset", "two.toml", "-o", "two", "--workers", "1")
     assert done.returncode == 0, done.stderr

@@ -7,6 +7,7 @@ import pytest
 import shapely
 from support.opendrive_reader import OpenDrive
 from support.sample_files import REPOSITORY
+from support.soak import soak_but
 
 import garage2usd
 from garage2usd.checks import read_garage
@@ -16,7 +17,7 @@ SAMPLES = [REPOSITORY / "samples/mixed_stalls.toml", REPOSITORY / "samples/paper
 WITHIN_M = 0.01
 
 each_map = pytest.mark.parametrize("suffix", ["xodr", "osm"])
-each_sample = pytest.mark.parametrize("sample", SAMPLES, ids=lambda path: path.stem)
+each_sample = pytest.mark.parametrize("sample", soak_but(1, SAMPLES), ids=lambda path: path.stem)
 
 
 @pytest.fixture
