@@ -137,7 +137,10 @@ def _ramp_clearances(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]
     """Yield the lowest place and the narrowest place of each ramp between levels that misses the requirement."""
     for ramp in garage.ramp_lines:
         name, points = garage.lanes.nodes[ramp.sloped[0]].name, _sampled(ramp.slope)
-        caster, corners = _caster(garage, points)
+        corners = _near(garage, points)
+        if not len(corners):
+            continue
+        caster = BoxTree(corners.reshape(-1, 3), np.arange(len(corners) * 3, dtype=np.int32).reshape(-1, 3))
         ahead = np.diff(points, axis=0, append=points[-1:] * 2 - points[-2:-1])[:, [0, 2]]
         ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
         up = np.tile([0.0, 1.0, 0.0], (len(points), 1))
@@ -211,10 +214,10 @@ def _sampled(line: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack([np.interp(places, along, line[:, axis]) for axis in range(3)], axis=1)
 
 
-def _caster(garage: BuiltLevels, points: NDArray[np.float64]) -> tuple[BoxTree, NDArray[np.float64]]:
-    """Return a ray caster on the triangles around some points, and the corners of these; shape (triangles, 3, 3)."""
+def _near(garage: BuiltLevels, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the corners of the triangles around some points; float64, shape (triangles, 3, 3)."""
     low, high = points.min(axis=0) - _FAR_M, points.max(axis=0) + _FAR_M
-    parts = []
+    parts = [np.zeros((0, 3, 3))]
     for body in (body for thing in garage.things for body in thing.bodies):
         at = body.matrix[3, :3]
         if np.any(at + body.shape.reach * 2 < low) or np.any(at - body.shape.reach * 2 > high):
@@ -223,8 +226,7 @@ def _caster(garage: BuiltLevels, points: NDArray[np.float64]) -> tuple[BoxTree, 
         triangles = body.world_points()[body.shape.indices[corners]]
         is_near = ((triangles.max(axis=1) >= low) & (triangles.min(axis=1) <= high)).all(axis=1)
         parts.append(triangles[is_near])
-    triangles = np.concatenate(parts)
-    return BoxTree(triangles.reshape(-1, 3), np.arange(len(triangles) * 3, dtype=np.int32).reshape(-1, 3)), triangles
+    return np.concatenate(parts)
 
 
 def _distances(
