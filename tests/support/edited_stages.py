@@ -57,6 +57,15 @@ def moved(*, x=0.0, y=0.0, z=0.0, yaw_deg=0.0, pitch_deg=0.0, path="/Garage"):
     return edit
 
 
+def scaled(factor, path="/Garage"):
+    """Return an edit that scales a prim."""
+
+    def edit(stage):
+        UsdGeom.Xformable(stage.GetPrimAtPath(path)).AddScaleOp(opSuffix="edit").Set(Gf.Vec3f(factor))
+
+    return edit
+
+
 def inactive(*paths):
     """Return an edit that deactivates prims."""
 
