@@ -109,6 +109,7 @@ SPECS = {
     "column_rectangular": ColumnSpec(0.6, 3.2, RECTANGULAR, head_m=0.4, boards=(CABINET._replace(side=3),)),
     "column_rectangular_rubber": ColumnSpec(0.6, 3.2, RECTANGULAR, is_long_along_x=True, guard=Guard.RUBBER),
     "ceiling": CeilingSpec(8.1, 8.1, 0.25),
+    "ceiling_of_a_lower_level": CeilingSpec(8.1, 8.1, 0.4, bears_floor=True),
     "tube": LampSpec(1.5, 0.12, drop_m=0.115, luminance_nit=4000.0),
     "beam": BeamSpec(7.5, 0.4, 0.4),
     "node": BeamNodeSpec(((-0.3, -0.2, 0.3, 0.2), (-0.2, 0.2, 0.2, 0.3)), 0.4),
