@@ -1,7 +1,6 @@
 """From squares to metres: every object of a garage as a placement, free of any file format."""
 # Over 300 lines: the value and the one function that makes it, in the order of what lies on what.
 
-import math
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -34,6 +33,7 @@ from garage2usd.layout.floor.panels import drawn_markings_of, floor_panels
 from garage2usd.layout.floor.puddles import puddles
 from garage2usd.layout.floor.stains import floor_stains
 from garage2usd.layout.floor.stall_numbers import stall_numbers
+from garage2usd.layout.floor_area import FloorArea
 from garage2usd.layout.garage_stalls import garage_stalls
 from garage2usd.layout.parking.clutter import clutter
 from garage2usd.layout.parking.designation import chargers, with_designated_stalls
@@ -63,7 +63,7 @@ from garage2usd.objects import KINDS
 from garage2usd.objects.number_plate import NumberPlateSpec
 from garage2usd.objects.outline import Point
 from garage2usd.structure.dead_ends import DEAD_END_LIMIT_MM, dead_ends
-from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.grid import Cell, Structure, outside_squares
 from garage2usd.structure.lane_graph import LaneSquares, Square
 
 __all__ = [
@@ -232,14 +232,22 @@ class Layout:
         return int(self.stalls.takes_cars.sum())
 
     @property
+    def landings(self) -> frozenset[tuple[int, int]]:
+        """(row, col) of the squares at heads and feet of ramps between levels: portals of S that lead to no street."""
+        return frozenset(self.well.landings) if self.well else frozenset()
+
+    @property
+    def area(self) -> FloorArea:
+        """Its floor without and with what is no floor."""
+        ground = ~outside_squares(self.structure.cells)
+        for square in self.well.squares if self.well else ():
+            ground[square] = True
+        return FloorArea(self.structure.floor_m2, self.structure.area_m2(ground))
+
+    @property
     def kept_free_stalls(self) -> int:
         """Number of marked stalls that are kept free: access aisles, turning stalls and unreachable ones."""
         return sum(not STALL_USES[use].is_parked_in for use in self.stalls.use.tolist())
-
-    @property
-    def area_per_stall_m2(self) -> float:
-        """Floor inside the contour, obstacles apart, for each stall that cars park in; infinite without any."""
-        return self.structure.floor_m2 / self.parking_stalls if self.parking_stalls else math.inf
 
     def uses_in_words(self) -> str:
         """How many stalls are for what, those that cars park in first, then those for motorcycles."""
@@ -367,7 +375,8 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield bumps
         yield (signs := no_parking_signs(grid, shell, built, fittings, seed=seed))
 
-        yield (ceiling_panel(tile, fittings) for tile in grid)
+        storey_m = well.building.storey_m if well and not well.is_top else None
+        yield (ceiling_panel(tile, fittings, storey_m) for tile in grid)
         yield lamps
         yield beams(structure, bay, ceiling, levels.beam_depth_m, pillars)
         yield ducts(grid, ceiling, levels, look.ceiling)

@@ -19,6 +19,7 @@ from garage2usd.layout.ceiling.lamps import TUBE, installed_lamps, ramp_lamps
 from garage2usd.layout.ceiling.lighting import lane_points_of, light_up
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.floor.stall_numbers import stall_numbers
+from garage2usd.layout.floor_area import FloorArea
 from garage2usd.layout.garage_stalls import stall_quads
 from garage2usd.layout.parking.designation import chargers
 from garage2usd.layout.parking.number_plates import number_plates
@@ -94,10 +95,10 @@ class SurveyedLayout(Layout):
         return partial(lay_out_survey, self.survey)
 
     @property
-    def area_per_stall_m2(self) -> float:
-        """Floor inside the outline for each stall that cars park in; infinite without any."""
-        area = shapely.Polygon(self.survey.outline).area
-        return float(area / self.parking_stalls) if self.parking_stalls else float("inf")
+    def area(self) -> FloorArea:
+        """The ground inside the outline, of which nothing is known to be no floor."""
+        area = float(shapely.Polygon(self.survey.outline).area)
+        return FloorArea(area, area)
 
     def node_squares(self) -> NDArray[np.int32]:
         """Return the (row, col) by which files name each lane node, which are counted in one row."""
