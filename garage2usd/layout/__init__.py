@@ -52,7 +52,7 @@ from garage2usd.layout.shell.boards import with_boards
 from garage2usd.layout.shell.building import columns, corner_columns, ground_inside, outer_walls
 from garage2usd.layout.shell.fire_shutters import fire_shutters
 from garage2usd.layout.shell.mounts import mounted_objects
-from garage2usd.layout.shell.ramps import barriers, ramp_lights, with_ramps
+from garage2usd.layout.shell.ramps import ramp_lights, with_barriers, with_ramps
 from garage2usd.layout.shell.well import Well
 from garage2usd.layout.shell.zone_plates import zone_plates
 from garage2usd.layout.signs import country_of, with_signs_of
@@ -373,8 +373,8 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield level_signs(grid, graph, fittings, levels, well) if well else ()
         yield mirrors(grid, pillars, fittings, levels)
 
-        yield (walls := with_ramps(shell, ground_inside(structure), fittings, look.walls))
-        yield (gates := barriers(walls, fittings))
+        walls, gates = with_barriers(with_ramps(shell, ground_inside(structure), fittings, look.walls), fittings)
+        yield from (walls, gates)
         tubes = ramp_lights(walls, fittings)
         if well:
             yield (guards := well.walls(structure, fittings, look.walls))

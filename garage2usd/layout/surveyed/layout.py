@@ -28,7 +28,7 @@ from garage2usd.layout.parking.stall_table import StallTable
 from garage2usd.layout.parking.stalls import bare_stall_panels, wheel_stops
 from garage2usd.layout.parking.tight import tight_stalls
 from garage2usd.layout.placement import Placement, placed
-from garage2usd.layout.shell.ramps import barriers, ramp_lights, with_ramps
+from garage2usd.layout.shell.ramps import ramp_lights, with_barriers, with_ramps
 from garage2usd.layout.signs import country_of, with_signs_of
 from garage2usd.layout.surveyed.floor import surveyed_floor
 from garage2usd.layout.surveyed.ground import SurveyedGround
@@ -198,8 +198,8 @@ def lay_out_survey(
         yield chargers(stalls)
         yield _ceiling(ground, config)
         yield lamps
-        yield (walls := with_ramps(shell, ground.polygon, fittings, look.walls))
-        yield barriers(walls, fittings)
+        walls, gates = with_barriers(with_ramps(shell, ground.polygon, fittings, look.walls), fittings)
+        yield from (walls, gates)
         yield ramp_lamps(ramp_lights(walls, fittings), look.lights, illuminance.luminance_nit, seed=seed)
         yield pillars
 
