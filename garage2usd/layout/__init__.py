@@ -440,7 +440,14 @@ def _used_stalls(
         limit_mm = min(DEAD_END_LIMIT_MM, round(clause.amount * 1000) if clause else DEAD_END_LIMIT_MM)
         long_ends = [end for end in dead_ends(grid.structure, limit_mm) if end.needs_turning_stall]
         stalls = with_turning_stalls(stalls, grid, long_ends)
-    return with_designated_stalls(stalls, _foot_exits(grid, cores, no_ways_out), config.parking, config.standard)
+    portals = {*grid.structure.where(Cell.ENTRANCE), *grid.structure.where(Cell.EXIT)}
+    return with_designated_stalls(
+        stalls,
+        _foot_exits(grid, cores, no_ways_out),
+        config.parking,
+        config.standard,
+        ways_in_and_out=portals.union(*(graph.graph[portal] for portal in portals)),
+    )
 
 
 def _crossings(grid: TileGrid, cores: Iterable[Core]) -> dict[Square, float]:
