@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, LookConfig
-from garage2usd.config.look import AISLE
+from garage2usd.config.look import AISLE, FloorFinish
 from garage2usd.config.plan import DeadEnds, UnreachableStalls
 from garage2usd.garage import LaneGraph, Stall, StallUse
 from garage2usd.layout.ceiling.beams import beams, ceiling_levels
@@ -32,6 +32,7 @@ from garage2usd.layout.fittings import cones, speed_bumps, tube_lights
 from garage2usd.layout.floor.drains import drains
 from garage2usd.layout.floor.panels import drawn_markings_of, floor_panels
 from garage2usd.layout.floor.puddles import puddles
+from garage2usd.layout.floor.repairs import floor_repairs
 from garage2usd.layout.floor.stains import floor_stains
 from garage2usd.layout.floor.stall_numbers import stall_numbers
 from garage2usd.layout.garage_stalls import garage_stalls
@@ -351,6 +352,8 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield (floors := floor_panels(grid, look.markings, drawn, bumps=bumps, crossings=crossings, cores=core_on))
         yield (drained := list(drains(grid, floors, look.floor.drains)))
         yield floor_stains(grid, floors, stalls, fittings, draws, look.floor.dirt, drained)
+        if look.floor.finish is FloorFinish.PATCHED:
+            yield floor_repairs(floors, draws, drained)
         yield puddles(grid, look.floor.wet, drained, bumps, draws)
         # a coat on the stalls covers what was painted before it
         yield stall_panels(stalls, look.markings, grid, drawn.ghosts if look.floor.bays == AISLE else {})

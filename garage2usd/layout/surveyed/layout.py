@@ -13,11 +13,13 @@ from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
+from garage2usd.config.look import FloorFinish
 from garage2usd.garage import LaneGraph, LaneKind, Stall
 from garage2usd.layout import Layout
 from garage2usd.layout.ceiling.lamps import TUBE, installed_lamps, ramp_lamps
 from garage2usd.layout.ceiling.lighting import lane_points_of, light_up
 from garage2usd.layout.draws import SquareDraws
+from garage2usd.layout.floor.repairs import floor_repairs
 from garage2usd.layout.floor.stall_numbers import stall_numbers
 from garage2usd.layout.garage_stalls import stall_quads
 from garage2usd.layout.parking.designation import chargers
@@ -190,7 +192,9 @@ def lay_out_survey(
     )
 
     def parts() -> Iterator[Iterable[Placement]]:
-        yield surveyed_floor(ground, network, stalls)
+        yield (floors := list(surveyed_floor(ground, network, stalls)))
+        if look.floor.finish is FloorFinish.PATCHED:
+            yield floor_repairs(floors, draws)
         yield bare_stall_panels(stalls, look.markings)
         yield wheel_stops(stalls, fittings, config.standard)
         yield [*parked.cars, *number_plates(stalls, parked.cars, draws, country)]
