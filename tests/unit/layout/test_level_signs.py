@@ -89,6 +89,7 @@ def test_no_sign_of_a_ramp_hides_another_one_from_its_readers(built):
             assert share_hidden(eyes, points, faces) < 0.1, sign
 
 
+@pytest.mark.parametrize("built", ["straight"], indirect=True)
 def test_maps_have_the_signs_that_forbid_to_enter_ramps(built, tmp_path):
     _, judge = built
     (road,) = export(judge.judge.stage.GetRootLayer().realPath, [tmp_path / "g.xodr"])
