@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, LookConfig
-from garage2usd.config.look import AISLE
+from garage2usd.config.look import AISLE, FloorFinish
 from garage2usd.config.plan import DeadEnds, UnreachableStalls
 from garage2usd.garage import LaneGraph, Stall, StallUse
 from garage2usd.layout.ceiling.beams import beams, ceiling_levels
@@ -31,6 +31,7 @@ from garage2usd.layout.fittings import cones, speed_bumps, tube_lights
 from garage2usd.layout.floor.drains import drains
 from garage2usd.layout.floor.panels import drawn_markings_of, floor_panels
 from garage2usd.layout.floor.puddles import puddles
+from garage2usd.layout.floor.repairs import floor_repairs
 from garage2usd.layout.floor.stains import floor_stains
 from garage2usd.layout.floor.stall_numbers import stall_numbers
 from garage2usd.layout.floor_area import FloorArea
@@ -52,7 +53,7 @@ from garage2usd.layout.shell.boards import with_boards
 from garage2usd.layout.shell.building import columns, corner_columns, ground_inside, outer_walls
 from garage2usd.layout.shell.fire_shutters import fire_shutters
 from garage2usd.layout.shell.mounts import mounted_objects
-from garage2usd.layout.shell.ramps import barriers, ramp_lights, with_ramps
+from garage2usd.layout.shell.ramps import ramp_lights, with_barriers, with_ramps
 from garage2usd.layout.shell.well import Well
 from garage2usd.layout.shell.zone_plates import zone_plates
 from garage2usd.layout.signs import country_of, with_signs_of
@@ -364,6 +365,8 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield (floors := floor_panels(grid, look.markings, drawn, bumps=bumps, crossings=crossings, cores=core_on))
         yield (drained := list(drains(grid, floors, look.floor.drains)))
         yield floor_stains(grid, floors, stalls, fittings, draws, look.floor.dirt, drained)
+        if look.floor.finish is FloorFinish.PATCHED:
+            yield floor_repairs(floors, draws, drained)
         yield puddles(grid, look.floor.wet, drained, bumps, draws)
         # a coat on the stalls covers what was painted before it
         yield stall_panels(stalls, look.markings, grid, drawn.ghosts if look.floor.bays == AISLE else {})
@@ -387,8 +390,8 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield level_signs(grid, graph, fittings, levels, well) if well else ()
         yield mirrors(grid, pillars, fittings, levels)
 
-        yield (walls := with_ramps(shell, ground_inside(structure), fittings, look.walls))
-        yield (gates := barriers(walls, fittings))
+        walls, gates = with_barriers(with_ramps(shell, ground_inside(structure), fittings, look.walls), fittings)
+        yield from (walls, gates)
         tubes = ramp_lights(walls, fittings)
         if well:
             yield (guards := well.walls(structure, fittings, look.walls))
@@ -454,7 +457,14 @@ def _used_stalls(
         limit_mm = min(DEAD_END_LIMIT_MM, round(clause.amount * 1000) if clause else DEAD_END_LIMIT_MM)
         long_ends = [end for end in dead_ends(grid.structure, limit_mm) if end.needs_turning_stall]
         stalls = with_turning_stalls(stalls, grid, long_ends)
-    return with_designated_stalls(stalls, _foot_exits(grid, cores, no_ways_out), config.parking, config.standard)
+    portals = {*grid.structure.where(Cell.ENTRANCE), *grid.structure.where(Cell.EXIT)}
+    return with_designated_stalls(
+        stalls,
+        _foot_exits(grid, cores, no_ways_out),
+        config.parking,
+        config.standard,
+        ways_in_and_out=portals.union(*(graph.graph[portal] for portal in portals)),
+    )
 
 
 def _crossings(grid: TileGrid, cores: Iterable[Core]) -> dict[Square, float]:
