@@ -124,6 +124,8 @@ class LevelsBuild:
         Seconds that each step took.
     findings
         Findings of the quick rules on each level, errors first; None for more than 10,000 stalls.
+    unmet
+        The clauses of its profile that each level is not designed to; None likewise.
     """
 
     garage: LevelsGarage
@@ -135,6 +137,7 @@ class LevelsBuild:
     shared_assets: Path | None
     seconds: dict[str, float]
     findings: tuple[tuple[Finding, ...], ...] | None
+    unmet: tuple[tuple[UnmetClause, ...], ...] | None
 
 
 def generate_levels(
@@ -246,6 +249,7 @@ def build_levels(
         shared_assets=shared,
         seconds=seconds,
         findings=None if judged is None else tuple(tuple(findings) for findings, _ in judged),
+        unmet=None if unmet is None else tuple(unmet),
     )
 
 

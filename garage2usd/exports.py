@@ -27,13 +27,14 @@ from garage2usd.maps.parking_areas import NETWORK_SUFFIX, write_parking_areas
 from garage2usd.maps.road_builder import network_of
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.pipeline import build
-from garage2usd.reading.files import STAGE_SUFFIXES, open_stage
+from garage2usd.reading.files import STAGE_SUFFIXES
 from garage2usd.reading.levels import levels_of
 from garage2usd.reading.objects import PlacedObject
 from garage2usd.reading.remarks import Remarks
 from garage2usd.reading.report import read_report
 from garage2usd.reading.values import metres_y_up
 from garage2usd.reading.walk import placed_objects
+from garage2usd.reading.whole_garage import open_garage
 
 __all__ = ["EXPORT_SUFFIXES", "check_exports", "check_formats", "export", "without_lacking"]
 
@@ -49,7 +50,7 @@ class _Source:
     """An open stage; its garage, objects and road network are read once for all formats."""
 
     def __init__(self, stage: Path, name: str) -> None:
-        self.name, self.stage = name, open_stage(stage)
+        self.name, self.stage = name, open_garage(stage)
 
     def read_for(self, formats: Sequence[str]) -> None:
         """Read the data that several files need, so that forks of this process share it."""

@@ -19,6 +19,7 @@ from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
 from garage2usd.driving import StallProof, prove_stalls, with_truth_of_misparked
 from garage2usd.layout.surveyed import SurveyedLayout, lay_out_survey
+from garage2usd.reading.report import UnmetClause
 from garage2usd.stage import StageFormat, arrangement_of, shared_folder, write_labels, write_stage
 from garage2usd.survey.alignment import Alignment, aligned
 from garage2usd.survey.medial_lanes import with_medial_lanes
@@ -49,7 +50,10 @@ class ImportedGarage:
     stage, report, labels, plan
         The files: the USD stage, a JSON report, a JSON table of all objects, and a picture from above.
     findings
-        What the garage misses of its profile, by the rules that are quick, errors first.
+        What the garage misses of its profile, errors first: by all rules but those of USD, without proofs by the quick
+        ones.
+    unmet
+        The clauses of its profile that it misses, or that nothing checks.
     """
 
     config: GarageConfig
@@ -61,6 +65,7 @@ class ImportedGarage:
     labels: Path
     plan: Path
     findings: tuple[Finding, ...]
+    unmet: tuple[UnmetClause, ...]
 
 
 @without_collector()
@@ -112,7 +117,7 @@ def import_layout(
     assert isinstance(truthful, SurveyedLayout)
     layout = truthful
     proofs = prove_stalls(layout, progress=progress) if proves else ()
-    findings = tuple(judged_layout(layout, config)[0])
+    findings, unmet = judged_layout(layout, config, with_ways=proves)
     metadata = _metadata(source, config)
     with staging_folder(path) as staging:
         folder = staging / "stage"
@@ -138,7 +143,7 @@ def import_layout(
         publish_at(place_of | {made.stage: path})
     beside = {file: path.with_name(file.name) for file in (report, labels, plan)}
     return ImportedGarage(
-        config, layout, alignment, proofs, path, beside[report], beside[labels], beside[plan], findings
+        config, layout, alignment, proofs, path, beside[report], beside[labels], beside[plan], tuple(findings), unmet
     )
 
 

@@ -9,18 +9,21 @@ from typing import NamedTuple
 
 import networkx as nx
 import numpy as np
-from pxr import Usd
+from pxr import Usd, Vt
 
+from garage2usd.as_built.attached_levels import FoundLevel, attached_levels, numbers_of_levels, sloped_nodes
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.layout_reader import garage_of_layout
 from garage2usd.as_built.ramp_line import RampLine
 from garage2usd.as_built.shapes import Thing
 from garage2usd.as_built.stage_reader import garage_of_stage
-from garage2usd.garage import LaneGraph, Point, Stall
+from garage2usd.common.errors import StageError
+from garage2usd.garage import Fault, LaneGraph, Point, Stall
 from garage2usd.garage.joined_levels import JoinedLevels
 from garage2usd.objects.ramp import KIND as RAMP
 from garage2usd.reading.lanes import read_lanes
-from garage2usd.reading.levels import StageLevel, level_stage, levels_of
+from garage2usd.reading.levels import StageLevel, level_stage, levels_of, placed_level
+from garage2usd.reading.whole_garage import LEVELS, garage_root
 from garage2usd.stage.levels import LevelLayout
 
 __all__ = ["BuiltLevel", "BuiltLevels", "built_levels", "laid_out_levels"]
@@ -72,17 +75,20 @@ class BuiltLevels:
         The stalls of all levels.
     levels
         The levels, the top one first.
+    faults
+        Levels and ramps of the file that do not fit together.
     """
 
     source: str
     lanes: LaneGraph
     stalls: tuple[Stall, ...]
     levels: tuple[BuiltLevel, ...]
+    faults: tuple[Fault, ...] = ()
 
     @cached_property
     def ramp_nodes(self) -> tuple[int, ...]:
         """Numbers of the lane nodes at the ends of edges that rise or fall, the landings included."""
-        return tuple(sorted(_sloped_nodes(self.lanes)))
+        return tuple(sorted(sloped_nodes(self.lanes)))
 
     @cached_property
     def ramp_lines(self) -> tuple[RampLine, ...]:
@@ -114,22 +120,42 @@ class BuiltLevels:
 
 
 def built_levels(stage: Usd.Stage, source: str | Path) -> BuiltLevels | None:
-    """Read a garage of several levels from an open stage; None from a garage of one level."""
+    """Read a garage of several levels from an open stage; None from a garage of one level.
+
+    Parameters
+    ----------
+    stage
+        The stage, opened by `garage2usd.reading.whole_garage.open_garage`.
+    source
+        File of the stage.
+
+    Raises
+    ------
+    StageError
+        If none of its levels is active, or one cannot be read.
+    """
+    root = garage_root(stage)
     places = levels_of(stage)
     if not places:
+        if root and root.GetChild(LEVELS):
+            raise StageError(source, f"{root.GetPath()}/{LEVELS} has no active level")
         return None
-    whole = read_lanes(stage)
+    whole, told = read_lanes(stage), root.GetCustomDataByKey("levels")
+    names = [*map(str, told)] if isinstance(told, Sequence | Vt.StringArray) else []
     ahead = _towards_ramps(whole.graph)
     levels = []
-    for number, place in enumerate(places):
+    numbers = numbers_of_levels(names, [place.name for place in places])
+    for place, number in zip(places, numbers, strict=True):
         garage = garage_of_stage(level_stage(stage, place), source=str(source))
         landings = {
             node.name: ahead[key]
             for node in garage.lanes.nodes
             if node.is_portal and (key := _key(node.position, number)) in ahead
         }
-        levels.append(BuiltLevel(place, replace(garage, landings=landings)))
-    return _with_ramps(BuiltLevels(str(source), whole.graph, tuple(whole.stalls), tuple(levels)))
+        levels.append(FoundLevel(place, number, replace(garage, landings=landings), placed_level(stage, place)))
+    joined = attached_levels(whole, names, levels)
+    built = tuple(BuiltLevel(level.place, level.garage) for level in levels)
+    return _with_ramps(BuiltLevels(str(source), joined.lanes, joined.stalls, built, joined.faults))
 
 
 def laid_out_levels(layouts: Sequence[LevelLayout], joined: JoinedLevels, *, source: str) -> BuiltLevels:
@@ -177,17 +203,10 @@ def _way_beyond_m(built: BuiltLevels) -> list[dict[str, float]]:
     return found
 
 
-def _sloped_nodes(lanes: LaneGraph) -> set[int]:
-    """Return the numbers of the nodes at the ends of edges that rise or fall."""
-    nodes = lanes.nodes
-    sloped = (edge for edge in lanes.edges if abs(nodes[edge.start].height_m - nodes[edge.end].height_m) > _RISE_M)
-    return {number for edge in sloped for number in (edge.start, edge.end)}
-
-
-def _towards_ramps(lanes: LaneGraph) -> dict[tuple[float, float, int], Point]:
+def _towards_ramps(lanes: LaneGraph) -> dict[tuple[float, float, int | None], Point]:
     """Return the unit vector from each landing towards its ramp, by the place and level of the landing."""
     nodes = lanes.nodes
-    on_ramps = _sloped_nodes(lanes)
+    on_ramps = sloped_nodes(lanes)
     level_ends = on_ramps | {number for on in on_ramps for number in lanes.beside[on]}
     found = {}
     for end in level_ends:
@@ -199,7 +218,7 @@ def _towards_ramps(lanes: LaneGraph) -> dict[tuple[float, float, int], Point]:
     return found
 
 
-def _key(position: Point, level: int) -> tuple[float, float, int]:
+def _key(position: Point, level: int | None) -> tuple[float, float, int | None]:
     return round(position[0], _SAME_PLACE_DIGITS), round(position[1], _SAME_PLACE_DIGITS), level
 
 

@@ -247,8 +247,9 @@ class Body(NamedTuple):
     def faces(self) -> Iterator[Face]:
         """Return the placed mesh's faces with an area, their normals by Newell's method."""
         found = self.facets()
-        for normal, corners in zip(found.normals, np.split(found.corners, np.cumsum(found.counts)[:-1]), strict=True):
-            yield Face(normal, corners)
+        starts = np.cumsum(found.counts) - found.counts
+        for normal, start, count in zip(found.normals, starts.tolist(), found.counts.tolist(), strict=True):
+            yield Face(normal, found.corners[start : start + count])
 
     def facets(self) -> "Facets":
         """All faces of the placed mesh with an area, in columns."""

@@ -16,11 +16,11 @@ from garage2usd.layout import Placement
 from garage2usd.layout.ceiling.lighting import MAINTENANCE, direct_lux, lane_points_of
 from garage2usd.layout.placement import of_spec
 from garage2usd.objects.lamp import LampSpec
-from garage2usd.reading.files import open_stage
 from garage2usd.reading.lanes import Lanes, moved_stalls, read_lanes
 from garage2usd.reading.levels import refuse_levels
 from garage2usd.reading.lights import LightSource
 from garage2usd.reading.objects import PlacedObject
+from garage2usd.reading.whole_garage import garage_root, open_garage
 from garage2usd.structure.grid import Structure, cells_from_text
 
 __all__ = ["garage_of_file", "garage_of_opened", "garage_of_stage", "profile_name"]
@@ -41,7 +41,7 @@ def garage_of_file(path: Path) -> BuiltGarage:
     StageError
         If the stage cannot be opened.
     """
-    return garage_of_opened(open_stage(path), path)
+    return garage_of_opened(open_garage(path), path)
 
 
 def garage_of_opened(stage: Usd.Stage, path: Path) -> BuiltGarage:
@@ -83,7 +83,8 @@ def garage_of_stage(
     ground, contents = read_lanes(stage), read_contents(stage, objects)
     structure = _structure(stage)
     lamps = [light.source for light in contents.lights if light.source.kind in _LAMPS]
-    lane_lux, stall_lux = _illuminances(ground, contents.lights, structure) if is_judged else (None, None)
+    margin_m = 0.0 if _is_imported(stage) else _LANE_MARGIN_M
+    lane_lux, stall_lux = _illuminances(ground, contents.lights, structure, margin_m) if is_judged else (None, None)
     return BuiltGarage(
         source=source,
         kind="stage",
@@ -103,14 +104,21 @@ def garage_of_stage(
 
 def profile_name(stage: Usd.Stage) -> str | None:
     """Return the name of the design profile in a stage."""
-    prim = stage.GetDefaultPrim()
+    prim = garage_root(stage)
     name = prim.GetCustomDataByKey("profile") if prim else None
     return name if isinstance(name, str) else None
 
 
+def _is_imported(stage: Usd.Stage) -> bool:
+    """Return True for the stage of an imported layout, which has no squares."""
+    prim = garage_root(stage)
+    data: Mapping[str, object] = prim.GetCustomData() if prim else {}
+    return data.get("generator") == "garage2usd" and "structureDigest" not in data
+
+
 def _structure(stage: Usd.Stage) -> Structure | None:
     """Read S, R and C from the default prim's customData, if they are consistent."""
-    prim = stage.GetDefaultPrim()
+    prim = garage_root(stage)
     data: Mapping[str, object] = prim.GetCustomData() if prim else {}
     drawing, widths, depths = (data.get(name) for name in ("S", "R", "C"))
     if not isinstance(drawing, str) or widths is None or depths is None:
@@ -124,7 +132,7 @@ def _structure(stage: Usd.Stage) -> Structure | None:
 
 def _compartments(stage: Usd.Stage, structure: Structure | None) -> NDArray[np.int32] | None:
     """Read the fire compartment of each square from the default prim's customData, if it has one per square of S."""
-    prim = stage.GetDefaultPrim()
+    prim = garage_root(stage)
     declared = prim.GetCustomDataByKey("fireCompartments") if prim else None
     if structure is None or declared is None:
         return None
@@ -136,14 +144,14 @@ def _compartments(stage: Usd.Stage, structure: Structure | None) -> NDArray[np.i
 
 
 def _illuminances(
-    ground: Lanes, lights: Iterable[PlacedLight], structure: Structure | None
+    ground: Lanes, lights: Iterable[PlacedLight], structure: Structure | None, margin_m: float
 ) -> tuple[float | None, float | None]:
     """Compute the mean direct illuminance of lanes and stalls: panels as in the layout, other lights as points."""
     shining = [light for light in lights if light.source.candela > 0]
     panels = [light for light in shining if _is_panel(light.source)]
     lamps = [light for light in shining if not _is_panel(light.source)]
     lanes = [
-        (node.position, _sides_m(square, node.widths_m, structure))
+        (node.position, _sides_m(square, node.widths_m, structure, margin_m))
         for node, square in zip(ground.nodes, ground.squares, strict=True)
         if not node.is_portal
     ]
@@ -202,9 +210,11 @@ def _lamp_lux(points: NDArray[np.float64], lamp: PlacedLight) -> NDArray[np.floa
     return lux
 
 
-def _sides_m(square: Point, widths_m: tuple[float, float], structure: Structure | None) -> tuple[float, float]:
+def _sides_m(
+    square: Point, widths_m: tuple[float, float], structure: Structure | None, margin_m: float
+) -> tuple[float, float]:
     """Return the extent of a lane square along X and Z."""
     row, col = int(square[0]), int(square[1])
     if structure is not None and 0 <= row < structure.shape[0] and 0 <= col < structure.shape[1]:
         return float(structure.column_widths_mm[col]) / 1000, float(structure.row_depths_mm[row]) / 1000
-    return widths_m[0] + _LANE_MARGIN_M, widths_m[1] + _LANE_MARGIN_M
+    return widths_m[0] + margin_m, widths_m[1] + margin_m

@@ -1,5 +1,6 @@
 """Checks of a garage against a standard, feasibility and USD, reported as findings instead of exceptions."""
 
+from collections.abc import Iterable
 from pathlib import Path
 
 from garage2usd.as_built.garage import BuiltGarage
@@ -25,7 +26,7 @@ from garage2usd.checks import (
 )
 from garage2usd.checks.finding import Finding, Severity, as_json, as_table
 from garage2usd.checks.rule import Rule
-from garage2usd.checks.unmet import not_checked_lines, unmet_clauses
+from garage2usd.checks.unmet import clauses_in_words, found_in_words, not_checked_lines, unmet_clauses
 from garage2usd.common.documents import is_file
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
@@ -44,6 +45,9 @@ __all__ = [
     "check",
     "check_file",
     "check_layout",
+    "clauses_checked",
+    "clauses_in_words",
+    "found_in_words",
     "judged_layout",
     "not_checked",
     "not_checked_lines",
@@ -95,6 +99,12 @@ def not_checked(garage: BuiltGarage, profile: Profile) -> dict[str, str]:
     return reasons
 
 
+def clauses_checked(profile: Profile, left_out: Iterable[str] = ()) -> int:
+    """Count the clauses of a profile that rules ask for, without those that cannot be checked on a garage."""
+    asked = {clause for rule in RULES for clause in rule.clauses[: rule.asking]}
+    return len(asked.intersection(name for name, _ in profile.clauses()).difference(left_out))
+
+
 def check_layout(layout: Layout, config: GarageConfig) -> list[Finding]:
     """Return the findings of a generated layout under its profile, errors first.
 
@@ -105,10 +115,16 @@ def check_layout(layout: Layout, config: GarageConfig) -> list[Finding]:
     return judged_layout(layout, config)[0]
 
 
-def judged_layout(layout: Layout, config: GarageConfig) -> tuple[list[Finding], tuple[UnmetClause, ...]]:
-    """Check a layout as `check_layout` does, and return also the profile clauses that the garage does not meet."""
+def judged_layout(
+    layout: Layout, config: GarageConfig, *, with_ways: bool = False
+) -> tuple[list[Finding], tuple[UnmetClause, ...]]:
+    """Check a layout as `check_layout` does, and return also the profile clauses that the garage does not meet.
+
+    With ways it proves too that a car drives into each stall, so that its findings are those of its stage.
+    """
     garage = garage_of_layout(layout, source="", kind="report")
-    found = (finding for rule in RULES if rule not in _LONG for finding in rule.findings(garage, config.standard))
+    left_out = usd.BOOK.rules if with_ways else _LONG
+    found = (finding for rule in RULES if rule not in left_out for finding in rule.findings(garage, config.standard))
     findings = sorted(found, key=Finding.sort_key)
     return findings, unmet_clauses(findings, not_checked(garage, config.standard))
 

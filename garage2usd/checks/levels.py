@@ -3,11 +3,13 @@
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.as_built.driven_ground import CAR_HEIGHT_M
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.levels import BuiltLevels, built_levels
 from garage2usd.as_built.stage_reader import garage_of_opened, profile_name
@@ -17,12 +19,13 @@ from garage2usd.common.documents import is_file
 from garage2usd.common.errors import ConfigError
 from garage2usd.garage import LaneKind
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
-from garage2usd.reading.files import open_stage
 from garage2usd.reading.polygons import triangulated
+from garage2usd.reading.whole_garage import open_garage
 from garage2usd.sensors.rays.ray_caster import BoxTree
 
 __all__ = ["check_levels", "read_stage"]
 
+_STREET = LaneKind.ENTRANCE, LaneKind.EXIT
 _SIDE_ROOM_M = 0.5
 """Least distance in metres between the design car and the walls beside a ramp."""
 _STEP_M = 0.5
@@ -47,7 +50,7 @@ def read_stage(path: str | Path, *, profile: Profile | None = None) -> tuple[Bui
     path = Path(path)
     if not is_file(path):
         raise ConfigError("PATH", str(path), "an existing file")
-    stage = open_stage(path)
+    stage = open_garage(path)
     garage = built_levels(stage, path) or garage_of_opened(stage, path)
     name = profile_name(stage)
     return garage, profile or load_profile(name if name in PROFILE_NAMES else DEFAULT_PROFILE)
@@ -72,12 +75,30 @@ def check_levels(garage: BuiltLevels, profile: Profile, rules: tuple[Rule, ...])
         for finding in rule.findings(level.garage, profile)
     ]
     found += [
+        *(Finding(fault.rule, Severity.ERROR, fault.place, fault.message, fault.position) for fault in garage.faults),
+        *_floors(garage, profile),
         *_routes(garage),
         *_portals(garage, profile),
         *_ramp_clearances(garage, profile),
         *_ramp_bends(garage, profile),
     ]
     return sorted(found, key=Finding.sort_key)
+
+
+def _floors(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
+    """Yield floors that lie closer together than the clear height, and levels that no ramp leads to."""
+    required = CAR_HEIGHT_M if profile.clear_height is None else profile.clear_height.amount
+    places = sorted((level.place for level in garage.levels), key=lambda place: -place.floor_m)
+    for upper, lower in pairwise(places):
+        apart_m = upper.floor_m - lower.floor_m
+        if apart_m < required - ROUNDING_M:
+            said = f"the floors of {upper.name} and {lower.name} lie too close together"
+            yield Finding("level-height", Severity.ERROR, lower.name, said, None, round(apart_m, 4), required, "m")
+    nodes = garage.lanes.nodes
+    led = {nodes[number].level for ramp in garage.ramp_lines for number in (ramp.nodes[0], ramp.nodes[-1])}
+    for number, level in enumerate(garage.levels):
+        if number not in led and not any(nodes[portal].level == number for portal in garage.lanes.portals(*_STREET)):
+            yield Finding("level-ramp", Severity.ERROR, level.place.name, "no ramp leads to this level")
 
 
 def _routes(garage: BuiltLevels) -> Iterator[Finding]:
@@ -96,7 +117,7 @@ def _portals(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
     """Yield a finding if there are too few entrances and exits on the street for the stalls of all levels."""
     if profile.portals is None:
         return
-    count = len(garage.lanes.portals(LaneKind.ENTRANCE, LaneKind.EXIT))
+    count = len(garage.lanes.portals(*_STREET))
     stalls = sum(stall.takes_cars for stall in garage.stalls)
     required = profile.portals.required(stalls)
     if count < required:
@@ -116,7 +137,10 @@ def _ramp_clearances(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]
     """Yield the lowest place and the narrowest place of each ramp between levels that misses the requirement."""
     for ramp in garage.ramp_lines:
         name, points = garage.lanes.nodes[ramp.sloped[0]].name, _sampled(ramp.slope)
-        caster, corners = _caster(garage, points)
+        corners = _near(garage, points)
+        if not len(corners):
+            continue
+        caster = BoxTree(corners.reshape(-1, 3), np.arange(len(corners) * 3, dtype=np.int32).reshape(-1, 3))
         ahead = np.diff(points, axis=0, append=points[-1:] * 2 - points[-2:-1])[:, [0, 2]]
         ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
         up = np.tile([0.0, 1.0, 0.0], (len(points), 1))
@@ -190,10 +214,10 @@ def _sampled(line: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack([np.interp(places, along, line[:, axis]) for axis in range(3)], axis=1)
 
 
-def _caster(garage: BuiltLevels, points: NDArray[np.float64]) -> tuple[BoxTree, NDArray[np.float64]]:
-    """Return a ray caster on the triangles around some points, and the corners of these; shape (triangles, 3, 3)."""
+def _near(garage: BuiltLevels, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the corners of the triangles around some points; float64, shape (triangles, 3, 3)."""
     low, high = points.min(axis=0) - _FAR_M, points.max(axis=0) + _FAR_M
-    parts = []
+    parts = [np.zeros((0, 3, 3))]
     for body in (body for thing in garage.things for body in thing.bodies):
         at = body.matrix[3, :3]
         if np.any(at + body.shape.reach * 2 < low) or np.any(at - body.shape.reach * 2 > high):
@@ -202,8 +226,7 @@ def _caster(garage: BuiltLevels, points: NDArray[np.float64]) -> tuple[BoxTree, 
         triangles = body.world_points()[body.shape.indices[corners]]
         is_near = ((triangles.max(axis=1) >= low) & (triangles.min(axis=1) <= high)).all(axis=1)
         parts.append(triangles[is_near])
-    triangles = np.concatenate(parts)
-    return BoxTree(triangles.reshape(-1, 3), np.arange(len(triangles) * 3, dtype=np.int32).reshape(-1, 3)), triangles
+    return np.concatenate(parts)
 
 
 def _distances(

@@ -1,11 +1,15 @@
 """The profile clauses that a garage does not meet: those violated, and those without a possible check."""
 
-from collections.abc import Iterable, Mapping
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 
 from garage2usd.checks.finding import Finding, figure
 from garage2usd.reading.report import UnmetClause
 
-__all__ = ["not_checked_lines", "unmet_clauses"]
+__all__ = ["clauses_in_words", "found_in_words", "not_checked_lines", "unmet_clauses"]
+
+_RULES_NAMED = 3
+_SEVERITIES = (("error", "error"), ("warning", "warning"), ("info", "remark"))
 
 
 def unmet_clauses(findings: Iterable[Finding], not_checked: Mapping[str, str]) -> tuple[UnmetClause, ...]:
@@ -28,6 +32,22 @@ def unmet_clauses(findings: Iterable[Finding], not_checked: Mapping[str, str]) -
         for clause, reason in not_checked.items()
     ]
     return tuple(sorted(entries, key=lambda entry: entry.clause))
+
+
+def clauses_in_words(count: int, name: str) -> str:
+    """Tell how many clauses of the profile of a name were checked."""
+    return f"{count or 'no'} clause{'' if count in {0, 1} else 's'} of {name} checked"
+
+
+def found_in_words(findings: Sequence[Finding], clauses: int, name: str) -> str:
+    """Sum up a check: the number of clauses of a profile that were checked, and what was found by which rules."""
+    told = clauses_in_words(clauses, name)
+    counts = Counter(finding.severity.value for finding in findings)
+    parts = [f"{counts[key]} {word}{'' if counts[key] == 1 else 's'}" for key, word in _SEVERITIES if counts[key]]
+    if not parts:
+        return f"{told}: nothing found" if clauses else told
+    rules = list(dict.fromkeys(finding.rule for finding in findings))[:_RULES_NAMED]
+    return f"{told}: {', '.join(parts)} ({', '.join(rules)})"
 
 
 def not_checked_lines(not_checked: Mapping[str, str]) -> list[str]:

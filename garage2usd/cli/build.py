@@ -1,7 +1,6 @@
 """The command ``garage2usd build``."""
 
 import sys
-from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,17 +19,20 @@ from garage2usd.cli.parameters import (
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
     from garage2usd.checks import Finding
     from garage2usd.config import GarageConfig
     from garage2usd.config.maps import MapsConfig
     from garage2usd.layout import Layout
     from garage2usd.pipeline import Build
+    from garage2usd.planning import Score
+    from garage2usd.reading.report import UnmetClause
+    from garage2usd.structure.grid import Structure
 
 __all__ = ["build"]
 
-_RULES_NAMED, _COLUMNS_NAMED = 3, 3
+_COLUMNS_NAMED = 3
 
 
 @click.command(short_help="Build a garage and write it as a USD stage.")
@@ -153,7 +155,9 @@ def _build_levels(
     garage = made.garage
     for number, (name, level) in enumerate(zip(garage.building.names(), garage.levels, strict=True)):
         counts, layout = level.layout.counts(), level.layout
-        found = "" if made.findings is None else f"; check: {_counted(made.findings[number])}"
+        found = ""
+        if made.findings is not None and made.unmet is not None:
+            found = f"; {_found(level.config, made.findings[number], made.unmet[number])}"
         text = f"{layout.parking_stalls} stalls, {counts['car']} with a car, {len(layout.cores)} cores{found}"
         lines.append((name, f"floor at {garage.building.floor_m(number):g} m, {text}"))
     lines += [
@@ -186,14 +190,6 @@ def _say_replaced(earlier: frozenset[str], *files: Path) -> None:
         echo_table([("replaced", f"{', '.join(replaced)} of before; -o FILE names others")])
 
 
-def _counted(findings: "Iterable[Finding]") -> str:
-    """Count the findings of a check in words."""
-    counts = Counter(finding.severity.value for finding in findings)
-    words = (("error", "error"), ("warning", "warning"), ("info", "remark"))
-    parts = [f"{counts[key]} {word}{'' if counts[key] == 1 else 's'}" for key, word in words if counts[key]]
-    return ", ".join(parts) or "nothing found"
-
-
 def _exports(output: Path, formats: str | None, settings: "MapsConfig") -> tuple[tuple[Path, ...], tuple[str, ...]]:
     """Paths of the exports beside a stage, validated before the garage is made; a line on each that lacks its extra."""
     if formats is None:
@@ -217,6 +213,7 @@ def _describe(made: "Build") -> None:
     lines = [
         ("squares", f"{rows} x {cols}, {counts['floor']} inside"),
         ("stalls", f"{layout.parking_stalls} ({layout.uses_in_words()}), {counts['car']} with a car"),
+        *_planned(made),
         *_columns(made),
         ("cores", f"{len(layout.cores)} in the place of {_displaced(layout)} stalls; {parts}"),
         ("light", _lit(made)),
@@ -238,21 +235,35 @@ def _describe(made: "Build") -> None:
     echo_table(lines)
 
 
+def _planned(made: "Build") -> list[tuple[str, str]]:
+    """Tell what became of the plan's stalls, which cores, access aisles and turning stalls take some of."""
+    layout, planned = made.garage.layout, made.garage.plan.score.stalls
+    kept_free, for_cores = layout.kept_free_stalls, _displaced(layout)
+    others = planned - layout.parking_stalls - kept_free - for_cores
+    if planned == layout.parking_stalls:
+        return []
+    became = [(f"{kept_free} kept free", kept_free), (f"{for_cores} given to cores", for_cores)]
+    became.append((f"{abs(others)} {'fewer' if others > 0 else 'more'} by size classes", others))
+    told = ", ".join(words for words, count in became if count)
+    return [("planned", f"{planned} (N_S): {layout.parking_stalls} to park in, {told}")]
+
+
 def _learnt(made: "Build") -> list[tuple[str, str]]:
-    """Results of learning alone, and of hill climbing."""
+    """Scores of the learnt plan and, after hill climbing, of the polished one."""
     from garage2usd.planning import dimensioned, evaluate  # noqa: PLC0415 - keeps --help instant
 
     plan, config = made.garage.plan, made.garage.config
     if plan.learnt is None:
         return []
     found = dimensioned(plan.learnt.structure, config.bay)
-    stalls = evaluate(found, bay=config.bay, plan=config.plan).stalls
-    learnt, made_it = (
-        f"N_S {count} on {structure.floor_m2:.0f} m2"
-        for count, structure in ((stalls, found), (plan.score.stalls, plan.structure))
-    )
-    polished = "polish kept it" if plan.learnt.structure == plan.archive[0].structure else f"polish made it {made_it}"
-    return [("learning", f"found a plan of {learnt}; {polished}")]
+    learnt = _scored(evaluate(found, bay=config.bay, plan=config.plan), found)
+    if plan.learnt.structure == plan.archive[0].structure:
+        return [("learning", f"{learnt}; polish found no better one")]
+    return [("learning", f"{learnt}; polished: {_scored(plan.score, plan.structure)}")]
+
+
+def _scored(score: "Score", structure: "Structure") -> str:
+    return f"score {score.value:.2f} with {score.stalls} stalls planned on {structure.floor_m2:.0f} m2"
 
 
 def _columns(made: "Build") -> list[tuple[str, str]]:
@@ -287,14 +298,21 @@ def _displaced(layout: "Layout") -> int:
 
 
 def _checked(made: "Build") -> str:
-    """Numbers of errors, warnings and remarks, and the command that lists them."""
-    against = f"against {made.garage.config.standard.name}"
+    """Number of clauses checked, what was found, and the command that lists it."""
     if made.findings is None:
         return f"not done here for so many stalls: garage2usd check {made.report}"
-    if not made.findings:
-        return f"nothing found {against}"
-    rules = list(dict.fromkeys(finding.rule for finding in made.findings))[:_RULES_NAMED]
-    return f"{_counted(made.findings)} {against} ({', '.join(rules)}): garage2usd check {made.report}"
+    found = _found(made.garage.config, made.findings, made.unmet or ())
+    return f"{found}: garage2usd check {made.report}" if made.findings else found
+
+
+def _found(config: "GarageConfig", findings: "Sequence[Finding]", unmet: "Iterable[UnmetClause]") -> str:
+    """Sum up the findings of a garage or a level."""
+    from garage2usd.checks import clauses_checked, found_in_words  # noqa: PLC0415 - keeps --help instant
+
+    profile = config.standard
+    return found_in_words(
+        findings, clauses_checked(profile, [entry.clause for entry in unmet if not entry.places]), profile.name
+    )
 
 
 def _dropped(made: "Build") -> str:

@@ -52,6 +52,7 @@ def check(ctx: click.Context, *, path: Path, profile: str | None, as_json: bool)
         document = {
             "path": str(path),
             "checked_against": against.name,
+            "clauses_checked": checks.clauses_checked(against, not_checked),
             "counts": {severity.value: counts[severity.value] for severity in checks.Severity},
             "findings": checks.as_json(findings),
             "not_checked": [{"clause": clause, "reason": reason} for clause, reason in not_checked.items()],
@@ -62,6 +63,7 @@ def check(ctx: click.Context, *, path: Path, profile: str | None, as_json: bool)
             click.echo(line)
         for line in checks.not_checked_lines(not_checked):
             click.echo(line)
+        click.echo(checks.clauses_in_words(checks.clauses_checked(against, not_checked), against.name))
         figures = ", ".join(f"{counts[severity.value]} {severity.value}" for severity in checks.Severity)
         click.echo(f"checked against {against.name}: {figures}")
     if counts["error"]:

@@ -79,18 +79,22 @@ def import_layout(
 
 
 def _describe(made: "ImportedGarage") -> None:
+    from garage2usd.checks import clauses_checked, found_in_words  # noqa: PLC0415 - keeps --help instant
+
     layout = made.layout
-    kinds = Counter(stall.kind.value for stall in layout.quads)
+    kinds = Counter(stall.kind.value for stall in layout.quads if stall.takes_cars)
+    of_kinds = ", ".join(f"{count} {kind}" for kind, count in kinds.most_common())
     rows = [
-        ("stalls", f"{layout.parking_stalls} ({', '.join(f'{count} {kind}' for kind, count in kinds.most_common())})"),
+        ("stalls", f"{layout.parking_stalls} ({of_kinds}); {layout.uses_in_words()}"),
         ("not placed", str(len(layout.unplaced))),
     ]
     if made.proofs:
         outcomes = Counter(proof.outcome.value for proof in made.proofs)
         rows.append(("driven", ", ".join(f"{count} {outcome}" for outcome, count in outcomes.most_common())))
-    if made.findings:
-        counts = Counter(finding.severity.value for finding in made.findings)
-        found = ", ".join(f"{count} {severity}" for severity, count in counts.most_common())
-        rows.append(("check", f"{found}: garage2usd check {made.stage}"))
+    profile = made.config.standard
+    clauses = clauses_checked(profile, [entry.clause for entry in made.unmet if not entry.places])
+    found = found_in_words(made.findings, clauses, profile.name)
+    ways = "" if made.proofs else ", without ways into stalls"
+    rows.append(("check", f"{found}{ways}: garage2usd check {made.stage}"))
     rows += [("stage", str(made.stage)), ("plan", str(made.plan)), ("report", str(made.report))]
     echo_table(rows)

@@ -96,7 +96,10 @@ class GarageConfig(Settings):
             If a key is unknown or a value is not allowed.
         """
         try:
-            super().__init__(**designed_settings(_standard(settings), settings))
+            standard = _standard(settings)
+            if isinstance(settings.get("profile"), Mapping):
+                settings["profile"] = standard.name if standard.name in PROFILE_NAMES else standard
+            super().__init__(**designed_settings(standard, settings))
         except ValidationError as error:
             raise config_error(error, GarageConfig) from None
 

@@ -82,6 +82,8 @@ class _Growth:
 
         A car that starts outside a door may turn as soon as it is in line with some place before the door's square.
         """
+        if not self._portals:
+            return None
         self._done[None] = ()
         self._grow_from(None, edges, 0.0)
         before = dict(self._roadmap.door_spots(door)) if door is not None else {}

@@ -232,6 +232,11 @@ class Layout:
         return int(self.stalls.takes_cars.sum())
 
     @property
+    def kept_free_stalls(self) -> int:
+        """Number of marked stalls that are kept free: access aisles, turning stalls and unreachable ones."""
+        return sum(not STALL_USES[use].is_parked_in for use in self.stalls.use.tolist())
+
+    @property
     def area_per_stall_m2(self) -> float:
         """Floor inside the contour, obstacles apart, for each stall that cars park in; infinite without any."""
         return self.structure.floor_m2 / self.parking_stalls if self.parking_stalls else math.inf

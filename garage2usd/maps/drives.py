@@ -110,6 +110,8 @@ class DrivePlanner:
         ConfigError
             If the stall does not exist, or no such route is found.
         """
+        if not (entrances and exits):
+            raise ConfigError("stall", stall, "a stall that lanes and ramps join with the street")
         lack = "a garage with a stall that a drive is found for"
         for candidate in self._in_order() if stall is None else [self._stall(stall)]:
             route = self.router.route(candidate, entrances=entrances, exits=exits)

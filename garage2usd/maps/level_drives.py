@@ -119,7 +119,11 @@ class LevelsDrivePlanner:
             )
         }
         found = None if stall is None else self._stall(stall)
-        level = len(self._garage.levels) - 1 if found is None else found.level
+        driven = self._garage.lanes.driven
+        joined = [each for each in self._garage.stalls if each.takes_cars and each.access in driven]
+        if not joined or (found is not None and found not in joined):
+            raise ConfigError("stall", stall, "a stall that lanes and ramps join with the street")
+        level = max(each.level for each in joined) if found is None else found.level
         planner = self._planner(level)
         route = planner.route_of(
             None if found is None else found.name.partition("/")[2],

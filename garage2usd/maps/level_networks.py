@@ -73,7 +73,11 @@ def level_networks(garage: BuiltLevels) -> tuple[LevelNetwork, ...]:
         network = _numbered(network_of(one), first, level.place.floor_m)
         first += len(network.roads) + len(network.junctions)
         found.append(LevelNetwork(one, network, level.place.floor_m))
-    for upper, lower in pairwise(found):
+    nodes = garage.lanes.nodes
+    linked = [{nodes[number].level for number in (line.nodes[0], line.nodes[-1])} for line in garage.ramp_lines]
+    for number, (upper, lower) in enumerate(pairwise(found)):
+        if {number, number + 1} not in linked:
+            continue
         rise_m = upper.floor_m - lower.floor_m
         tops = [end for end in _open_ends(lower.network) if abs(end.height_m - rise_m) < _LEVEL_M]
         landings = [end for end in _open_ends(upper.network) if abs(end.height_m) < _LEVEL_M]

@@ -1,8 +1,6 @@
 """Standards as data: the sizes that a garage is designed to and checked against, each with its source."""
 
-import tomllib
 from functools import cache
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -10,10 +8,11 @@ from garage2usd.common.documents import read_toml
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.settings import validated
 from garage2usd.profiles.clauses import Area, Clause, Confidence, Length, LengthRange, Severity, Steps
-from garage2usd.profiles.profile import Profile
+from garage2usd.profiles.profile import PROFILE_NAMES, Profile, nearest_profile, shipped_settings
 
 __all__ = [
     "DEFAULT_PROFILE",
+    "NO_PROFILE",
     "PROFILE_NAMES",
     "Area",
     "Clause",
@@ -29,8 +28,11 @@ __all__ = [
 ]
 
 DEFAULT_PROFILE = "cn-jgj100"
-PROFILE_NAMES = ("cn-jgj100", "de-garvo", "uk-istructe", "us-ada")
-"""Names of the shipped profiles."""
+NO_PROFILE = "none"
+"""Name of a profile without clauses, which requires nothing."""
+_WORDS = frozenset({"name", "title", "country"})
+"""Keys of a profile that are no clauses."""
+_ALLOWED = f"one of {', '.join(PROFILE_NAMES)}"
 
 
 def is_profile_file(name: str) -> bool:
@@ -58,22 +60,42 @@ def load_profile(name_or_file: str | Path, *, folder: Path | None = None) -> Pro
     if name in PROFILE_NAMES:
         return _shipped(name)
     if not is_profile_file(name):
-        raise ConfigError("profile", name, f"one of {', '.join(PROFILE_NAMES)}, or a path that ends in .toml")
+        raise ConfigError(
+            "profile", name, f"{_ALLOWED}, or a path that ends in .toml; the nearest is {nearest_profile(name)}"
+        )
     return read_profile(read_toml((folder or Path()) / name, field="profile"))
 
 
 def read_profile(settings: dict[str, Any]) -> Profile:
     """Validate a profile given as nested mappings, as TOML reads them.
 
+    Parameters
+    ----------
+    settings
+        A name and clauses, which with ``based_on`` replace those of a shipped profile or are added to them; or the name
+        of a shipped profile alone.
+
     Raises
     ------
     ConfigError
-        If a clause is unknown or its value is not allowed; names the clause, the value and the allowed ones.
+        If a clause is unknown or its value is not allowed; names the clause, the value and the allowed ones. If there
+        is no clause, and the name is that of no shipped profile; names the nearest one. If clauses of a shipped profile
+        are changed under its name.
     """
-    return validated(Profile, settings, within="profile")
+    profile = validated(Profile, settings, within="profile")
+    name, is_shipped = profile.name, profile.name in PROFILE_NAMES
+    if settings.keys() <= _WORDS:
+        if is_shipped:
+            return _shipped(name)
+        if name != NO_PROFILE:
+            allowed = f"{_ALLOWED}, or clauses beside the name, or '{NO_PROFILE}' for none"
+            raise ConfigError("profile.name", name, f"{allowed}; the nearest is {nearest_profile(name)}")
+    if is_shipped and dict(profile.clauses()) != dict(_shipped(name).clauses()):
+        allowed = f"another name where clauses differ from the shipped profile, and based_on = '{name}' to change some"
+        raise ConfigError("profile.name", name, allowed)
+    return profile
 
 
 @cache
 def _shipped(name: str) -> Profile:
-    text = (resources.files("garage2usd.profiles") / f"{name}.toml").read_text(encoding="utf-8")
-    return read_profile(tomllib.loads(text))
+    return validated(Profile, shipped_settings(name), within="profile")

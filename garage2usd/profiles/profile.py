@@ -1,8 +1,12 @@
 """A profile: the clauses of a standard, for the design and the checks of a garage."""
 
+import difflib
+import tomllib
 from collections.abc import Iterator
+from importlib import resources
+from typing import Any
 
-from pydantic import Field
+from pydantic import Field, field_validator, model_validator
 
 from garage2usd.common.settings import Settings
 from garage2usd.profiles.clauses import (
@@ -17,13 +21,26 @@ from garage2usd.profiles.clauses import (
     Steps,
 )
 
-__all__ = ["USUAL_CAR_LENGTH_M", "USUAL_CAR_WIDTH_M", "Profile"]
+__all__ = ["PROFILE_NAMES", "USUAL_CAR_LENGTH_M", "USUAL_CAR_WIDTH_M", "Profile", "nearest_profile", "shipped_settings"]
+
+PROFILE_NAMES = ("cn-jgj100", "de-garvo", "uk-istructe", "us-ada")
+"""Names of the shipped profiles."""
 
 USUAL_CAR_LENGTH_M, USUAL_CAR_WIDTH_M = 4.8, 1.8
 """Measures of the design car if a profile gives none: the small car of JGJ 100."""
 _LEFT_HAND_TRAFFIC = frozenset({"AU", "GB", "HK", "IE", "IN", "JP", "MT", "MY", "NZ", "SG", "TH", "ZA"})
 _TRANSITION_SLOPE_PERCENT, _TRANSITION_LENGTH_M = 10.0, 3.6
 """Transition of ramps, for a profile that gives only its slope or only its length."""
+
+
+def shipped_settings(name: str) -> dict[str, Any]:
+    """Return the contents of the file of a shipped profile."""
+    return tomllib.loads((resources.files("garage2usd.profiles") / f"{name}.toml").read_text(encoding="utf-8"))
+
+
+def nearest_profile(given: str) -> str:
+    """Return the name of the shipped profile that is most similar to a name."""
+    return difflib.get_close_matches(given.lower(), PROFILE_NAMES, n=1, cutoff=0.0)[0]
 
 
 class Profile(Settings):
@@ -39,6 +56,8 @@ class Profile(Settings):
     country: str = Field("", pattern=r"^([A-Z]{2})?$")
     """ISO 3166 code of the country whose signs are used if `look.signs.of` is 'profile': CN, DE, GB and US are known,
     all others have international signs."""
+    based_on: str | None = Field(None, exclude=True)
+    """Name of the shipped profile that this one changes: its clauses hold, except for those given here."""
 
     design_car_length: Length | None = None
     """Length of the car that a stall is designed for."""
@@ -155,6 +174,20 @@ class Profile(Settings):
     """Greatest height of a speed bump."""
     wheel_stop_height: Length | None = None
     """Greatest height of a wheel stop."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_base(cls, given: Any) -> Any:  # noqa: ANN401 - pydantic's own signature
+        """Add the clauses of the profile that this one is based on, and forget that name."""
+        base = given.get("based_on") if isinstance(given, dict) else None
+        return {**shipped_settings(base), **given, "based_on": None} if base in PROFILE_NAMES else given
+
+    @field_validator("based_on")
+    @classmethod
+    def _is_shipped(cls, base: str | None) -> str | None:
+        if base is not None:
+            raise ValueError(f"one of {', '.join(PROFILE_NAMES)}; the nearest is {nearest_profile(base)}")
+        return base
 
     def clauses(self) -> Iterator[tuple[str, Clause]]:
         """Yield name and clause of every clause that is given."""

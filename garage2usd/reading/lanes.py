@@ -10,12 +10,12 @@ from pxr import Usd, UsdGeom
 
 from garage2usd.garage import Fault, LaneEdge, LaneGraph, LaneKind, LaneNode, Point, Stall, StallUse
 from garage2usd.reading.values import READ_AT, metres_y_up, numbers_of
+from garage2usd.reading.whole_garage import GRAPH, garage_root
 
 __all__ = ["GUIDE_LIFT_M", "Lanes", "moved_stalls", "read_lanes"]
 
 GUIDE_LIFT_M = 0.05
 """Height of the guide curves above the floor in metres."""
-_GRAPH = "LaneGraph"
 _CORNERS = 4
 _KINDS = {kind.value for kind in LaneKind}
 _USES = {use.value for use in StallUse}
@@ -64,12 +64,12 @@ def read_lanes(stage: Usd.Stage) -> Lanes:
     a garage. See docs/stage.md for its attributes.
     """
     lanes = Lanes()
-    root = stage.GetDefaultPrim() or stage.GetPseudoRoot()
-    graph = _graph(stage, root)
+    root = garage_root(stage) or stage.GetPseudoRoot()
+    graph = root.GetChild(GRAPH)
     curves = {name: _Curves(stage, graph.GetChild(name) if graph else None) for name in ("Nodes", "Edges", "Stalls")}
     missing = [name for name, found in curves.items() if not found.exists]
     if missing:
-        place = str(root.GetPath().AppendChild(_GRAPH))
+        place = str(root.GetPath().AppendChild(GRAPH))
         lanes.faults.append(Fault(_RULE, place, None, f"no curves {', '.join(missing)}: nothing says where cars drive"))
         return lanes
     _read_nodes(curves["Nodes"], lanes)
@@ -106,13 +106,6 @@ def moved_stalls(stage: Usd.Stage, lanes: Lanes) -> list[Fault]:
             message = "the stall's prim does not lie where the lane graph has its outline"
             faults.append(Fault("stall-outline", str(prim.GetPath()), place, message))
     return faults
-
-
-def _graph(stage: Usd.Stage, root: Usd.Prim) -> Usd.Prim | None:
-    graph = root.GetChild(_GRAPH)
-    if graph:
-        return graph
-    return next((prim for prim in stage.Traverse() if prim.GetName() == _GRAPH), None)
 
 
 class _Curves:

@@ -8,19 +8,30 @@ from pxr import Usd, UsdGeom
 
 from garage2usd.common.errors import StageError
 
-__all__ = ["READ_AT", "lacks", "metres_per_unit", "metres_y_up", "number_of", "numbers_of", "opinions_of", "vector_of"]
+__all__ = [
+    "READ_AT",
+    "Z_UP_TO_Y_UP",
+    "lacks",
+    "metres_per_unit",
+    "metres_y_up",
+    "number_of",
+    "numbers_of",
+    "opinions_of",
+    "vector_of",
+]
 
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 READ_AT = Usd.TimeCode.EarliestTime()
 """Time code at which stages are read: the earliest, so the first time sample of animated attributes."""
-_Z_UP_TO_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, -1.0, 0], [0, 1.0, 0, 0], [0, 0, 0, 1.0]])
+Z_UP_TO_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, -1.0, 0], [0, 1.0, 0, 0], [0, 0, 0, 1.0]])
+"""Exchange of the axes of a stage whose Z points up, for row vectors."""
 
 
 def metres_y_up(stage: Usd.Stage) -> NDArray[np.float64]:
     """Return the matrix for row vectors from a stage's coordinates to metres, Y up; float64, shape (4, 4)."""
     matrix = np.eye(4)
     if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z:
-        matrix = _Z_UP_TO_Y_UP.copy()
+        matrix = Z_UP_TO_Y_UP.copy()
     scale = metres_per_unit(stage)
     matrix[:3, :3] *= scale if scale > 0 else 1.0
     return matrix

@@ -11,8 +11,8 @@ from garage2usd.common.extras import RAYS, require
 from garage2usd.common.output import check_file, check_writable, publish, unfinished_folder
 from garage2usd.common.progress import Announce, Progress, silent, unheard
 from garage2usd.config.maps import DriveConfig
-from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
+from garage2usd.reading.whole_garage import open_garage
 from garage2usd.recordings.birds_eye import check_birds_eye
 from garage2usd.recordings.scene import EGO_FOLDER, POINTS_FOLDER, Scene
 from garage2usd.recordings.sequences import Sequence, check_sequences, write_sequence
@@ -147,7 +147,7 @@ def record(  # noqa: PLR0915 - the road of a recording, step by step
     check_writable(folder)
     check_file(folder / "frames.json")
     drawn_on = find_device(device, has_rays=True, blender=find_blender(blender)) if chosen.cameras else CPU
-    opened = open_stage(path)
+    opened = open_garage(path)
     progress("drive", 0, 1)
     way = Way(opened, path, along, every_m, settings or DriveConfig())
     scene = Scene(opened, read_labels(opened, path), way, chosen, birds_eye)

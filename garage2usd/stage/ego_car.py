@@ -27,6 +27,8 @@ def write_stage_with_car(path: Path, stage: Usd.Stage, car: CarBody, *, is_lit: 
     and tail lamps glow and illuminate their surroundings.
     """
     layer = Sdf.Layer.CreateNew(str(path))
+    if not stage.GetSessionLayer().empty:
+        layer.TransferContent(stage.GetSessionLayer())
     layer.subLayerPaths.append(str(Path(stage.GetRootLayer().realPath)))
     with Sdf.ChangeBlock():
         layer.timeCodesPerSecond = stage.GetTimeCodesPerSecond()

@@ -14,7 +14,7 @@ from garage2usd.config.stage import AssetPlace, StageConfig, StageForm
 from garage2usd.layout import Layout
 from garage2usd.objects.kind import VariantSet
 from garage2usd.reading.label_table import LabelledObject, LabelTable
-from garage2usd.reading.levels import LEVELS
+from garage2usd.reading.whole_garage import LEVELS
 from garage2usd.stage import StageFiles, StageFormat, arrangement_of, asset_folder_name, write_stage
 from garage2usd.stage.arrangement import ROOT_NAME
 from garage2usd.stage.flat import flatten_stage

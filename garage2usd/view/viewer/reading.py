@@ -12,6 +12,7 @@ from garage2usd.reading.label_table import read_label_table
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.levels import levels_of
 from garage2usd.reading.values import metres_y_up
+from garage2usd.reading.whole_garage import garage_root
 from garage2usd.view.viewer.looks import Looks
 from garage2usd.view.viewer.scene import Placed, Scene, Shape, box_corners, moved
 
@@ -59,7 +60,7 @@ def read_scene(stage: Usd.Stage, path: Path) -> Scene:
 
 
 def _facts(stage: Usd.Stage) -> dict[str, str]:
-    root = stage.GetDefaultPrim()
+    root = garage_root(stage)
     data = root.GetCustomData() if root else {}
     return {name: str(data[name]) for name in _FACTS if name in data}
 

@@ -4,11 +4,14 @@ import numpy as np
 import pytest
 from pxr import Sdf, Usd, UsdGeom, UsdSemantics
 from support.broken_stages import BROKEN, COLUMN, all_of, box, changed, moved, without_lights
+from support.edited_stages import edited, hidden, referring, scaled
+from support.edited_stages import moved as turned_and_moved
 from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
+from garage2usd.as_built.shapes import Body, MeshShape
 from garage2usd.as_built.stage_reader import garage_of_stage
-from garage2usd.checks import check
+from garage2usd.checks import RULES, check, read_garage, swept_path, usd
 from garage2usd.common.errors import StageError
 from garage2usd.driving import way_search
 from garage2usd.profiles import load_profile
@@ -102,6 +105,33 @@ def test_what_another_rule_reports_is_not_reported_again(stage):
     """
     all_of(moved(COLUMN, x=-4.05, z=-1.0), box(12.15, 0.0, 8.28, label="static", side=0.3))(stage)
     assert rules_found(stage) - FOUND_IN_GOOD_ONE == {"column-in-stall", "column-spacing"}
+
+
+def test_a_garage_is_read_in_its_own_frame_wherever_it_is_moved_to(stage_file, opened, tmp_path):
+    rules = [rule for rule in RULES if rule not in (*usd.BOOK.rules, *swept_path.BOOK.rules)]
+    as_built = garage_of_stage(opened, source="")
+    place = {"x": -13.7, "y": 5.0, "z": 200.0, "yaw_deg": 133.0, "pitch_deg": 7.0}
+    for file in (
+        edited(stage_file, tmp_path / "away.usda", turned_and_moved(**place), hidden("/Garage", "/Garage/Walls")),
+        referring(stage_file, tmp_path / "z_up.usda", up="Z", metres_per_unit=0.01, move=(4, 5, 6), yaw_deg=20),
+    ):
+        garage, profile = read_garage(file)
+        assert profile.name == PROFILE.name
+        found = {finding.rule for rule in rules for finding in rule.findings(garage, profile)}
+        assert found == FOUND_IN_GOOD_ONE
+        told, lanes = as_built.lanes.positions_m, garage.lanes.positions_m
+        assert np.abs(told - lanes).max() < 1e-4
+        assert [stall.name for stall in garage.stalls] == [stall.name for stall in as_built.stalls]
+        assert len(garage.things) == len(as_built.things)
+    flat = edited(stage_file, tmp_path / "flat.usda", scaled(0.0))
+    with pytest.raises(StageError, match="scale of 0"):
+        read_garage(flat)
+
+
+def test_a_floor_of_a_ramp_without_area_has_no_faces(stage):
+    """An array of points that was emptied, or squeezed to a point, as of a prim with a scale of 0."""
+    shape = MeshShape(np.zeros((4, 3)), np.array([4]), np.arange(4))
+    assert list(Body(shape, np.eye(4), touches=True).faces()) == []
 
 
 def test_what_is_hidden_or_a_guide_is_in_nobodys_way(stage):

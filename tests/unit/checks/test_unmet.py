@@ -10,7 +10,18 @@ from support.small_garage import SETTINGS
 from support.soak import soak_but
 
 from garage2usd.as_built.layout_reader import garage_of_layout
-from garage2usd.checks import RULES, check, judged_layout, not_checked, not_checked_lines, usd
+from garage2usd.checks import (
+    RULES,
+    Finding,
+    Severity,
+    check,
+    clauses_checked,
+    found_in_words,
+    judged_layout,
+    not_checked,
+    not_checked_lines,
+    usd,
+)
 from garage2usd.cli import main
 from garage2usd.config import GarageConfig
 from garage2usd.pipeline import generate
@@ -172,10 +183,25 @@ def _toml(document):
 def test_every_clause_that_asks_for_something_is_asked_by_a_rule():
     asking = {clause for rule in RULES for clause in rule.clauses[: rule.asking]}
     # the car that rules park and drive, and what ramp-bend asks of several levels
-    assert set(Profile.model_fields) - asking - {"name", "title", "country"} == {
+    assert set(Profile.model_fields) - asking - {"name", "title", "country", "based_on"} == {
         "curved_ramp_slope",
         "design_car_length",
         "design_car_width",
         "design_car_height",
         "turning_radius",
     }
+
+
+def test_nothing_is_found_only_where_clauses_were_checked():
+    assert found_in_words([], 0, "none") == "no clause of none checked"
+    assert found_in_words([], 25, "cn-jgj100") == "25 clauses of cn-jgj100 checked: nothing found"
+    finding = Finding("stall-route", Severity.ERROR, "a", "b")
+    assert found_in_words([finding], 0, "none") == "no clause of none checked: 1 error (stall-route)"
+
+
+def test_the_clauses_checked_are_those_that_rules_ask_for():
+    profile = load_profile("cn-jgj100")
+    every = clauses_checked(profile)
+    assert 0 < every < len(dict(profile.clauses()))
+    assert clauses_checked(profile, ["stall_width", "design_car_length"]) == every - 1
+    assert clauses_checked(Profile(name="none")) == 0

@@ -1,11 +1,13 @@
 import io
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from click.testing import CliRunner
@@ -15,6 +17,7 @@ from support.soak import soak_but
 
 import garage2usd
 from garage2usd.cli import bars, main
+from garage2usd.cli.build import _learnt, _planned
 from garage2usd.cli.termination import Termination
 from garage2usd.common.limits import ONE_THREAD
 from garage2usd.common.progress import time_in_words
@@ -414,3 +417,19 @@ def test_build_says_which_illuminance_decides(tmp_path, config, lane, stall, dec
         for name, wanted in (("lane", lane), ("stall", stall))
     }
     assert told.split("light  ")[1] == ", ".join(parts.values())
+
+
+def test_the_summary_tells_what_became_of_the_planned_stalls_and_of_the_learnt_score():
+    settings = {"site": {"width_cells": 6, "height_cells": 6}, "plan": {"episodes": 60, "starts": 1}}
+    garage = garage2usd.generate(garage2usd.GarageConfig(seed=3, **settings))
+    made = SimpleNamespace(garage=garage)
+    ((_, planned),) = _planned(made)
+    layout, stalls = garage.layout, garage.plan.score.stalls
+    total, parked, *others = map(int, re.findall(r"\d+", planned))
+    assert (total, parked) == (stalls, layout.parking_stalls)
+    assert "by size classes" not in planned
+    assert parked + sum(others) == total
+    ((_, learning),) = _learnt(made)
+    scores = list(map(float, re.findall(r"score (\S+)", learning)))
+    assert scores == sorted(scores)
+    assert scores[-1] == round(garage.plan.score.value, 2) or "no better" in learning

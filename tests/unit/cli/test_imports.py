@@ -13,7 +13,7 @@ from pxr import Usd
 from support.sample_files import REPOSITORY
 
 from garage2usd import GarageConfig
-from garage2usd.checks import read_garage
+from garage2usd.checks import RULES, read_garage, usd
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
 from garage2usd.imports import import_layout
@@ -53,6 +53,13 @@ def test_all_stalls_are_where_they_were_drawn(made):
     for source, stall in zip(made.layout.fitted, made.layout.quads, strict=True):
         assert stall.polygon.hausdorff_distance(drawn[source.source.name]) < 1e-3
     assert Counter(stall.kind.value for stall in made.layout.quads) == {"perpendicular": 12, "parallel": 4}
+
+
+def test_the_stage_is_found_to_be_what_the_import_said(made):
+    garage, profile = read_garage(made.stage)
+    rules = (rule for rule in RULES if rule not in usd.BOOK.rules)
+    found = Counter(finding.rule for rule in rules for finding in rule.findings(garage, profile))
+    assert Counter(finding.rule for finding in made.findings) == found
 
 
 def test_walls_and_doors_close_the_outline(made):

@@ -80,7 +80,7 @@ def test_cars_get_into_as_many_stalls_with_fewer_moves():
                 site=SITE,
                 plan={**PLAN, "unreachable_stalls": "keep"},
                 bay={"column_setback_m": setback_m, "aisle_width_m": 5.0, "stall_width_m": 2.2},
-                profile={"name": "own"},
+                profile={"name": "none"},
             )
         )
         proofs = prove_stalls(made.layout, most_explained=0)

@@ -6,6 +6,16 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from pxr import Usd
+from support.edited_stages import (
+    chosen,
+    copied,
+    edited,
+    hidden,
+    inactive,
+    moved,
+    referring,
+    without_what_lanes_do_without,
+)
 
 import garage2usd
 from garage2usd import ConfigError, GarageConfig, GenerationError
@@ -14,8 +24,10 @@ from garage2usd.as_built.levels import built_levels, laid_out_levels
 from garage2usd.checks import RULES
 from garage2usd.checks.levels import check_levels, read_stage
 from garage2usd.cli import main
+from garage2usd.common.errors import StageError
 from garage2usd.config.building import RampsPlace
 from garage2usd.maps.level_drives import LevelsDrivePlanner
+from garage2usd.maps.level_networks import level_networks
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.levels_report import read_levels_report
 from garage2usd.site import make_site
@@ -269,6 +281,73 @@ def test_check_finds_nothing_and_a_lost_ramp_is_found(built):
     found = check_levels(built_levels(stage, built.stage), profile, ())
     lost = {finding.place for finding in found if finding.rule == "level-route"}
     assert lost == {stall.name for stall in garage.stalls if stall.level == 1}
+
+
+@pytest.fixture(scope="module")
+def bare(built, tmp_path_factory):
+    """The garage without what its lanes and ramps are not read from."""
+    return edited(built.stage, tmp_path_factory.mktemp("bare") / "bare.usda", without_what_lanes_do_without)
+
+
+@pytest.fixture(scope="module")
+def unmoved(bare):
+    return read_stage(bare)[0]
+
+
+def test_a_building_that_is_moved_and_hidden_is_read_as_it_stands(bare, unmoved, tmp_path):
+    away = edited(
+        bare,
+        tmp_path / "away.usda",
+        moved(x=100, y=-0.5, z=7, yaw_deg=30),
+        chosen(level="U1", ceiling="hidden"),
+        hidden("/Garage", "/Garage/Levels/U1"),
+    )
+    z_up = referring(bare, tmp_path / "z_up.usda", up="Z", metres_per_unit=0.01, move=(5, 6, -300), yaw_deg=70)
+    for file in (away, z_up):
+        garage, profile = read_stage(file)
+        assert garage.faults == ()
+        assert check_levels(garage, profile, ()) == []
+        assert [stall.name for stall in garage.stalls] == [stall.name for stall in unmoved.stalls]
+        places = [(*node.position, node.height_m) for node in garage.lanes.nodes]
+        told = [(*node.position, node.height_m) for node in unmoved.lanes.nodes]
+        assert np.abs(np.subtract(places, told)).max() < 1e-3
+        assert garage.lanes.edges == unmoved.lanes.edges
+        assert [thing.name.rpartition("/")[2] for thing in garage.things] == [
+            thing.name.rpartition("/")[2] for thing in unmoved.things
+        ]
+
+
+U2 = "/Garage/Levels/U2"
+MISFITS = {
+    "a level is inactive": (inactive(U2), {"level-missing", "level-ramp"}),
+    "the top level is inactive": (inactive("/Garage/Levels/U1"), {"level-missing", "level-ramp", "level-route"}),
+    "no ramp": (inactive(f"{U2}/Ramps"), {"level-ramp", "level-route"}),
+    "a level is shifted": (moved(x=5, path=U2), {"level-moved", "level-ramp", "level-route"}),
+    "a level is lifted": (moved(y=1.6, path=U2), {"level-moved", "level-height", "level-ramp", "level-route"}),
+    "a level is turned": (moved(yaw_deg=20, path=U2), {"level-moved", "level-ramp", "level-route"}),
+    "a level is copied": (copied("U2", "U3", -7.2), {"level-ramp", "level-route"}),
+    "no lanes": (inactive("/Garage/LaneGraph"), {"lane-graph", "level-ramp", "level-route"}),
+}
+
+
+@pytest.mark.parametrize(("edit", "rules"), MISFITS.values(), ids=MISFITS)
+def test_levels_and_ramps_that_do_not_fit_are_found_and_not_driven_on(edit, rules, bare, tmp_path):
+    garage, profile = read_stage(edited(bare, tmp_path / "edited.usda", edit))
+    found = {finding.rule for finding in check_levels(garage, profile, ()) if finding.severity.value == "error"}
+    assert found - {"portal-count"} == rules
+    planner = LevelsDrivePlanner(garage)
+    lost = [stall.name for stall in garage.stalls if stall.takes_cars and stall.access not in garage.lanes.driven]
+    assert bool(lost) == ("level-route" in rules)
+    for name in lost[-1:]:
+        with pytest.raises(ConfigError, match="that lanes and ramps join with the street"):
+            planner.drive(name)
+    level_networks(garage)
+
+
+def test_a_building_without_an_active_level_is_one_line(bare, tmp_path):
+    file = edited(bare, tmp_path / "edited.usda", inactive("/Garage/Levels"))
+    with pytest.raises(StageError, match="/Garage/Levels has no active level"):
+        read_stage(file)
 
 
 def test_a_drive_goes_down_the_ramp_into_a_stall_and_back_to_the_street(built):

@@ -6,6 +6,7 @@ import tomllib
 import pytest
 from support.sample_files import REPOSITORY
 
+from garage2usd import GarageConfig
 from garage2usd.common.errors import ConfigError
 from garage2usd.profiles import PROFILE_NAMES, Confidence, Length, Profile, load_profile, read_profile
 
@@ -154,6 +155,35 @@ def test_what_is_no_profile_is_refused(name, text, allowed, tmp_path):
         load_profile(name, folder=tmp_path)
     assert caught.value.field == "profile"
     assert allowed in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("settings", "field", "allowed"),
+    [
+        ({"name": "germany"}, "profile.name", "the nearest is de-garvo"),
+        ({"name": "us-adaa", "country": "US"}, "profile.name", "the nearest is us-ada"),
+        ({"name": "de-garvo", "stall_width": STALL}, "profile.name", "based_on = 'de-garvo'"),
+        ({"name": "a", "based_on": "de", "stall_width": STALL}, "profile.based_on", "the nearest is de-garvo"),
+    ],
+)
+def test_no_profile_passes_for_a_standard_that_it_is_not(settings, field, allowed):
+    with pytest.raises(ConfigError) as caught:
+        GarageConfig(profile=settings)
+    assert caught.value.field == field
+    assert allowed in caught.value.allowed
+
+
+def test_a_table_with_a_name_alone_is_the_shipped_profile():
+    assert GarageConfig(profile={"name": "de-garvo"}) == GarageConfig(profile="de-garvo")
+
+
+def test_a_profile_based_on_a_shipped_one_has_its_other_clauses():
+    based = GarageConfig(profile={"name": "a", "based_on": "de-garvo", "stall_width": STALL})
+    shipped, own = load_profile("de-garvo"), based.standard
+    assert dict(own.clauses()) == {**dict(shipped.clauses()), "stall_width": own.stall_width}
+    assert own.stall_width.value == STALL["value"] != shipped.stall_width.value
+    # a report holds the clauses themselves
+    assert GarageConfig(**based.model_dump(mode="json")) == based
 
 
 def test_a_profile_may_ask_for_nothing():

@@ -1,0 +1,230 @@
+"""The lanes of all levels of a stage, joined where levels and ramps still lie as its lane graph has them."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.garage import Fault, LaneEdge, LaneGraph, LaneKind, LaneNode, Stall
+from garage2usd.objects.ramp import KIND as RAMP
+from garage2usd.reading.lanes import Lanes
+from garage2usd.reading.levels import StageLevel
+
+__all__ = ["AttachedLevels", "FoundLevel", "attached_levels", "numbers_of_levels", "sloped_nodes"]
+
+_RISE_M = 0.01
+_MOVED_M = 0.05
+_BESIDE_RAMP_M = 0.5
+"""Tolerance in metres for the middle of a lane on a ramp within the ramp's bounding box."""
+
+
+class FoundLevel(NamedTuple):
+    """A level that is in a stage.
+
+    Attributes
+    ----------
+    place
+        Its name, the path of its prim and the height of its floor.
+    number
+        Its number in the lane graph of the building; None for a level that the lane graph does not have.
+    garage
+        The level as a garage of its own.
+    matrix
+        From the garage of its own to the whole, in metres with Y up, for row vectors; float64, shape (4, 4).
+    """
+
+    place: StageLevel
+    number: int | None
+    garage: BuiltGarage
+    matrix: NDArray[np.float64]
+
+
+class AttachedLevels(NamedTuple):
+    """The lanes and stalls of all levels that are in a stage.
+
+    Attributes
+    ----------
+    lanes, stalls
+        Lane graph and stalls, with levels by their index; levels that do not lie as the lane graph of the whole has
+        them are joined with no other.
+    faults
+        Levels that are missing or moved, ramps without a floor or an end.
+    """
+
+    lanes: LaneGraph
+    stalls: tuple[Stall, ...]
+    faults: tuple[Fault, ...]
+
+
+def attached_levels(whole: Lanes, names: Sequence[str], levels: Sequence[FoundLevel]) -> AttachedLevels:
+    """Join the lanes of the levels that a stage has.
+
+    Parameters
+    ----------
+    whole
+        Lane graph of the building.
+    names
+        Names of the levels that it was written for, by their numbers; empty if unknown.
+    levels
+        The levels that the stage has.
+    """
+    faults = list(whole.faults)
+    index_of = {level.number: index for index, level in enumerate(levels)}
+    numbers = sorted({node.level for node in whole.nodes})
+    attached = {}
+    for number in numbers:
+        index = index_of.get(number)
+        name = names[number] if number < len(names) else str(number)
+        if index is None:
+            said = "the lane graph has this level, which is not in the stage"
+            faults.append(Fault("level-missing", name, None, said))
+            continue
+        far_m = _moved_m(whole.nodes, number, levels[index])
+        if far_m > _MOVED_M:
+            said = f"the level lies up to {far_m:.2f} m from where its ramps and the lane graph have it"
+            faults.append(Fault("level-moved", levels[index].place.name, None, said))
+        else:
+            attached[number] = index
+    left_out = {node for node, at in enumerate(whole.nodes) if at.level not in attached}
+    left_out |= _broken_ramps(whole.graph, attached, levels, faults)
+    kept = [number for number in range(len(whole.nodes)) if number not in left_out]
+    new = {number: place for place, number in enumerate(kept)}
+    nodes = [replace(whole.nodes[number], level=attached[whole.nodes[number].level]) for number in kept]
+    edges = [
+        edge._replace(start=new[edge.start], end=new[edge.end])
+        for edge in whole.edges
+        if edge.start in new and edge.end in new
+    ]
+    stalls = [
+        replace(stall, access=new[stall.access], level=attached[stall.level])
+        for stall in whole.stalls
+        if stall.level in attached and stall.access in new
+    ]
+    stalls = [*_of_levels(stalls, levels, faults)]
+    for index in sorted({*range(len(levels))}.difference(attached.values())):
+        _add_alone(index, levels[index], nodes, edges, stalls)
+        if levels[index].number is None:
+            said = "the level is not in the lane graph of the building, so no ramp leads to it"
+            faults.append(Fault("level-ramp", levels[index].place.name, None, said))
+    return AttachedLevels(LaneGraph(tuple(nodes), tuple(edges)), tuple(stalls), tuple(faults))
+
+
+def numbers_of_levels(names: Sequence[str], found: Sequence[str]) -> list[int | None]:
+    """Return the number of each level of a stage: by its name, else in the order of those that are left.
+
+    Parameters
+    ----------
+    names
+        Names of the levels by their numbers; empty if unknown.
+    found
+        Names of the levels that the stage has.
+    """
+    if not names:
+        return list(range(len(found)))
+    left = (number for number, name in enumerate(names) if name not in found)
+    return [names.index(name) if name in names else next(left, None) for name in found]
+
+
+def sloped_nodes(lanes: LaneGraph) -> set[int]:
+    """Return the numbers of the nodes at the ends of edges that rise or fall."""
+    nodes = lanes.nodes
+    sloped = (edge for edge in lanes.edges if abs(nodes[edge.start].height_m - nodes[edge.end].height_m) > _RISE_M)
+    return {number for edge in sloped for number in (edge.start, edge.end)}
+
+
+def _moved_m(nodes: Sequence[LaneNode], number: int, level: FoundLevel) -> float:
+    """Return how far a level's own lanes lie from those of the whole at most."""
+    own = [(node.position[0], node.height_m, node.position[1]) for node in level.garage.lanes.nodes]
+    told = [(node.position[0], node.height_m, node.position[1]) for node in nodes if node.level == number]
+    if not own:
+        return 0.0
+    placed = np.array(own) @ level.matrix[:3, :3] + level.matrix[3, :3]
+    return float(cKDTree(np.array(told)).query(placed)[0].max())
+
+
+def _broken_ramps(
+    lanes: LaneGraph, attached: dict[int, int], levels: Sequence[FoundLevel], faults: list[Fault]
+) -> set[int]:
+    """Return the nodes on ramps that lack a floor or a level at one of their ends, and note these ramps as faults."""
+    boxes = [*_ramp_boxes(levels)]
+    left_out: set[int] = set()
+    for part in sorted(map(sorted, nx.weakly_connected_components(lanes.graph.subgraph(sloped_nodes(lanes))))):
+        inner = {*part, *(other for number in part for other in lanes.beside[number])}
+        landings = sorted({other for number in inner for other in lanes.beside[number]} - inner)
+        ends = {lanes.nodes[number].level for number in landings}
+        present = [number for number in landings if lanes.nodes[number].level in attached]
+        if not present:
+            left_out |= inner
+            continue
+        node = lanes.nodes[present[0]]
+        place = f"{levels[attached[node.level]].place.name}/{node.name.rpartition('/')[2]}"
+        if not attached.keys() >= ends:
+            faults.append(Fault("level-ramp", place, node.position, "the ramp at this landing leads to no level"))
+            left_out |= inner
+        elif not _has_floor(lanes, {*part}, boxes):
+            said = "the ramp at this landing is in the lane graph, but not in the stage"
+            faults.append(Fault("level-ramp", place, node.position, said))
+            left_out |= inner
+    return left_out
+
+
+def _ramp_boxes(levels: Sequence[FoundLevel]) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    """Yield the lowest and the highest corner of the bounding box of each ramp."""
+    for level in levels:
+        for thing in level.garage.things:
+            if thing.label == RAMP.label:
+                points = np.concatenate([body.world_points() for body in thing.bodies])
+                places = points @ level.matrix[:3, :3] + level.matrix[3, :3]
+                yield places.min(axis=0) - _BESIDE_RAMP_M, places.max(axis=0) + _BESIDE_RAMP_M
+
+
+def _has_floor(
+    lanes: LaneGraph, ramp: set[int], boxes: Sequence[tuple[NDArray[np.float64], NDArray[np.float64]]]
+) -> bool:
+    """Return True if the lanes of a ramp between levels lie on an object."""
+    places = [(node.position[0], node.height_m, node.position[1]) for node in lanes.nodes]
+    middles = [
+        (np.array(places[edge.start]) + places[edge.end]) / 2
+        for edge in lanes.edges
+        if edge.start in ramp and edge.end in ramp
+    ]
+    return all(any(((low <= at) & (at <= high)).all() for low, high in boxes) for at in middles)
+
+
+def _of_levels(stalls: Sequence[Stall], levels: Sequence[FoundLevel], faults: list[Fault]) -> Iterator[Stall]:
+    """Yield the stalls that their levels have too, named after the prims of their levels."""
+    own = [{stall.name for stall in level.garage.stalls} for level in levels]
+    for stall in stalls:
+        before, _, name = stall.name.rpartition("/")
+        level = levels[stall.level].place.name
+        if name not in own[stall.level]:
+            said = "the stall is in the lane graph of the building, but not in that of its level"
+            faults.append(Fault("lane-graph", stall.name, stall.centre, said))
+            continue
+        facts = tuple(
+            (fact, f"{level}{value[len(before) :]}" if fact == "blocked_by" and isinstance(value, str) else value)
+            for fact, value in stall.facts
+        )
+        yield stall if before == level else replace(stall, name=f"{level}/{name}", facts=facts)
+
+
+def _add_alone(
+    index: int, level: FoundLevel, nodes: list[LaneNode], edges: list[LaneEdge], stalls: list[Stall]
+) -> None:
+    """Add the lanes and stalls of a level that no ramp joins with the others; only the top level has a street."""
+    first, own, name = len(nodes), level.garage, level.place.name
+    for node in own.lanes.nodes:
+        is_cut = node.is_portal and (index > 0 or node.name in own.landings)
+        kind = LaneKind.STRAIGHT.value if is_cut else node.kind
+        nodes.append(replace(node, kind=kind, height_m=node.height_m + level.place.floor_m, level=index))
+    edges += [edge._replace(start=edge.start + first, end=edge.end + first) for edge in own.lanes.edges]
+    for stall in own.stalls:
+        prefixed = ("number", "blocked_by")
+        facts = tuple((fact, f"{name}/{value}" if fact in prefixed else value) for fact, value in stall.facts)
+        named = f"{name}/{stall.name}"
+        stalls.append(replace(stall, name=named, access=stall.access + first, facts=facts, level=index))
