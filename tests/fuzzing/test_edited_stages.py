@@ -7,6 +7,7 @@ from pxr import Gf, UsdGeom, Vt
 from support.edited_stages import edited
 from support.small_garage import SETTINGS
 from support.small_levels import SMALL_LEVELS
+from support.soak import soak_but
 
 from garage2usd import GarageConfig, build, build_levels
 from garage2usd.as_built.driven_ground import driven_garage
@@ -20,7 +21,6 @@ from garage2usd.exports import export
 from garage2usd.maps.level_drives import drive_planner
 
 QUICK = tuple(rule for rule in RULES if rule not in (*usd.BOOK.rules, *swept_path.BOOK.rules))
-FEW, MANY = range(5), range(5, 400)
 SCALES = 0.0, 1.0, 2.0, -1.0, 1e-12, 1e6
 
 
@@ -131,7 +131,7 @@ def one_level(tmp_path_factory):
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")  # of numbers that are too large or none
-@pytest.mark.parametrize("number", [*FEW, *(pytest.param(number, marks=pytest.mark.soak) for number in MANY)])
+@pytest.mark.parametrize("number", soak_but(5, range(300)))
 def test_an_edited_stage_gives_findings_or_a_line(number, one_level, tmp_path):
     tries(edited(one_level, tmp_path / "edited.usda", drawn_edit(number)), tmp_path)
 
