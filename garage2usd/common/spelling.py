@@ -34,8 +34,8 @@ def spans_in_words(names: Iterable[str]) -> str:
     """
     spans: list[list[str]] = []
     before: tuple[str, int, int] | None = None
-    for *key, name in sorted((*_counted(name), name) for name in set(names)):
-        prefix, number, digits = key
+    for name in sorted(set(names), key=lambda name: (_counted(name), name)):
+        prefix, number, digits = _counted(name)
         if before in {(prefix, number - 1, digits), (prefix, number - 1, len(str(number - 1)))}:
             spans[-1].append(name)
         else:

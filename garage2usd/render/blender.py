@@ -49,6 +49,7 @@ def main() -> None:
     to_blender = Matrix(job["to_blender"])
     scene, drawn = _build(job, to_blender)
     moving = [(each.item, each.item.matrix_world.copy()) for each in drawn if each.number in job["moving"]]
+    report.listen()
     report.finish(0)
     colour = [frame for frame in job["frames"] if frame["colour"]]
     data = [frame for frame in job["frames"] if frame["data"]]
@@ -106,6 +107,9 @@ class _Reporter:
         self._done = 0
         self._most = 0
         self._told = 0
+
+    def listen(self) -> None:
+        """Listen to Blender, which forgets listeners whenever a scene is read."""
         bpy.app.handlers.render_stats.append(self._on_statistics)
 
     def watch(self, samples: int) -> None:

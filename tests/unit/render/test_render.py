@@ -293,10 +293,10 @@ def test_what_is_drawn_is_said_before_and_how_long_a_picture_takes_when_one_is(b
     said.clear()
     seconds = iter([100.0, 104.0, 109.0, 112.0, 130.0])
     monkeypatch.setattr(drawing, "cores", lambda: 2)
-    kinds = [Picture.COLOUR, Picture.DEPTH]
+    kinds = [Picture.COLOUR]
     drawing.Drawing(stage, labels, views[:1], [[]], kinds, 1, 0, tmp_path / "cpu").draw(work, silent, said.append)
-    took = time_in_words(drawing_s([(64, 36)], [(64, 36)], samples=1, cores=2))
-    assert said[0] == f"1 view, 1 of 64 x 36 pixels: colour with 1 sample on the CPU, depth; about {took}"
+    took = time_in_words(drawing_s([(64, 36)], [], samples=1, cores=2))
+    assert said[0] == f"1 view, 1 of 64 x 36 pixels: colour with 1 sample on the CPU; about {took}"
 
 
 def test_a_process_that_says_nothing_is_heard_of_every_second(tmp_path, monkeypatch):
