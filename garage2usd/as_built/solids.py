@@ -108,7 +108,7 @@ class Solids:
         """Yield name, class and outlines of each standing object, from its pieces that begin below a height."""
         rows = np.flatnonzero(~self._hangs & (self._low < below_m))
         owners, starts = np.unique(self._owner[rows], return_index=True)
-        for owner, pieces in zip(owners.tolist(), np.split(rows, starts[1:]), strict=True):
+        for owner, pieces in zip(owners.tolist(), np.split(rows, starts)[1:], strict=True):
             yield self._names[owner], self._labels[owner], self._footprints[pieces].tolist()
 
     def at(self, area: shapely.Polygon, *, hanging: bool = False, within_m: float = 0.0) -> list[Solid]:

@@ -184,9 +184,10 @@ def _parked(drawn: Sequence[tuple[PlacedObject, "_Look"]], levels: Sequence[_Lev
     homes: dict[str, Stall | None] = {}
     for level in levels:
         cars = [
-            (placed.path, look.on_ground(placed.matrix))
+            (placed.path, ground)
             for placed, look in drawn
             if placed.label in CAR_LABELS and _level_of(placed.path, levels) is level
+            if len(ground := look.on_ground(placed.matrix))
         ]
         homes |= level.stalls.park([path for path, _ in cars], hulls_of([ground for _, ground in cars]))
     return homes

@@ -113,7 +113,7 @@ class _Curves:
 
     def __init__(self, stage: Usd.Stage, prim: Usd.Prim | None) -> None:
         self._prim = prim
-        self.exists = prim is not None and bool(prim) and prim.IsA(UsdGeom.BasisCurves)
+        self.exists = prim is not None and bool(prim) and prim.IsActive() and prim.IsA(UsdGeom.BasisCurves)
         self.path = str(prim.GetPath()) if prim else ""
         if prim is None or not self.exists:
             return

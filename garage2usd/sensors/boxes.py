@@ -66,7 +66,7 @@ def object_boxes(stage: Usd.Stage, scene: RayScene, class_ids: Collection[int]) 
     order = numbers[np.argsort(scene.instance[numbers], kind="stable")]
     ids, first = np.unique(scene.instance[order], return_index=True)
     boxes = []
-    for instance, own in zip(ids.tolist(), np.split(order, first[1:]), strict=True):
+    for instance, own in zip(ids.tolist(), np.split(order, first)[1:], strict=True):
         matrix = scene.placed[instance].matrix[:3, :3]
         axes = _axes(np.array(_FORWARD[up_axis]) @ matrix, np.array(_UP[up_axis]) @ matrix)
         corners = scene.vertices_m[scene.triangles[own]]
