@@ -53,7 +53,7 @@ def export(
     """Export a garage for programs without USD support.
 
     PATH is a stage, whose current content is exported even if other tools have edited it; or the report of a build,
-    whose garage is rebuilt.
+    whose garage is rebuilt. A garage that was moved, turned or partly hidden is exported whole, in its own frame.
 
     Parts of a stage that a format cannot represent, such as area lights, are reported on standard error and left out.
     If the extra `maps` is missing, the files that do without it are written and the others named; the exit code is 3.

@@ -13,8 +13,12 @@ from garage2usd.as_built.shapes import Body, MeshShape
 from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.checks import RULES, check, read_garage, swept_path, usd
 from garage2usd.common.errors import StageError
+from garage2usd.config.vehicles import body_named
 from garage2usd.driving import way_search
 from garage2usd.profiles import load_profile
+from garage2usd.reading.files import open_stage
+from garage2usd.reading.lanes import read_lanes
+from garage2usd.stage.ego_car import write_stage_with_car
 
 PROFILE = load_profile("cn-jgj100")
 FOUND_IN_GOOD_ONE = {"personnel-exits"}  # a garage without stair cores
@@ -123,6 +127,9 @@ def test_a_garage_is_read_in_its_own_frame_wherever_it_is_moved_to(stage_file, o
         assert np.abs(told - lanes).max() < 1e-4
         assert [stall.name for stall in garage.stalls] == [stall.name for stall in as_built.stalls]
         assert len(garage.things) == len(as_built.things)
+        # what a rig records is where its drive is
+        write_stage_with_car(tmp_path / "with_car.usdc", garage.stage, body_named("hatchback"))
+        assert np.abs(told - read_lanes(open_stage(tmp_path / "with_car.usdc")).graph.positions_m).max() < 1e-4
     flat = edited(stage_file, tmp_path / "flat.usda", scaled(0.0))
     with pytest.raises(StageError, match="scale of 0"):
         read_garage(flat)
