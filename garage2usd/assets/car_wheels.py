@@ -4,13 +4,11 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from garage2usd.assets.car_patches import Faces
 from garage2usd.assets.car_shapes import Rim
-from garage2usd.assets.car_shell import both_sides
 from garage2usd.assets.faces import lathe_faces
-from garage2usd.assets.mesh import Asset, Collider, Part, make_part
+from garage2usd.assets.mesh import WELD_DECIMALS, Asset, Collider, Part, Pose, make_part
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.vehicles import CarBody
 
@@ -22,12 +20,13 @@ _INSIDE_M = 0.012
 _HALF_M = _TYRE_WIDTH_M / 2
 _FACE_M, _BACK_M = _HALF_M - 0.012, _HALF_M - 0.045
 """Offsets across the wheel from its centre: faces of the spokes, and their rear edges."""
+_ORIGIN = Pose(0.0, 0.0, 0.0)
 MOST_STEER_DEG = 20.0
 """Greatest steering angle at which the front wheels stay within the width of the mirrors."""
 
 
 def wheels(body: CarBody, design: Rim) -> list[Part]:
-    """Four wheels on the floor: tyre, and a dished rim of a design."""
+    """Four wheels on the floor: tyre, and a dished rim of a design; those on the left are turned by half a turn."""
     radius, half = body.wheel_radius_m, _HALF_M
     rim = radius * 0.69
     tread = [(-half, radius), (half - 0.03, radius), (half, radius - 0.03), (half, rim)]
@@ -35,15 +34,17 @@ def wheels(body: CarBody, design: Rim) -> list[Part]:
     lip = lathe_faces(
         [(half - 0.05, rim - 0.03), (half - 0.002, rim - 0.008), (half + 0.001, rim + 0.004)], segments=24
     )
-    metal = np.concatenate([lip, *_DESIGNS[design](rim)])
-    hubs = [(body.width_m / 2 - half - _INSIDE_M, radius, z) for z in _axles_m(body)]
-    rims = make_part("Rims", both_sides(np.concatenate([metal + at for at in hubs])), "rim", crease_deg=38)
-    tyres = [
-        make_part(f"{end}{side}Tyre", faces, "tyre", collider=Collider.CONVEX_HULL, crease_deg=38)
-        for end, at in zip(("Front", "Rear"), hubs, strict=True)
-        for side, faces in zip(("Right", "Left"), np.split(both_sides(np.array(tyre) + at), 2), strict=True)
+    metal = make_part("Rim", np.concatenate([lip, *_DESIGNS[design](rim)]), "rim", crease_deg=38)
+    rubber = make_part("Tyre", tyre, "tyre", collider=Collider.CONVEX_HULL, crease_deg=38)
+    x_m = round(body.width_m / 2 - half - _INSIDE_M, WELD_DECIMALS)
+    places = [
+        (f"{end}{side}", Pose(sign * x_m, radius, round(z_m, WELD_DECIMALS), 0.0 if sign > 0 else 180.0))
+        for end, z_m in zip(("Front", "Rear"), _axles_m(body), strict=True)
+        for side, sign in (("Right", 1.0), ("Left", -1.0))
     ]
-    return [rims, *tyres]
+    return [
+        _turned(replace(part, name=f"{name}{part.name}"), pose) for part in (metal, rubber) for name, pose in places
+    ]
 
 
 def steered(asset: Asset, body: CarBody, steer_deg: float) -> Asset:
@@ -58,11 +59,16 @@ def steered(asset: Asset, body: CarBody, steer_deg: float) -> Asset:
         return asset
     if not abs(steer_deg) <= MOST_STEER_DEG:
         raise ConfigError("steer_deg", steer_deg, f"-{MOST_STEER_DEG:g} to {MOST_STEER_DEG:g} degrees")
-    cos, sin = np.cos(np.radians(steer_deg)), np.sin(np.radians(steer_deg))
-    # about +Y; the nose faces -Z
-    turn = np.array([(cos, 0.0, -sin), (0.0, 1.0, 0.0), (sin, 0.0, cos)])
-    axle_m, x_m = _axles_m(body)[0], body.width_m / 2 - _HALF_M - _INSIDE_M
-    return replace(asset, parts=tuple(_turned(part, turn, axle_m, x_m, body.wheelbase_m / 2) for part in asset.parts))
+    middle_m = sum(_axles_m(body)) / 2
+    return replace(
+        asset,
+        parts=tuple(
+            _turned(part, Pose(*part.pose[:3], steer_deg), part.pose)
+            if part.pose is not None and part.pose.z_m < middle_m
+            else part
+            for part in asset.parts
+        ),
+    )
 
 
 def steered_box(body: CarBody, steer_deg: float) -> tuple[float, float, float]:
@@ -74,20 +80,19 @@ def steered_box(body: CarBody, steer_deg: float) -> tuple[float, float, float]:
     return float(x_m), float(front - along), float(front + along)
 
 
-def _turned(part: Part, turn: NDArray[np.float64], axle_m: float, x_m: float, near_m: float) -> Part:
-    if part.material not in {"tyre", "rim"}:
-        return part
-    points = part.points.astype(np.float64)
-    is_front = points[:, 2] < axle_m + near_m
-    if not is_front.any():
-        return part
-    hubs = np.stack([np.sign(points[:, 0]) * x_m, points[:, 1], np.full(len(points), axle_m)], axis=1)
-    moved = np.where(is_front[:, None], (points - hubs) @ turn + hubs, points)
-    # front and rear wheels need separate normals, as one part holds the rims of all four
-    both = np.concatenate([part.normals, (part.normals @ turn).astype(np.float32)])
-    numbers = part.normal_indices + len(part.normals) * is_front[part.face_indices]
-    used, indices = np.unique(numbers, return_inverse=True)
-    return replace(part, points=moved.astype(np.float32), normals=both[used], normal_indices=indices.astype(np.int32))
+def _turned(part: Part, pose: Pose, before: Pose = _ORIGIN) -> Part:
+    """Move a part from a pose to another place, and turn it there by the yaw of that place."""
+    angle = np.radians(pose.yaw_deg)
+    cos, sin = np.round((np.cos(angle), np.sin(angle)), 12)
+    # about +Y; the nose of a car faces -Z
+    turn = np.array([(cos, 0.0, -sin), (0.0, 1.0, 0.0), (sin, 0.0, cos)])
+    points = (part.points.astype(np.float64) - before[:3]) @ turn + pose[:3]
+    return replace(
+        part,
+        points=points.astype(np.float32),
+        normals=(part.normals @ turn + 0.0).astype(np.float32),
+        pose=pose._replace(yaw_deg=before.yaw_deg + pose.yaw_deg),
+    )
 
 
 def _axles_m(body: CarBody) -> tuple[float, float]:

@@ -15,7 +15,7 @@ from garage2usd.assets.car_trim import PLATE_M, bright_trim, end_trim, front_pla
 from garage2usd.assets.car_wheels import wheels
 from garage2usd.assets.faces import box_faces, lathe_faces
 from garage2usd.assets.materials import MATERIALS
-from garage2usd.assets.mesh import Asset, Collider, Part, make_part
+from garage2usd.assets.mesh import Asset, Collider, Part, distinct_normals, make_part
 from garage2usd.config.vehicles import PAINTS, CarBody
 
 __all__ = ["PLATE_M", "car", "dusty", "lamps_of", "lit", "plate_places"]
@@ -35,6 +35,9 @@ _CLEAN_END_M = 0.34
 """Length of nose and tail without dust."""
 _DUST_LIFT_M, _DUST_TOLERANCE_M = 0.0018, 0.0012
 _LIT = {"lamp_front": "lamp_front_lit", "lamp_rear": "lamp_rear_lit"}
+_BODYWORK = frozenset({"Body", "Cabin", "Glass", "Arches", "Mirrors", "Spoiler", "RearGlass"})
+_BODYWORK_STEPS, _STEPS = 127, 32
+"""Steps per unit of the normals of parts that reflect, as in glTF's bytes, and of all others: 0.3 and 1.2 degrees."""
 _RAIL_M = 0.034
 """Height of a rail above the edge of the roof."""
 
@@ -73,7 +76,15 @@ def car(body: CarBody) -> Asset:
         parts.append(make_part("RearGlass", planar_faces(regions["rear_glass"]), "glass_dark", crease_deg=38))
     if shape.spoiler:
         parts.append(make_part("Spoiler", planar_faces(_spoiler(shell)), "car_paint", crease_deg=50))
-    return Asset(tuple(parts), paints={paint: f"car_paint_{paint}" for paint in PAINTS})
+    coarse = [_with_coarse_normals(part, _BODYWORK_STEPS if part.name in _BODYWORK else _STEPS) for part in parts]
+    return Asset(tuple(coarse), paints={paint: f"car_paint_{paint}" for paint in PAINTS})
+
+
+def _with_coarse_normals(part: Part, steps: int) -> Part:
+    """Round the normals of a part to steps per unit, which leaves fewer different ones to store."""
+    rounded = np.rint(part.normals.astype(np.float64) * steps)
+    normals, indices = distinct_normals(rounded / np.linalg.norm(rounded, axis=1, keepdims=True))
+    return replace(part, normals=normals, normal_indices=indices[part.normal_indices].astype(np.int32))
 
 
 def dusty(asset: Asset, body: CarBody) -> Asset:

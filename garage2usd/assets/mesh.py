@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +19,10 @@ __all__ = [
     "Collider",
     "Face",
     "Part",
+    "Pose",
     "along_main_axis",
     "area_vectors",
+    "distinct_normals",
     "make_part",
     "next_corners",
     "pascal_case",
@@ -47,6 +50,15 @@ class Collider(StrEnum):
     CONVEX_HULL = "convexHull"
 
 
+class Pose(NamedTuple):
+    """A pose in an asset: position in metres, and rotation about +Y in degrees."""
+
+    x_m: float
+    y_m: float
+    z_m: float
+    yaw_deg: float = 0.0
+
+
 @dataclass(frozen=True, eq=False)
 class Part:
     """One mesh with one material.
@@ -71,6 +83,9 @@ class Part:
         Approximation for physics; None for a part without collision.
     piece
         Semantic class of its piece; empty if it is that of the asset.
+    pose
+        Pose in which a layer places the mesh, with points relative to it, so that equal parts such as wheels share one
+        array; None for a mesh in the axes of the asset. The points here are always in the axes of the asset.
     """
 
     name: str
@@ -84,6 +99,7 @@ class Part:
     material: str
     collider: Collider | None = None
     piece: str = ""
+    pose: Pose | None = None
 
 
 @dataclass(frozen=True)
@@ -176,7 +192,7 @@ def make_part(
 
     area = area_vectors(points[flat], counts)
     unit = area / np.linalg.norm(area, axis=1, keepdims=True)
-    normals, normal_indices = _distinct_normals(_corner_normals(flat, counts, area, unit, crease_deg))
+    normals, normal_indices = distinct_normals(_corner_normals(flat, counts, area, unit, crease_deg))
     look = MATERIALS[material]
     st, st_indices = np.empty((0, 2)), np.empty(0, dtype=np.int64)
     if look.textures():
@@ -208,7 +224,7 @@ def unique_rows(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray
     return rows[order][is_new], which
 
 
-def _distinct_normals(normals: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
+def distinct_normals(normals: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
     """Distinct unit normals rounded to four decimals, and the index of each corner's normal."""
     steps = np.rint(normals.astype(np.float32) * np.float32(_NORMAL_STEPS)).astype(np.int64)
     # encoded as integers, which sort much faster than rows

@@ -6,15 +6,17 @@ from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.profiles import Profile
 
-__all__ = ["BOOK"]
+__all__ = ["BOOK", "DEAD_LAMPS"]
 
 BOOK = RuleBook()
+DEAD_LAMPS = "lamps give no light"
+"""End of a message that names dead lamps as the cause."""
 _ROUNDING = 0.99
 
 
 def _dark(what: str, garage: BuiltGarage) -> str:
     """Return the message that lanes or stalls are too dark, with the number of dead lamps as a possible cause."""
-    because = f": {garage.dead_lamps} of {garage.lamps} lamps give no light" if garage.dead_lamps else ""
+    because = f": {garage.dead_lamps} of {garage.lamps} {DEAD_LAMPS}" if garage.dead_lamps else ""
     return f"the {what} are too dark{because}"
 
 

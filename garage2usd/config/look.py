@@ -452,6 +452,12 @@ class LookConfig(Settings):
         """Add a digest of the folder's contents; a folder that has a digest is read on use."""
         return read_texture_sets(textures)[0] if textures is not None and not textures.sha256 else textures
 
+    @property
+    def may_be_dim(self) -> bool:
+        """True if lamps may be dead, so that the floor gets less light than the standard asks for."""
+        drawn = {"lights.dead_share", "lights.emergency_only"} & {*self.axes}
+        return bool(drawn or self.lights.dead_share or self.lights.emergency_only)
+
     @field_validator("drawn")
     @classmethod
     def _axes(cls, drawn: "bool | tuple[str, ...]", info: ValidationInfo) -> tuple[str, ...]:

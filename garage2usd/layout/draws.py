@@ -42,6 +42,10 @@ class SquareDraws:
         """Return an array of uniform numbers from 0 to 1 for each square, deterministic by step and name."""
         return self._by_square(named_generator(self._seed, step, name).random((self._count, *shape)))
 
+    def of_all(self, step: Step, name: str, count: int) -> NDArray[np.float64]:
+        """Return uniform numbers from 0 to 1 for the garage as a whole, deterministic by step and name."""
+        return named_generator(self._seed, step, name).random(count)
+
     def _by_square(self, numbers: NDArray[np.float64]) -> dict[Square, NDArray[np.float64]]:
         """Distribute the rows of an array to the squares."""
         return {square: numbers[row] for square, row in self._rows.items()}

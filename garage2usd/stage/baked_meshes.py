@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import TypeAdapter
 
-from garage2usd.assets import Asset, Collider, Part
+from garage2usd.assets import Asset, Collider, Part, Pose
 from garage2usd.common.errors import StageError
 from garage2usd.objects import Spec
 
@@ -48,13 +48,13 @@ class _Entry(NamedTuple):
     paints
         Paints of the asset.
     parts
-        Name, material, collider and piece of each part.
+        Name, material, collider, piece and pose of each part.
     first
         Index of the first part among those of its group.
     """
 
     paints: dict[str, str]
-    parts: Sequence[tuple[str, str, str | None, str]]
+    parts: Sequence[tuple[str, str, str | None, str, Sequence[float] | None]]
     first: int
 
 
@@ -108,7 +108,7 @@ def _packed(assets: Sequence[tuple[str, Asset]]) -> bytes:
     entries: dict[str, _Entry] = {}
     parts: list[Part] = []
     for key, asset in assets:
-        kept = [(part.name, part.material, part.collider, part.piece) for part in asset.parts]
+        kept = [(part.name, part.material, part.collider, part.piece, part.pose) for part in asset.parts]
         entries[key] = _Entry(dict(asset.paints), kept, first=len(parts))
         parts += asset.parts
     columns = {name: [getattr(part, name) for part in parts] for name in _STEPS}
@@ -167,11 +167,12 @@ def baked_asset(shape: Spec) -> Asset | None:
     if baked is None or entry is None:
         return None
     parts = []
-    for number, (name, material, collider, piece) in enumerate(entry.parts, entry.first):
+    for number, (name, material, collider, piece, pose) in enumerate(entry.parts, entry.first):
         spans = zip(_STEPS, baked.arrays, *baked.borders[number : number + 2].tolist(), strict=True)
         arrays: dict[str, Any] = {of: array[start:end] for of, array, start, end in spans}
         touched = None if collider is None else Collider(collider)
-        parts.append(Part(name=name, material=material, collider=touched, piece=piece, **arrays))
+        placed = None if pose is None else Pose(*pose)
+        parts.append(Part(name=name, material=material, collider=touched, piece=piece, pose=placed, **arrays))
     return Asset(tuple(parts), paints=entry.paints)
 
 

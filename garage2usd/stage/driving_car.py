@@ -181,7 +181,7 @@ def _author_body(layer: Sdf.Layer, car: Sdf.Path, body: CarBody, states: Traject
         order_operations(wheel, [*order, "rotateX"])
         for part in parts:
             # in the catalogue, tyres and rims are identified by their materials
-            moved = replace(part, points=part.points - hub, collider=None)
+            moved = replace(part, points=part.points - hub, collider=None, pose=None)
             is_own = part.material in asset.finishes
             name = part.name if is_own else pascal_case(part.material)
             finish = finished(part.material, asset.finishes).material

@@ -17,7 +17,7 @@ from garage2usd.stage.number_plates import plate_text
 from garage2usd.stage.prim_text import (
     header_text,
     instance_text,
-    place_text,
+    pose_text,
     reference_text,
     rounded_deg,
     rounded_m,
@@ -105,7 +105,7 @@ class InstanceWriter:
                 else:
                     said += f"custom rel {CAR_OF_STALL} = <../{car_name}>\n"
             if said:
-                yield instance_text(prim, header, place_text(x, y, z, yaw), said)
+                yield instance_text(prim, header, pose_text(x, y, z, yaw), said)
             else:
                 yield _placed_text(prim, header, x, y, z, yaw)
 
@@ -128,7 +128,7 @@ class InstanceWriter:
 @lru_cache(maxsize=1 << 14)
 def _placed_text(name: str, header: str, x: float, y: float, z: float, yaw_deg: float) -> str:
     """Text of an instance without attributes, cached because most tiles of a large garage have equal objects."""
-    return instance_text(name, header, place_text(x, y, z, yaw_deg))
+    return instance_text(name, header, pose_text(x, y, z, yaw_deg))
 
 
 def _shape_text(stall: Stall) -> str:
@@ -147,7 +147,7 @@ def _stall_text(stall: Stall, access_square: tuple[int, int], *, is_taken: bool)
 
     Occupancy comes from the inherited class, as variants of the garage remove the cars.
     """
-    corners = ", ".join(f"({x}, {z})" for x, z in stall.corners)
+    corners = ",".join(f"({x:.10g},{z:.10g})" for x, z in stall.corners)
     facts, (access_row, access_column) = dict(stall.facts), access_square
     kind, row, column, edge = (facts[name] for name in ("type", "row", "column", "entryEdge"))
     return (

@@ -26,7 +26,7 @@ def plate_text(text: str, car: str, country: Country = Country.NONE) -> str:
 
 @lru_cache(maxsize=1 << 12)
 def _letters(text: str, country: Country) -> str:
-    corners = ", ".join(f"({u}, {v})" for u, v in plate_coordinates(text, country).astype(str).tolist())
+    corners = ",".join(f"({u:.7g},{v:.7g})" for u, v in plate_coordinates(text, country).tolist())
     meshes = "".join(
         f'over "{name}"\n{{\ntexCoord2f[] primvars:st = [{corners}]\n}}\n' for name, _ in PLATE_STYLES[country].meshes
     )

@@ -18,15 +18,13 @@ __all__ = [
     "instance_text",
     "moved_text",
     "place_text",
+    "pose_text",
     "reference_text",
     "rounded_deg",
     "rounded_m",
 ]
 
-_ORDERS = {
-    False: 'uniform token[] xformOpOrder = ["xformOp:translate"]\n',
-    True: 'uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateY"]\n',
-}
+_ORDER = 'uniform token[] xformOpOrder = ["xformOp:translate"]\n'
 
 
 def anchored(path: str) -> str:
@@ -36,7 +34,7 @@ def anchored(path: str) -> str:
 
 def inherits_text(base: str) -> str:
     """Metadata of a prim that inherits from a class."""
-    return f"prepend inherits = <{base}>\n"
+    return f"inherits = <{base}>\n"
 
 
 def reference_text(asset: str, prim: str = "", *, base: str | None = None) -> str:
@@ -93,13 +91,21 @@ def group_pieces(
     yield "}\n"
 
 
-def place_text(x: float, y: float, z: float, yaw_deg: float = 0.0) -> str:
-    """Text of a translation in metres and a rotation about +Y, from `rounded_m` and `rounded_deg`."""
+def place_text(x: float, y: float, z: float) -> str:
+    """Text of a translation in metres from `rounded_m`."""
     # float3, not double3: three.js cannot read a double3 from a crate file
-    move = f"float3 xformOp:translate = ({x}, {y}, {z})\n"
-    if not yaw_deg:
-        return move + _ORDERS[False]
-    return f"{move}float xformOp:rotateY = {yaw_deg}\n{_ORDERS[True]}"
+    return f"float3 xformOp:translate = ({x}, {y}, {z})\n{_ORDER}"
+
+
+def pose_text(x: float, y: float, z: float, yaw_deg: float) -> str:
+    """Text of the translation and the rotation about +Y of an instance, from `rounded_m` and `rounded_deg`.
+
+    The order of the operations, and their values of 0, are those of the asset's root prim (`define_prototype`). Without
+    an order, three.js ignores a rotateY.
+    """
+    # ten digits are micrometres up to ten kilometres, and none is a point and a zero
+    move = f"float3 xformOp:translate = ({x:.10g},{y:.10g},{z:.10g})\n" if x or y or z else ""
+    return f"{move}float3 xformOp:rotateXYZ = (0,{yaw_deg:.10g},0)\n" if yaw_deg else move
 
 
 @lru_cache(maxsize=4096)

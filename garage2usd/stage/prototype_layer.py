@@ -15,6 +15,7 @@ from garage2usd.assets import (
     MATERIALS,
     NON_VISUAL,
     VARYING,
+    WELD_DECIMALS,
     AreaLight,
     Asset,
     Finish,
@@ -56,6 +57,9 @@ USUAL: Mapping[str, Finish] = {}
 _ROOT = "Asset"
 """Name of the root prim of every asset, so that equal assets have equal bytes under any file name."""
 _TYPES = Sdf.ValueTypeNames
+_NORMAL_DECIMALS = 4
+_POSE = ("translate", "rotateXYZ")
+"""Transform operations of an asset, by which instances are placed."""
 
 
 class _Friction(NamedTuple):
@@ -127,6 +131,10 @@ def define_prototype(
     path = Sdf.Path.absoluteRootPath.AppendChild(name)
     root = define(layer, path, "Xform", kind=ModelKind.Tokens.component, label=kind.label)
     root.SetInfo("assetInfo", {"name": pascal_case(kind.name)})
+    # instances author values alone: the order would be a fifth of the text of a garage
+    for operator in _POSE:
+        operation(root, operator, _TYPES.Float3, Gf.Vec3f(0, 0, 0))
+    order_operations(root, _POSE)
     define(layer, root.path.AppendChild("Geom"), "Scope")
     looks = define(layer, root.path.AppendChild("Looks"), "Scope").path
     glowing = {key: finish.material for key, finish in of.items() if any(finish.material.emissive_rgb)}
@@ -280,14 +288,20 @@ def define_mesh(
     finish = finish or MATERIALS[part.material]
     usual = MATERIALS.get(part.material, finish)
     mesh = define(layer, path, "Mesh")
-    points = Vt.Vec3fArray.FromNumpy(part.points)
+    own_points, own_normals = _in_pose(part)
+    points = Vt.Vec3fArray.FromNumpy(own_points)
     attribute(mesh, "points", _TYPES.Point3fArray, points)
     numbers(mesh, "faceVertexCounts", part.face_counts)
     numbers(mesh, "faceVertexIndices", part.face_indices)
     attribute(mesh, "subdivisionScheme", _TYPES.Token, UsdGeom.Tokens.none, uniform=True)
     attribute(mesh, "extent", _TYPES.Float3Array, UsdGeom.PointBased.ComputeExtent(points))
     # as a primvar, since the schema's attribute takes no indices, which halve the size of a car
-    _define_primvar(mesh, "normals", _TYPES.Normal3fArray, Vt.Vec3fArray.FromNumpy(part.normals), part.normal_indices)
+    _define_primvar(mesh, "normals", _TYPES.Normal3fArray, Vt.Vec3fArray.FromNumpy(own_normals), part.normal_indices)
+    if part.pose is not None:
+        x_m, y_m, z_m, yaw_deg = part.pose
+        operation(mesh, "translate", _TYPES.Float3, Gf.Vec3f(x_m, y_m, z_m))
+        operation(mesh, "rotateY", _TYPES.Float, yaw_deg)
+        order_operations(mesh, ["translate", "rotateY"])
     if len(part.st):
         st, st_indices = _as_points(part) if is_compact else (part.st, part.st_indices)
         st = st * _repeats(usual, finish) if finish != usual else st
@@ -302,6 +316,18 @@ def define_mesh(
         attribute(mesh, "physics:mass", _TYPES.Float, mass_kg)
     attribute(mesh, "physics:approximation", _TYPES.Token, part.collider.value, uniform=True)
     relationship(mesh, "material:binding:physics", [_friction(looks, finish.touch)])
+
+
+def _in_pose(part: Part) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Points and normals of a part in the axes of its pose, rounded so that equal parts have equal arrays."""
+    if part.pose is None:
+        return part.points, part.normals
+    angle = np.radians(part.pose.yaw_deg)
+    cos, sin = np.cos(angle), np.sin(angle)
+    back = np.array([(cos, 0.0, sin), (0.0, 1.0, 0.0), (-sin, 0.0, cos)])
+    points = np.round((part.points.astype(np.float64) - part.pose[:3]) @ back, WELD_DECIMALS) + 0.0
+    normals = np.round(part.normals.astype(np.float64) @ back, _NORMAL_DECIMALS) + 0.0
+    return points.astype(np.float32), normals.astype(np.float32)
 
 
 def _as_points(part: Part) -> tuple[NDArray[np.float32], NDArray[np.int32]]:

@@ -1,4 +1,4 @@
-"""Fleet of parked cars: bodies and paints by their market shares."""
+"""Fleet of parked cars: bodies and paints by their market shares, and a choice of models for each garage."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -6,13 +6,16 @@ from itertools import accumulate
 
 from garage2usd.config import ParkingConfig
 from garage2usd.config.markets import load_market, market_of
-from garage2usd.config.vehicles import PAINTS, CarBody
+from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody
 
 __all__ = ["Fleet"]
 
+_MORE_MODELS = 4
+"""A garage has one model of a segment, and as many more as its share times this number."""
+
 
 class Fleet:
-    """Market shares of car bodies and paints, overridden by the configuration.
+    """Market shares of car bodies and paints, overridden by the configuration, and the models of one garage.
 
     Parameters
     ----------
@@ -20,6 +23,8 @@ class Fleet:
         Settings of parking.
     country
         ISO 3166 code of the profile's country; empty for none.
+    ranks
+        Random number of each body of the catalogue; of a segment's bodies that fit a stall, the least are chosen.
 
     Attributes
     ----------
@@ -27,22 +32,42 @@ class Fleet:
         Shares of vehicle segments and of paints, relative to their sum.
     reversed_share
         Share of the cars parked nose out.
+
+    Notes
+    -----
+    Segments keep their market shares in every garage. Only the models of a segment are limited, as each body is one
+    more asset of 130 KB: garages differ in their models, and a data set has all of them.
     """
 
-    def __init__(self, parking: ParkingConfig, country: str) -> None:
+    def __init__(self, parking: ParkingConfig, country: str, ranks: Sequence[float]) -> None:
         market = load_market(parking.market) if parking.market else market_of(country)
         self.segments = dict(parking.bodies or market.segments.shares)
         self.paints = dict(parking.paints or market.paints.shares)
         self.reversed_share = market.reversed.share if parking.reversed_share is None else parking.reversed_share
 
+        self._rank = dict(zip(CAR_BODIES, ranks, strict=True))
         self._paint_sums = _cumulative_sums([self.paints.get(paint, 0.0) for paint in PAINTS])
-        self._body_sums: dict[tuple[CarBody, ...], list[float]] = {}
+        self._models: dict[tuple[CarBody, ...], tuple[list[CarBody], list[float]]] = {}
 
     def body_of(self, bodies: tuple[CarBody, ...], share: float) -> CarBody:
         """Return the body at a quantile from 0 to 1 of some bodies, weighted by the shares of their segments."""
-        if bodies not in self._body_sums:
-            self._body_sums[bodies] = _cumulative_sums(body_weights(bodies, self.segments))
-        return bodies[_index_at(share, self._body_sums[bodies])]
+        if bodies not in self._models:
+            models = self._models_of(bodies)
+            self._models[bodies] = models, _cumulative_sums(body_weights(models, self.segments))
+        models, sums = self._models[bodies]
+        return models[_index_at(share, sums)]
+
+    def _models_of(self, bodies: Sequence[CarBody]) -> list[CarBody]:
+        """Choose the garage's models of each segment among some bodies."""
+        total = sum(self.segments.values())
+        chosen: Counter[str] = Counter()
+        models: list[CarBody] = []
+        for body in sorted(bodies, key=lambda body: self._rank[body]):
+            share = self.segments.get(body.segment, 0.0) / total if total else 1.0
+            if chosen[body.segment] <= round(_MORE_MODELS * share):
+                chosen[body.segment] += 1
+                models.append(body)
+        return models
 
     def paint_of(self, share: float) -> str:
         """Return the paint at a quantile from 0 to 1."""

@@ -222,9 +222,10 @@ def park_cars(
 
     Notes
     -----
-    A car is drawn among the bodies that fit, then its yaw, then its lateral offset from a normal distribution truncated
-    by neighbours and lines. Every stall uses the same number of draws, so that the occupancy changes no other car. A
-    car stands over a line only towards a stall of the same row, and far over only in rows of perpendicular stalls.
+    A car is drawn among the garage's models that fit, then its yaw, then its lateral offset from a normal distribution
+    truncated by neighbours and lines. Every stall uses the same number of draws, so that the occupancy changes no other
+    car. A car stands over a line only towards a stall of the same row, and far over only in rows of perpendicular
+    stalls.
     """
     parking = config.parking
     most = max((stall.ordinal for stall in stalls), default=0)
@@ -232,7 +233,8 @@ def park_cars(
     habits = draws.of_part(Step.CARS, "over the line", most, _HABITS)
     states = draws.of_part(Step.CARS, "wheels and dust", most, _STATES)
     lamps = draws.of_part(Step.CARS, "lamps", most, 1)
-    fleet = Fleet(parking, config.standard.country)
+    ranks = draws.of_all(Step.CARS, "models", len(CAR_BODIES)).tolist()
+    fleet = Fleet(parking, config.standard.country, ranks)
     holds_car = occupancy_of(stalls, parking)
     cars: dict[str, _Car] = {}
     for stall in stalls:

@@ -3,6 +3,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 import shapely
+from pxr import Usd, UsdGeom
 from support.soak import soak_but
 
 from garage2usd.assets import MATERIALS, Collider
@@ -20,8 +21,9 @@ KEPT = [body for body in CAR_BODIES if body in DRIVEN_BODIES or body.name == "ro
 """All designs of shells; the others are wide."""
 each_body = pytest.mark.parametrize("body", soak_but(KEPT, CAR_BODIES), ids=lambda body: body.name)
 SEGMENTS = {"city", "hatchback", "saloon", "estate", "suv", "mpv", "van", "pickup", "sports"}
-NEEDED = {"Body", "Cabin", "Glass", "HeadLamps", "TailLamps", "PlateHolders", "Rims", "Mirrors", "Arches"}
+NEEDED = {"Body", "Cabin", "Glass", "HeadLamps", "TailLamps", "PlateHolders", "Mirrors", "Arches"}
 TYRES = {f"{end}{side}Tyre" for end in ("Front", "Rear") for side in ("Left", "Right")}
+RIMS = {name.replace("Tyre", "Rim") for name in TYRES}
 
 
 def parts_of(body):
@@ -73,7 +75,7 @@ def test_a_body_fits_into_its_own_measures_and_into_nothing_smaller(body):
 @each_body
 def test_a_car_has_all_its_parts_in_few_points(body):
     parts = parts_of(body)
-    assert parts.keys() >= NEEDED | TYRES
+    assert parts.keys() >= NEEDED | TYRES | RIMS
     assert sum(len(part.points) for part in parts.values()) <= 12000
     painted = {name for name, part in parts.items() if part.material.startswith("car_paint")}
     assert painted >= {"Body", "Mirrors"}
@@ -206,10 +208,28 @@ def test_each_wheel_stands_on_the_floor(body):
 
 
 @each_body
-def test_a_car_takes_180_kb(body, tmp_path):
+def test_a_car_takes_150_kb(body, tmp_path):
     path = tmp_path / "Car.usdc"
     write_prototype(car(body), path, kind=CarSpec.kind, quality=TextureQuality.HIGH)
-    assert path.stat().st_size <= 180_000
+    assert path.stat().st_size <= 150_000
+
+
+@pytest.mark.parametrize("steer_deg", [0.0, -15.0])
+def test_the_four_wheels_of_a_car_share_their_arrays_and_stand_where_they_are(tmp_path, steer_deg):
+    asset = CarSpec("saloon", "white", steer_deg).asset()
+    write_prototype(asset, tmp_path / "Car.usdc", kind=CarSpec.kind, quality=TextureQuality.HIGH)
+    stage = Usd.Stage.Open(str(tmp_path / "Car.usdc"))
+    for kind, names in (("Rim", RIMS), ("Tyre", TYRES)):
+        arrays = set()
+        for part in (part for part in asset.parts if part.name in names):
+            mesh = UsdGeom.Mesh(stage.GetPrimAtPath(f"/Asset/Geom/{part.name}"))
+            points = np.array(mesh.GetPointsAttr().Get())
+            normals = np.array(UsdGeom.PrimvarsAPI(mesh).GetPrimvar("normals").Get())
+            arrays.add((points.tobytes(), normals.tobytes()))
+            matrix = np.array(mesh.GetLocalTransformation())
+            assert points @ matrix[:3, :3] + matrix[3, :3] == pytest.approx(part.points, abs=2e-5)
+            assert normals @ matrix[:3, :3] == pytest.approx(part.normals, abs=2e-4)
+        assert len(arrays) == 1, kind
 
 
 @each_body

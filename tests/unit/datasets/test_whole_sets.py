@@ -116,3 +116,10 @@ def test_splits_that_are_too_small_for_a_garage_are_named(in_one_process, tmp_pa
     assert "dev gets none of the 2 garages: its share is 0.3\n" in said.stderr
     assert "test gets none of the 2 garages: its share is 0.1\n" in said.stderr
     assert re.findall(r"(\w+)  (\d+) garages", said.stdout) == [("train", "2"), ("dev", "0"), ("test", "0")]
+
+
+@pytest.mark.parametrize("look", [{"lights": {"dead_share": 0.9}}, {"drawn": ["lights"]}], ids=["given", "drawn"])
+def test_dead_lamps_of_a_look_are_no_fault(in_one_process, tmp_path, look):
+    recipe = small_recipe(count=3, garage={**SMALL["garage"], "look": look}, shards={"garages": 3}, splits={"all": 1})
+    make_dataset(recipe, tmp_path / "set")
+    assert verify_dataset(tmp_path / "set") == []

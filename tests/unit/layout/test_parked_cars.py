@@ -15,12 +15,14 @@ from support.soak import soak_but
 from garage2usd.assets import MATERIALS
 from garage2usd.checks import check_layout
 from garage2usd.common.errors import ConfigError
-from garage2usd.config import GarageConfig, config_from_mapping
+from garage2usd.common.randomness import Step, named_generator
+from garage2usd.config import GarageConfig, ParkingConfig, config_from_mapping
 from garage2usd.config.markets import MARKET_NAMES, load_market, market_of
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS, SEGMENTS, body_named
 from garage2usd.driving import prove_stalls
 from garage2usd.layout import lay_out
 from garage2usd.layout.draws import SquareDraws
+from garage2usd.layout.parking.fleet import Fleet
 from garage2usd.layout.parking.parked_cars import fitting, park_cars
 from garage2usd.layout.parking.stalls import stalls_of
 from garage2usd.layout.tiles import TileGrid
@@ -321,3 +323,17 @@ def test_wheels_are_turned_and_flanks_dusty_as_often_as_asked():
     usual = [car.spec for found in parked(GarageConfig(parking={"occupancy": 0.9}), 60)[0] for car in found.cars]
     assert [(spec.body, spec.paint) for spec in usual] == [(spec.body, spec.paint) for spec in cars]
     assert not any(spec.steer_deg or spec.is_dusty for spec in usual)
+
+
+def test_a_garage_has_a_few_models_of_each_segment_and_garages_differ_in_them():
+    shares = {"suv": 0.5, "saloon": 0.3, "city": 0.2}
+    models = []
+    for seed in range(4):
+        ranks = named_generator(seed, Step.CARS, "models").random(len(CAR_BODIES)).tolist()
+        fleet = Fleet(ParkingConfig(bodies=shares), "", ranks)
+        drawn = [fleet.body_of(CAR_BODIES, share) for share in np.linspace(0, 0.9999, 1000)]
+        counts = Counter(body.segment for body in drawn)
+        assert {segment: counts[segment] / 1000 for segment in counts} == pytest.approx(shares, abs=0.01)
+        assert Counter(body.segment for body in set(drawn)) == {"suv": 3, "saloon": 2, "city": 2}
+        models.append(frozenset(drawn))
+    assert len(set(models)) == len(models)

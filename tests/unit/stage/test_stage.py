@@ -416,3 +416,13 @@ def test_the_drive_leads_from_the_first_entrance_with_a_way_out_to_the_nearest_e
         x, _, z = camera.ComputeLocalToWorldTransform(frame).ExtractTranslation()
         node = graph.graph.nodes[square]
         assert np.hypot(x - node["x_m"], z - node["z_m"]) < 0.2
+
+
+@pytest.mark.parametrize(
+    ("sample", "most"),
+    [(None, 3_200_000), pytest.param("large_20x30", 7_200_000, marks=pytest.mark.soak)],
+    ids=["default", "20x30"],
+)
+def test_a_package_is_small(tmp_path, sample, most):
+    config = load_config(REPOSITORY / f"samples/{sample}.toml") if sample else GarageConfig()
+    assert build(config, tmp_path / "garage.usdz").stage.stat().st_size <= most
