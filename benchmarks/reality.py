@@ -53,7 +53,7 @@ def main() -> int:
         gave_way.update(garage.plan.gave_way)
         planned, left = planned + garage.plan.score.stalls, left + len(garage.layout.stalls)
         plan_m2 += area_per_stall_m2(garage.plan.structure, garage.config.bay) / asked.seeds
-        layout_m2 += garage.layout.area_per_stall_m2 / asked.seeds
+        layout_m2 += garage.layout.area.per_stall(garage.layout.parking_stalls).net_m2 / asked.seeds
         if seed < asked.first + asked.drive:
             limits = Limits(gear_changes=_GEAR_CHANGES)
             proofs = prove_stalls(garage.layout, limits=limits)

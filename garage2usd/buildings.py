@@ -36,7 +36,7 @@ from garage2usd.planning import Plan, evaluate, tape_of
 from garage2usd.planning.dimensions import aisle_side_mm, lines_with_aisles
 from garage2usd.reading.levels_report import LevelReport, LevelsReport, ReportedLink
 from garage2usd.reading.report import UnmetClause
-from garage2usd.report import make_report
+from garage2usd.report import area_figures, make_report
 from garage2usd.site.level_ramps import ramps_are_free, ramps_of_tape, with_ramps_room
 from garage2usd.site.levels import LevelSites, make_level_sites, make_street_site
 from garage2usd.stage import StageFormat, shared_folder
@@ -494,6 +494,7 @@ def levels_report(
         config=garage.config,
         tape=garage.tape,
         parking_stalls=garage.parking_stalls,
+        **area_figures([level.layout for level in garage.levels]),
         links=tuple(links),
         levels=tuple(
             LevelReport(

@@ -92,7 +92,7 @@ def draw_contact_sheet(
     output: Path,
     *,
     size_px: tuple[int, int] = (320, 180),
-    samples: int = 2,
+    samples: int = 4,
     columns: int = 3,
     device: Device = Device.AUTO,
     progress: Progress = silent,

@@ -14,6 +14,7 @@ from garage2usd.config import GarageConfig
 from garage2usd.garage import Stall
 from garage2usd.layout import Layout
 from garage2usd.layout.egress.compartments import compartment_name
+from garage2usd.layout.floor_area import FloorArea
 from garage2usd.planning import (
     Plan,
     area_per_stall_m2,
@@ -41,7 +42,7 @@ from garage2usd.reading.report import (
 )
 from garage2usd.structure.grid import Cell, Structure
 
-__all__ = ["learning_figures", "make_report", "write_report"]
+__all__ = ["area_figures", "learning_figures", "make_report", "write_report"]
 
 _CURVE_POINTS, _RETURN_DECIMALS = 500, 1
 """Points of the learning curve, each the mean of ten of 5000 episodes (the whole curve would be half of a report), and
@@ -53,6 +54,17 @@ _DECIMALS = 6
 def write_report(path: Path, report: Report) -> None:
     """Write a report as JSON."""
     path.write_text(json_text(report.model_dump(mode="json")), encoding="utf-8", newline="\n")
+
+
+def area_figures(layouts: Sequence[Layout]) -> dict[str, float | None]:
+    """Return the floor of all levels for each stall that cars park in, net and gross; null without any stall."""
+    stalls = sum(layout.parking_stalls for layout in layouts)
+    net_m2, gross_m2 = map(math.fsum, zip(*(layout.area for layout in layouts), strict=True))
+    net_m2, gross_m2 = FloorArea(net_m2, gross_m2).per_stall(stalls)
+    return {
+        "area_per_stall_m2": round(net_m2, 3) if stalls else None,
+        "gross_area_per_stall_m2": round(gross_m2, 3) if stalls else None,
+    }
 
 
 def make_report(
@@ -105,7 +117,7 @@ def make_report(
         learning=learning or learning_figures(plan, config),
         principles=principles(structure, bay=config.bay),
         circulation=_circulation(structure, config),
-        area_per_stall_m2=round(layout.area_per_stall_m2, 3) if layout.parking_stalls else None,
+        **area_figures([layout]),
         parking_stalls=layout.parking_stalls,
         stall_uses={str(use): count for use, count in sorted(Counter(s.use for s in layout.quads).items())},
         illuminance=layout.illuminance,

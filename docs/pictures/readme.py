@@ -28,7 +28,7 @@ _VIEWS = {
 }
 """Sample of each picture, and how ``render.py`` draws it."""
 _SURROUND = "surround.jpg"
-_SURROUND_EVERY_M, _SURROUND_POSE = 30.0, 1
+_SURROUND_EVERY_M, _SURROUND_POSE = 45.0, 1
 
 
 def main() -> None:

@@ -334,6 +334,7 @@ MATERIALS: dict[str, Material] = {
     "stain_oil": Material(colour_texture="stains.png", has_alpha=True, roughness=0.22),
     "stain_damp": Material(colour_texture="stains.png", has_alpha=True, roughness=0.12),
     "stain_rubber": Material(colour_texture="stains.png", has_alpha=True, roughness=0.6),
+    "asphalt_repair": Material(colour_texture="asphalt_repairs.png", has_alpha=True, roughness=0.8),
     "stain_patch": Material(colour_texture="stains.png", has_alpha=True, roughness=0.85),
     "dirt": Material(colour_texture="dirt.png", has_alpha=True, roughness=0.75),
     "road_dust": Material(

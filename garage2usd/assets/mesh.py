@@ -18,6 +18,7 @@ __all__ = [
     "Collider",
     "Face",
     "Part",
+    "along_main_axis",
     "area_vectors",
     "make_part",
     "next_corners",
@@ -179,7 +180,7 @@ def make_part(
     look = MATERIALS[material]
     st, st_indices = np.empty((0, 2)), np.empty(0, dtype=np.int64)
     if look.textures():
-        along = project or _along_main_axis
+        along = project or along_main_axis
         repeats_m = look.repeat_m, look.repeat_up_m or look.repeat_m
         coordinates = along(points[flat], np.repeat(unit, counts, axis=0)) / repeats_m
         st, st_indices = unique_rows(np.round(coordinates, WELD_DECIMALS) + 0.0)
@@ -278,7 +279,7 @@ def _corner_normals(
     return np.where(lengths > 0, normals / np.where(lengths > 0, lengths, 1.0), unit[face_of])
 
 
-def _along_main_axis(corners: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
+def along_main_axis(corners: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
     """Project each face along the axis nearest to its normal, in metres; V is up on upright faces."""
     x, y, z = corners.T
     axis = np.argmax(np.abs(normals) - np.array([0.0, 1e-6, 2e-6]), axis=1)

@@ -37,6 +37,7 @@ BASE_OF_TOUCH = {
 """Base substance by class of friction."""
 _PAINTED = frozenset({Touch.COATING, Touch.STEEL})
 _BASES = {
+    "asphalt_repair": "asphalt",
     "brass": "brass",
     "cabinet_glass": "clear_glass",
     "cardboard": "cardboard",

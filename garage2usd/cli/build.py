@@ -162,6 +162,7 @@ def _build_levels(
         lines.append((name, f"floor at {garage.building.floor_m(number):g} m, {text}"))
     lines += [
         ("stalls", f"{garage.parking_stalls} on {len(garage.levels)} levels"),
+        ("m2/stall", _areas([level.layout for level in garage.levels])),
         ("ramps", garage.building.ramps.in_words),
         ("reachable", "every stall, from an entrance on the street and to an exit on it"),
         ("seed", str(garage.config.seed)),
@@ -217,7 +218,7 @@ def _describe(made: "Build") -> None:
         *_columns(made),
         ("cores", f"{len(layout.cores)} in the place of {_displaced(layout)} stalls; {parts}"),
         ("light", _lit(made)),
-        ("m2/stall", f"{layout.area_per_stall_m2:.1f}"),
+        ("m2/stall", _areas([layout])),
         ("score", f"{score.value:.2f} ({figures})"),
         *_learnt(made),
         *(("gave way", f"{name}: {reason}") for name, reason in garage.plan.gave_way.items()),
@@ -233,6 +234,14 @@ def _describe(made: "Build") -> None:
         ("seconds", ", ".join(f"{step} {value:.2f}" for step, value in made.seconds.items())),
     ]
     echo_table(lines)
+
+
+def _areas(layouts: "Sequence[Layout]") -> str:
+    """Tell the floor a stall of some levels, without and with ramps and obstacles."""
+    from garage2usd.report import area_figures  # noqa: PLC0415 - keeps --help instant
+
+    net_m2, gross_m2 = area_figures(layouts).values()
+    return "no stalls" if net_m2 is None else f"{net_m2:.1f} net, {gross_m2:.1f} gross, with ramps and obstacles"
 
 
 def _planned(made: "Build") -> list[tuple[str, str]]:

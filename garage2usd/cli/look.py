@@ -46,7 +46,7 @@ _RECIPE_KEYS = {"garage", "groups", "make", "shards", "splits"}
     "--samples",
     metavar="N",
     type=click.IntRange(1, 65536),
-    default=2,
+    default=4,
     show_default=True,
     help="With --contact-sheet: samples of each pixel.",
 )

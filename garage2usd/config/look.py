@@ -99,7 +99,7 @@ class FloorFinish(StrEnum):
     """A smooth epoxy coating of any colour."""
     ASPHALT = "asphalt"
     PATCHED = "patched"
-    """Asphalt with patches."""
+    """Asphalt with patches and sealed cracks, at places that the seed draws."""
     PAVERS = "pavers"
     """Interlocking blocks of 0.1 x 0.2 m."""
 

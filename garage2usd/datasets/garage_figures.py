@@ -12,6 +12,7 @@ from garage2usd.garage import LaneGraph, Stall, StallKind, StallUse
 from garage2usd.layout import Layout
 from garage2usd.pipeline import Garage
 from garage2usd.planning import measured_circulation
+from garage2usd.report import area_figures
 
 __all__ = ["garage_figures"]
 
@@ -37,7 +38,6 @@ def garage_figures(levels: Sequence[Garage]) -> dict[str, Any]:
     kinds = Counter(stall.kind for stall in stalls if stall.takes_cars)
     circulations = [measured_circulation(layout.structure) for layout in layouts]
     level_stalls = [layout.parking_stalls for layout in layouts]
-    count, floor_m2 = sum(level_stalls), sum(layout.structure.floor_m2 for layout in layouts)
     lanes = [_lane_metres(layout.lane_graph) for layout in layouts]
     parked = [nose_out for layout in layouts for nose_out in _nose_out(layout)]
     return {
@@ -46,7 +46,7 @@ def garage_figures(levels: Sequence[Garage]) -> dict[str, Any]:
         "squares": sum(layout.counts()["floor"] for layout in layouts),
         "levels": len(levels),
         "level_stalls": tuple(level_stalls),
-        "stalls": count,
+        "stalls": sum(level_stalls),
         "standard_stalls": uses[StallUse.STANDARD],
         "ev_stalls": uses[StallUse.EV],
         "accessible_stalls": uses[StallUse.ACCESSIBLE],
@@ -60,7 +60,7 @@ def garage_figures(levels: Sequence[Garage]) -> dict[str, Any]:
         "one_way_lanes_m": round(math.fsum(one_way_m for _, one_way_m in lanes), _DIGITS),
         "loops": sum(found.circulation.loops for found in circulations),
         "longest_dead_end_m": max(found.dead_end_m for found in circulations),
-        "area_per_stall_m2": round(floor_m2 / count, 3) if count else 0.0,
+        **{name: area_m2 or 0.0 for name, area_m2 in area_figures(layouts).items()},
         "stair_cores": sum(len(layout.cores) for layout in layouts),
         "mean_lux": _mean_lux(layouts),
     }

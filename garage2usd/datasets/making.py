@@ -20,7 +20,7 @@ from garage2usd.datasets.difficulty import Level
 from garage2usd.datasets.drawn_plan import DrawnPlan, plan_table, plans_of
 from garage2usd.datasets.drives import check_drives
 from garage2usd.datasets.manifest import ManifestRow, manifest_table, table_bytes, text_of_rows
-from garage2usd.datasets.plans import PlanDraw, chunks, planned
+from garage2usd.datasets.plans import PlanDraw, chunks, landings_of, planned
 from garage2usd.datasets.recipe import RECIPE_FILE, Recipe
 from garage2usd.datasets.shards import Shard, failed_row, made_rows, make_shard, shards_of, sweep
 from garage2usd.datasets.sums import SUMS_FILE, damaged_assets, read_sums, sha256_of, sums_text
@@ -217,7 +217,7 @@ def _each(
     return pool.each(make_shard, shards, recipe, folder)
 
 
-def _plan_figures(row: ManifestRow, drawn: DrawnPlan) -> PlanFigures:
+def _plan_figures(row: ManifestRow, drawn: DrawnPlan, recipe: Recipe) -> PlanFigures:
     cells = drawn.structure.cells
     return PlanFigures(
         key=f"{row.number:08}",
@@ -227,10 +227,12 @@ def _plan_figures(row: ManifestRow, drawn: DrawnPlan) -> PlanFigures:
         loops=row.loops,
         longest_dead_end_m=row.longest_dead_end_m,
         area_per_stall_m2=row.area_per_stall_m2,
+        gross_area_per_stall_m2=row.gross_area_per_stall_m2,
         contour=contour_shape(cells),
         level=Level(row.difficulty) if row.difficulty else None,
         levels=row.levels,
         of_levels=drawn.digest,
+        landings=landings_of(drawn, recipe),
     )
 
 
@@ -243,7 +245,7 @@ def _finish(recipe: Recipe, folder: Path, plans: Sequence[DrawnPlan], rows: Sequ
     store(folder / TABLE_FILE, table_bytes(manifest_table(rows)))
     store(folder / LINES_FILE, text_of_rows(rows).encode())
     splits = list(recipe.splits)
-    figures = [_plan_figures(row, drawn) for row, drawn in zip(rows, plans, strict=True) if not row.error]
+    figures = [_plan_figures(row, drawn, recipe) for row, drawn in zip(rows, plans, strict=True) if not row.error]
     page = folder / f"{HIDDEN_PREFIX}{PAGE_FILE}"
     with writing(folder / PAGE_FILE):
         write_page(

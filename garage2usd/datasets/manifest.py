@@ -76,9 +76,9 @@ class ManifestRow(Record):
         Numbers of parked cars, of those in perpendicular stalls, and of those among the latter that stand nose out.
     lanes_m, one_way_lanes_m
         Length of the lanes without portals and ramps, and of those that are one-way.
-    loops, longest_dead_end_m, area_per_stall_m2, stair_cores, mean_lux
+    loops, longest_dead_end_m, area_per_stall_m2, gross_area_per_stall_m2, stair_cores, mean_lux
         As in its report; over several levels the sum of the loops and of the cores, the longest dead end, and the means
-        over all stalls, for which the squares of ramps are no floor.
+        over all stalls; squares of ramps are ground of the gross area only.
     difficulty, difficulty_score
         Difficulty of the garage (`garage2usd.datasets.difficulty`); empty and -1 if it is not rated or no stall is
         proven.
@@ -126,6 +126,7 @@ class ManifestRow(Record):
     loops: int = 0
     longest_dead_end_m: float = 0.0
     area_per_stall_m2: float = 0.0
+    gross_area_per_stall_m2: float = 0.0
     stair_cores: int = 0
     mean_lux: float = 0.0
     difficulty: str = ""

@@ -13,6 +13,7 @@ from garage2usd.datasets.charts import bars, histogram, split_colours
 from garage2usd.datasets.contour import ContourShape
 from garage2usd.datasets.difficulty import Level
 from garage2usd.datasets.variety import FIGURES, PlanFigures, Spread, Variety
+from garage2usd.layout.floor_area import FloorArea
 from garage2usd.structure.symmetry import cropped_cells
 from garage2usd.view.drawing import Colour
 from garage2usd.view.plan_thumbnail import THUMBNAIL_COLOURS, draw_thumbnail
@@ -32,6 +33,7 @@ _THUMBNAIL_WORDS = {
     "dead_end": "lane of a dead end",
     "entrance": "entrance",
     "exit": "exit",
+    "landing": "landing of a ramp",
     "free": "free",
     "obstacle": "obstacle",
 }
@@ -136,10 +138,13 @@ def _thumbnail(plan: PlanFigures) -> Markup:
     cells = cropped_cells(plan.cells)
     rows, cols = cells.shape
     levels = f" on each of {plan.levels} levels, drawn is U1" if plan.levels > 1 else ""
-    title = (
-        f"{plan.key}: {rows} x {cols} squares{levels}, {plan.stalls} stalls, {plan.area_per_stall_m2:.1f} m2 a stall"
-    )
-    return Markup(to_svg(draw_thumbnail(cells, title)))  # noqa: S704 - ElementTree has escaped the key
+    areas = FloorArea(plan.area_per_stall_m2, plan.gross_area_per_stall_m2 or plan.area_per_stall_m2).in_words()
+    title = f"{plan.key}: {rows} x {cols} squares{levels}, {plan.stalls} stalls, {areas}"
+    landings = list(plan.landings)
+    if landings:
+        first = np.argwhere(plan.cells >= 0).min(axis=0).tolist()
+        landings = [(row - first[0], col - first[1]) for row, col in landings]
+    return Markup(to_svg(draw_thumbnail(cells, title, landings)))  # noqa: S704 - ElementTree has escaped the key
 
 
 def _picture(path: Path) -> str:

@@ -14,6 +14,7 @@ from garage2usd.datasets.recipe import Distinct, Recipe
 from garage2usd.pipeline import Garage, generate, generate_plan
 from garage2usd.planning import Plan, evaluate, read_tail, tail_of
 from garage2usd.report import learning_figures
+from garage2usd.site.level_ramps import ramps_of_tape
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.symmetry import levels_digest
 
@@ -134,6 +135,14 @@ def levels_replanned(drawn: DrawnPlan, config: GarageConfig) -> LevelsGarage:
     if [_rows(structure) for structure in made] != [drawn.rows, *drawn.lower] or made[0] != drawn.structure:
         raise ConfigError("tape", drawn.tape, f"that of the plans of garage {drawn.number}")
     return garage
+
+
+def landings_of(drawn: DrawnPlan, recipe: Recipe) -> tuple[tuple[int, int], ...]:
+    """Return (row, col) of the landings of the top level of a drawn garage; none of a garage of one level."""
+    if not drawn.tape:
+        return ()
+    config, _ = recipe.drawn(drawn.seed, drawn.number)
+    return tuple(link.head for link in ramps_of_tape(drawn.tape.partition("/")[0], config).links)
 
 
 class PlanDraw:

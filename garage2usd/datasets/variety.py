@@ -39,8 +39,8 @@ class PlanFigures:
         Number of independent loops of the lane graph.
     longest_dead_end_m
         Depth of the deepest dead end; 0 if there is none.
-    area_per_stall_m2
-        Floor area inside the contour per stall.
+    area_per_stall_m2, gross_area_per_stall_m2
+        Floor inside the contour per stall, without ramps and obstacles, and with them (0 where that is not known).
     contour
         Shape of the contour.
     level
@@ -49,6 +49,8 @@ class PlanFigures:
         Number of levels; all figures but `cells` and `contour`, which are those of the top one, are of all levels.
     of_levels
         Digest of the plans of all levels; that of `cells` if left out.
+    landings
+        (row, col) of the portals in `cells` that lead to ramps between levels.
     """
 
     key: str
@@ -62,6 +64,8 @@ class PlanFigures:
     level: Level | None = None
     levels: int = 1
     of_levels: str | None = None
+    gross_area_per_stall_m2: float = 0.0
+    landings: tuple[tuple[int, int], ...] = ()
 
     @cached_property
     def canonical(self) -> CellArray:

@@ -1,7 +1,6 @@
 """From squares to metres: every object of a garage as a placement, free of any file format."""
 # Over 300 lines: the value and the one function that makes it, in the order of what lies on what.
 
-import math
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, LookConfig
-from garage2usd.config.look import AISLE
+from garage2usd.config.look import AISLE, FloorFinish
 from garage2usd.config.plan import DeadEnds, UnreachableStalls
 from garage2usd.garage import LaneGraph, Stall, StallUse
 from garage2usd.layout.ceiling.beams import beams, ceiling_levels
@@ -32,8 +31,10 @@ from garage2usd.layout.fittings import cones, speed_bumps, tube_lights
 from garage2usd.layout.floor.drains import drains
 from garage2usd.layout.floor.panels import drawn_markings_of, floor_panels
 from garage2usd.layout.floor.puddles import puddles
+from garage2usd.layout.floor.repairs import floor_repairs
 from garage2usd.layout.floor.stains import floor_stains
 from garage2usd.layout.floor.stall_numbers import stall_numbers
+from garage2usd.layout.floor_area import FloorArea
 from garage2usd.layout.garage_stalls import garage_stalls
 from garage2usd.layout.parking.clutter import clutter
 from garage2usd.layout.parking.designation import chargers, with_designated_stalls
@@ -52,7 +53,7 @@ from garage2usd.layout.shell.boards import with_boards
 from garage2usd.layout.shell.building import columns, corner_columns, ground_inside, outer_walls
 from garage2usd.layout.shell.fire_shutters import fire_shutters
 from garage2usd.layout.shell.mounts import mounted_objects
-from garage2usd.layout.shell.ramps import barriers, ramp_lights, with_ramps
+from garage2usd.layout.shell.ramps import ramp_lights, with_barriers, with_ramps
 from garage2usd.layout.shell.well import Well
 from garage2usd.layout.shell.zone_plates import zone_plates
 from garage2usd.layout.signs import country_of, with_signs_of
@@ -63,7 +64,7 @@ from garage2usd.objects import KINDS
 from garage2usd.objects.number_plate import NumberPlateSpec
 from garage2usd.objects.outline import Point
 from garage2usd.structure.dead_ends import DEAD_END_LIMIT_MM, dead_ends
-from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.grid import Cell, Structure, outside_squares
 from garage2usd.structure.lane_graph import LaneSquares, Square
 
 __all__ = [
@@ -232,14 +233,22 @@ class Layout:
         return int(self.stalls.takes_cars.sum())
 
     @property
+    def landings(self) -> frozenset[tuple[int, int]]:
+        """(row, col) of the squares at heads and feet of ramps between levels: portals of S that lead to no street."""
+        return frozenset(self.well.landings) if self.well else frozenset()
+
+    @property
+    def area(self) -> FloorArea:
+        """Its floor without and with what is no floor."""
+        ground = ~outside_squares(self.structure.cells)
+        for square in self.well.squares if self.well else ():
+            ground[square] = True
+        return FloorArea(self.structure.floor_m2, self.structure.area_m2(ground))
+
+    @property
     def kept_free_stalls(self) -> int:
         """Number of marked stalls that are kept free: access aisles, turning stalls and unreachable ones."""
         return sum(not STALL_USES[use].is_parked_in for use in self.stalls.use.tolist())
-
-    @property
-    def area_per_stall_m2(self) -> float:
-        """Floor inside the contour, obstacles apart, for each stall that cars park in; infinite without any."""
-        return self.structure.floor_m2 / self.parking_stalls if self.parking_stalls else math.inf
 
     def uses_in_words(self) -> str:
         """How many stalls are for what, those that cars park in first, then those for motorcycles."""
@@ -356,6 +365,8 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield (floors := floor_panels(grid, look.markings, drawn, bumps=bumps, crossings=crossings, cores=core_on))
         yield (drained := list(drains(grid, floors, look.floor.drains)))
         yield floor_stains(grid, floors, stalls, fittings, draws, look.floor.dirt, drained)
+        if look.floor.finish is FloorFinish.PATCHED:
+            yield floor_repairs(floors, draws, drained)
         yield puddles(grid, look.floor.wet, drained, bumps, draws)
         # a coat on the stalls covers what was painted before it
         yield stall_panels(stalls, look.markings, grid, drawn.ghosts if look.floor.bays == AISLE else {})
@@ -367,7 +378,8 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield bumps
         yield (signs := no_parking_signs(grid, shell, built, fittings, seed=seed))
 
-        yield (ceiling_panel(tile, fittings) for tile in grid)
+        storey_m = well.building.storey_m if well and not well.is_top else None
+        yield (ceiling_panel(tile, fittings, storey_m) for tile in grid)
         yield lamps
         yield beams(structure, bay, ceiling, levels.beam_depth_m, pillars)
         yield ducts(grid, ceiling, levels, look.ceiling)
@@ -378,8 +390,8 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield level_signs(grid, graph, fittings, levels, well) if well else ()
         yield mirrors(grid, pillars, fittings, levels)
 
-        yield (walls := with_ramps(shell, ground_inside(structure), fittings, look.walls))
-        yield (gates := barriers(walls, fittings))
+        walls, gates = with_barriers(with_ramps(shell, ground_inside(structure), fittings, look.walls), fittings)
+        yield from (walls, gates)
         tubes = ramp_lights(walls, fittings)
         if well:
             yield (guards := well.walls(structure, fittings, look.walls))
@@ -445,7 +457,14 @@ def _used_stalls(
         limit_mm = min(DEAD_END_LIMIT_MM, round(clause.amount * 1000) if clause else DEAD_END_LIMIT_MM)
         long_ends = [end for end in dead_ends(grid.structure, limit_mm) if end.needs_turning_stall]
         stalls = with_turning_stalls(stalls, grid, long_ends)
-    return with_designated_stalls(stalls, _foot_exits(grid, cores, no_ways_out), config.parking, config.standard)
+    portals = {*grid.structure.where(Cell.ENTRANCE), *grid.structure.where(Cell.EXIT)}
+    return with_designated_stalls(
+        stalls,
+        _foot_exits(grid, cores, no_ways_out),
+        config.parking,
+        config.standard,
+        ways_in_and_out=portals.union(*(graph.graph[portal] for portal in portals)),
+    )
 
 
 def _crossings(grid: TileGrid, cores: Iterable[Core]) -> dict[Square, float]:

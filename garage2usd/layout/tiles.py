@@ -228,9 +228,11 @@ def lane_edges(tile: Tile) -> list[Edge]:
     return [edge for edge in Edge if tile.drivable[edge]]
 
 
-def ceiling_panel(tile: Tile, fittings: FittingsConfig) -> Placement:
-    """Make the ceiling slab over one square."""
+def ceiling_panel(tile: Tile, fittings: FittingsConfig, storey_m: float | None = None) -> Placement:
+    """Make the ceiling slab over one square, up to the floor of the level a storey above if there is one."""
     spec = CeilingSpec(tile.width_m, tile.depth_m, CEILING_THICKNESS_M)
+    if storey_m is not None:
+        spec = CeilingSpec(tile.width_m, tile.depth_m, round(storey_m - fittings.ceiling_height_m, 6), bears_floor=True)
     position = (tile.x_m, fittings.ceiling_height_m, tile.z_m)
     return Placement("Ceiling", spec, position, square=tile.square)
 

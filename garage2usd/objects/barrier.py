@@ -10,14 +10,16 @@ from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.objects.kind import Kind, Spec
 from garage2usd.objects.outline import Polygon, rectangle
 
-__all__ = ["KIND", "BarrierSpec"]
+__all__ = ["ARM_HALF_M", "KIND", "PIVOT_M", "BarrierSpec"]
 
 KIND = Kind("barrier", number=19, label="barrier", cityscapes="guard rail", group="Ramps")
 
-_ARM_M = 0.08
+ARM_HALF_M = 0.04
+"""Half the height of the arm."""
 _ARM_PITCH_M = 0.45
 _HOUSING_M = (0.3, 1.05, 0.3)
-_PIVOT_M = 0.92
+PIVOT_M = 0.92
+"""Height of the arm's pivot."""
 _GATE = (rectangle(-0.2, -0.2, 0.2, 0.2), rectangle(-0.17, -1.9, 0.17, -1.5))
 _ARM_Z_M = (0.18, 0.26)
 
@@ -36,9 +38,9 @@ class BarrierSpec(Spec, kind=KIND):
         housing = box_faces((-x, 0.1, -z), (x, top, z))
         plinth = box_faces((-x - 0.05, 0.0, -z - 0.05), (x + 0.05, 0.1, z + 0.05))
         cap = box_faces((-x - 0.02, top, -z - 0.02), (x + 0.02, top + 0.04, z + 0.02))
-        red, white = _arm(self.arm_m, self.elbow_m) if self.is_raised else _level(0.0, -self.arm_m, _PIVOT_M)
+        red, white = _arm(self.arm_m, self.elbow_m) if self.is_raised else _level(0.0, -self.arm_m, PIVOT_M)
         arm_z = z + 0.07
-        hub = box_faces((-0.09, _PIVOT_M - 0.09, z), (0.09, _PIVOT_M + 0.09, arm_z - _ARM_M / 4))
+        hub = box_faces((-0.09, PIVOT_M - 0.09, z), (0.09, PIVOT_M + 0.09, arm_z - ARM_HALF_M / 2))
         return Asset(
             (
                 make_part("Plinth", plinth, "kerb_concrete", collider=Collider.BOX),
@@ -78,7 +80,7 @@ def _level(start_m: float, end_m: float, height_m: float) -> tuple[list[list[Fac
     """Return the red and white boxes of a level piece of a barrier's arm, from `start_m` to the left."""
     count = max(1, round((start_m - end_m) / _ARM_PITCH_M))
     ends = np.linspace(start_m, end_m, count + 1).tolist()
-    half = _ARM_M / 2
+    half = ARM_HALF_M
     boxes = [
         box_faces((left, height_m - half, -half / 2), (right, height_m + half, half / 2))
         for right, left in pairwise(ends)
@@ -88,9 +90,9 @@ def _level(start_m: float, end_m: float, height_m: float) -> tuple[list[list[Fac
 
 def _arm(arm_m: float, elbow_m: float) -> tuple[list[list[Face]], list[list[Face]]]:
     """Return the red and white boxes of a raised barrier arm that folds at its elbow."""
-    half, upright = _ARM_M / 2, elbow_m - _PIVOT_M
+    half, upright = ARM_HALF_M, elbow_m - PIVOT_M
     red, white = _level(half, half - (arm_m - upright), elbow_m)
     count = max(1, round(upright / _ARM_PITCH_M))
-    ends = np.linspace(_PIVOT_M, elbow_m - half, count + 1).tolist()
+    ends = np.linspace(PIVOT_M, elbow_m - half, count + 1).tolist()
     stack = [box_faces((-half, low, -half / 2), (half, high, half / 2)) for low, high in pairwise(ends)][::-1]
     return red + stack[0::2], white + stack[1::2]

@@ -18,6 +18,7 @@ from garage2usd.objects.ramp import RampSpec
 __all__ = ["CoilSpec", "CrossingSpec"]
 
 _KERB_WIDTH_M, _KERB_HEIGHT_M = 0.18, 0.15
+_FLAT = 1e-4
 _UP, _DOWN = (0.0, 1.0, 0.0), (0.0, -1.0, 0.0)
 Floats = NDArray[np.float64]
 
@@ -98,6 +99,12 @@ class CoilSpec(Spec, kind=RampSpec.kind):
         u, v = self._places.beside(inwards_m).T
         return np.stack([self.turn * v, self._heights + over_m, u], axis=1)
 
+    def _lengths_m(self, inwards_m: float, runs_m: Floats) -> Floats:
+        """Return the lengths of a line beside the middle line up to places along this one."""
+        steps = np.diff(self._places.beside(inwards_m), axis=0)
+        lengths = np.concatenate([[0.0], np.cumsum(np.sqrt((steps * steps).sum(axis=1)))])
+        return np.interp(runs_m, self._runs, lengths)
+
     def _band(
         self,
         inwards_m: float,
@@ -131,9 +138,13 @@ class CoilSpec(Spec, kind=RampSpec.kind):
         faces += self._band(back, back, (-self.slab_m, tops), self._inwards(side))
         faces += self._band(face, back, (tops, tops), _UP)
 
-        def along(corners: Floats, _normals: Floats) -> Floats:
+        def along(corners: Floats, normals: Floats) -> Floats:
             runs, inwards = self.line.foot(corners[:, 2], self.turn * corners[:, 0])
-            return np.stack([runs, corners[:, 1] + np.abs(inwards)], axis=1)
+            is_back = (np.abs(inwards) > np.abs(face + back) / 2) & (np.abs(normals[:, 1]) < 1 / 2)
+            right = side * self.turn * np.where(is_back, -1.0, 1.0)
+            lengths = np.where(is_back, self._lengths_m(back, runs), self._lengths_m(face, runs))
+            is_top = np.abs(normals[:, 1]) > 1 / 2
+            return np.stack([right * lengths, corners[:, 1] + is_top * (np.abs(inwards) - abs(face))], axis=1)
 
         return make_part(name, faces, "wall_concrete", collider=Collider.MESH, project=along)
 
@@ -150,11 +161,15 @@ class CoilSpec(Spec, kind=RampSpec.kind):
             ]
             faces.append(self._facing_out(np.array(corners), end))
 
-        def from_edge(corners: Floats, _normals: Floats) -> Floats:
+        def from_edge(corners: Floats, normals: Floats) -> Floats:
             runs, inwards = self.line.foot(corners[:, 2], self.turn * corners[:, 0])
             outwards = side * (inwards - inner)
             down = heights_along(self.profile, runs) + _KERB_HEIGHT_M - corners[:, 1]
-            return np.stack([runs, np.maximum(outwards, down)], axis=1)
+            is_end = np.zeros(len(corners), dtype=bool)
+            for end in (0, -1):
+                is_end |= (normals @ self._away(end) > 1 - _FLAT) & (np.abs(runs - self._runs[end]) < _FLAT)
+            lengths = np.where(is_end, outwards, self._lengths_m(inner, runs))
+            return np.stack([lengths, np.where(is_end, -down, np.maximum(outwards, down))], axis=1)
 
         return make_part(name, faces, "hazard", collider=Collider.MESH, project=from_edge)
 
@@ -176,10 +191,13 @@ class CoilSpec(Spec, kind=RampSpec.kind):
 
     def _facing_out(self, face: Face, end: int) -> Face:
         """Return a face across one end of the helix, turned to look away from it."""
-        places, sign = self._places, -1.0 if end == 0 else 1.0
-        away = sign * np.array([self.turn * float(places.along_v[end]), 0.0, float(places.along_u[end])])
         normal = np.cross(face[1] - face[0], face[2] - face[0])
-        return face if normal @ away > 0 else face[::-1]
+        return face if normal @ self._away(end) > 0 else face[::-1]
+
+    def _away(self, end: int) -> Floats:
+        """Return the direction out of the helix at one of its ends."""
+        places, sign = self._places, -1.0 if end == 0 else 1.0
+        return sign * np.array([self.turn * float(places.along_v[end]), 0.0, float(places.along_u[end])])
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.assets.asphalt_repairs import REPAIR_CELLS
 from garage2usd.assets.flat import flat_part
 from garage2usd.assets.mesh import Asset, Face, make_part
 from garage2usd.assets.puddle_outline import puddle_outline
@@ -22,6 +23,8 @@ KIND = Kind("floor_stain", number=26, label="floor_stain", cityscapes="road", is
 
 Projection = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
 _MATERIALS = {"oil": "stain_oil", "drips": "stain_oil", "damp": "stain_damp", "patch": "stain_patch"}
+_MATERIALS |= dict.fromkeys(REPAIR_CELLS, "asphalt_repair")
+_ALL_CELLS = {**CELLS, **REPAIR_CELLS}
 _TYRE_WIDTH_M = 0.24
 _GAUGE_M = 1.55
 _STEP_DEG = 7.5
@@ -42,6 +45,10 @@ class StainMark(StrEnum):
     DAMP = "damp"
     CRACK = "crack"
     PATCH = "patch"
+    SEAM = "seam"
+    """Crack of old asphalt, sealed with bitumen."""
+    REPAIR = "repair"
+    """Patch of old asphalt with a sealed border."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +73,7 @@ class StainSpec(Spec, kind=KIND):
         return Asset((make_part("Mark", [face], self._material(), project=project),))
 
     def _cell(self) -> Cell:
-        return CELLS[self.mark][self.variant]
+        return _ALL_CELLS[self.mark][self.variant]
 
     def _material(self) -> str:
         return _MATERIALS.get(self.mark, "stain_rubber")

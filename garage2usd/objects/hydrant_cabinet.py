@@ -2,11 +2,12 @@
 
 from dataclasses import dataclass
 
+import numpy as np
 import shapely
 from shapely import affinity
 
 from garage2usd.assets.countries import Country
-from garage2usd.assets.faces import box_faces, level_lathe_faces, moved, ring_faces, upright_lathe_faces
+from garage2usd.assets.faces import box_faces, level_lathe_faces, moved, ring_faces, tube_faces, upright_lathe_faces
 from garage2usd.assets.flat import upright_triangles
 from garage2usd.assets.glyphs import text_length, text_shape
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
@@ -30,11 +31,13 @@ _PANEL_M = 0.26
 _TEXT_LENGTH_M = 0.46
 _REEL_M = 0.20
 _PIPE_M = 0.038
+_PIPE_DROP_M, _BRACKET_M, _BRACKET_HALF_M = 0.16, 0.2, 0.02
+"""Drop of the supply pipe below the cabinet, and the length of the brackets' legs and half their width."""
 
 
 @dataclass(frozen=True)
 class HydrantCabinetSpec(Spec, kind=KIND):
-    """A fire hydrant cabinet with a supply pipe; origin on the floor in the middle of its back, front to +Z.
+    """A fire hydrant cabinet on brackets; origin on the floor below the middle of its back, front to +Z.
 
     Attributes
     ----------
@@ -45,17 +48,20 @@ class HydrantCabinetSpec(Spec, kind=KIND):
     country: Country = Country.NONE
 
     def asset(self) -> Asset:
-        """Make the meshes of a red hydrant cabinet: glass door, lettered panel, valve, hose, nozzle and supply pipe."""
+        """Make the meshes of a red hydrant cabinet: glass door, lettered panel, valve, hose and nozzle.
+
+        The cabinet hangs on two brackets, and the supply pipe comes out of the wall below it.
+        """
         x, low, high, front = _WIDTH_M / 2, _FOOT_M, _FOOT_M + _HEIGHT_M, _DEPTH_M - _DOOR_M
         inside = (-x + _SHEET_M, low + _SHEET_M, 0.0), (x - _SHEET_M, high - _SHEET_M, front)
         back = box_faces(inside[0], (inside[1][0], inside[1][1], _SHEET_M))
         at_pipe = (-x + 0.13, 0.0, 0.11)
-        pipe = moved(upright_lathe_faces([(0, _PIPE_M), (low, _PIPE_M)], segments=16), at_pipe)
         return Asset(
             (
                 make_part("Sides", ring_faces(*inside, _SHEET_M), "pipe_red", collider=Collider.BOX),
                 make_part("Back", back, "housing_white"),
-                make_part("Pipe", pipe, "pipe_red", collider=Collider.CONVEX_HULL),
+                make_part("Pipe", _supply(at_pipe), "pipe_red", collider=Collider.CONVEX_HULL),
+                make_part("Brackets", _brackets(), "steel_galvanised", collider=Collider.CONVEX_HULL),
                 *_door(x, low, high, front, self.country),
                 *_fittings(at_pipe),
             )
@@ -75,6 +81,32 @@ MOUNTED = Mounted(
     spacing="hydrant_spacing",
     is_walked=False,
 )
+
+
+def _supply(at_pipe: tuple[float, float, float]) -> list[Face]:
+    """Return the faces of the supply pipe, from a flange on the wall into the bottom of the cabinet."""
+    x, _, z = at_pipe
+    foot, bend = _FOOT_M - _PIPE_DROP_M, 0.04
+    line = [(x, _FOOT_M, z), (x, foot + bend, z), (x, foot, z - bend), (x, foot, 0.0)]
+    flange = level_lathe_faces([(0.0, 0.0), (0.0, 0.065), (0.014, 0.065), (0.014, 0.0)], segments=16)
+    return [*tube_faces(line, _PIPE_M, segments=16), *moved(flange, (x, foot, 0.0))]
+
+
+def _brackets() -> list[Face]:
+    """Return the faces of the two angle brackets on the wall that the cabinet rests on."""
+    faces: list[Face] = []
+    for x in (0.01, 0.26):
+        left, right = x - _BRACKET_HALF_M, x + _BRACKET_HALF_M
+        faces += box_faces((left, _FOOT_M - 0.008, 0.0), (right, _FOOT_M, _BRACKET_M))
+        faces += box_faces((left, _FOOT_M - _BRACKET_M, 0.0), (right, _FOOT_M - 0.008, 0.008))
+        web = [(0.008, -0.008), (_BRACKET_M, -0.008), (0.008, -_BRACKET_M)]
+        for side in (-0.004, 0.004):
+            face = np.array([(x + side, _FOOT_M + up, out) for out, up in web])
+            faces.append(face if side < 0 else face[::-1])
+        (z0, y0), (z1, y1) = web[1], web[2]
+        edge = [(-0.004, y0, z0), (0.004, y0, z0), (0.004, y1, z1), (-0.004, y1, z1)]
+        faces.append(np.array([(x + across, _FOOT_M + up, out) for across, up, out in edge]))
+    return faces
 
 
 def _door(x: float, low: float, high: float, back: float, country: Country) -> list[Part]:

@@ -38,6 +38,11 @@ class LaneSignSpec(Spec, kind=KIND):
     top_m: float
     height_m: float
 
+    @property
+    def width_m(self) -> float:
+        """Width of the sign."""
+        return self.height_m
+
     def asset(self) -> Asset:
         """Make the meshes of a sign: a red disc with a bar, or a blue board with an arrow, on two rods."""
         half, middle = self.height_m / 2, -self.top_m - self.height_m / 2

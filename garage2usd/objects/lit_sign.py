@@ -12,9 +12,11 @@ from garage2usd.assets.han_glyphs import is_han
 from garage2usd.assets.mesh import Part, make_part
 from garage2usd.objects.signage import SIGNAGE, Way
 
-__all__ = ["lit_sign"]
+__all__ = ["LEAST_SIGN_M", "lit_sign"]
 
-_MOST_HEIGHT_M, _LEAST_HEIGHT_M = 0.5, 0.06
+_MOST_HEIGHT_M = 0.5
+LEAST_SIGN_M = 0.06
+"""Least height of a lit sign."""
 _LENGTH = 5.6
 """Length of a lit sign in sign heights, the unit of all measures on it."""
 _TEXT, _HAN_TEXT, _TEXT_LENGTH = 0.5, 0.66, 3.4
@@ -60,7 +62,7 @@ def lit_sign(
     """
     (left, right), (low, high) = across_m, heights_m
     height = min(high - low, (right - left) / _LENGTH, _MOST_HEIGHT_M)
-    if height < _LEAST_HEIGHT_M:
+    if height < LEAST_SIGN_M:
         return []
     symbol = shapely.Polygon(_ARROW) if way.is_open else _around_disc()
     words = SIGNAGE[country].of(way)

@@ -7,13 +7,15 @@ import numpy as np
 from garage2usd.assets.faces import disc_faces, upright_lathe_faces
 from garage2usd.assets.mesh import Asset, Collider, make_part
 from garage2usd.objects.kind import Kind, Spec, TilePart
-from garage2usd.objects.outline import Polygon, square
+from garage2usd.objects.outline import Polygon, rectangle
 
-__all__ = ["KIND", "NoParkingSignSpec"]
+__all__ = ["KIND", "SIGN_FOOT_M", "NoParkingSignSpec"]
 
 KIND = Kind("no_parking_sign", number=14, label="traffic_sign", cityscapes="traffic sign", part=TilePart.PARKING)
 
 _DISC_RADIUS_M = 0.3
+SIGN_FOOT_M = 0.2
+"""Radius of the foot."""
 
 
 @dataclass(frozen=True)
@@ -22,7 +24,7 @@ class NoParkingSignSpec(Spec, kind=KIND):
 
     def asset(self) -> Asset:
         """Make the meshes of a no-parking sign: a disc on a post with a heavy foot."""
-        foot = upright_lathe_faces([(0.0, 0.22), (0.05, 0.22), (0.09, 0.06)], segments=20)
+        foot = upright_lathe_faces([(0.0, SIGN_FOOT_M), (0.05, SIGN_FOOT_M), (0.09, 0.06)], segments=20)
         post = upright_lathe_faces([(0.09, 0.025), (1.45, 0.025)], segments=10)
         centre = 1.7
         back = disc_faces(_DISC_RADIUS_M, 0.0, 0.012, centre)
@@ -41,5 +43,5 @@ class NoParkingSignSpec(Spec, kind=KIND):
         )
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Return the outline of the no-parking sign: a square around its disc in any direction."""
-        return (square(2 * _DISC_RADIUS_M),)
+        """Return the outline of the no-parking sign: as wide as its disc, as deep as its foot."""
+        return (rectangle(-_DISC_RADIUS_M, -SIGN_FOOT_M, _DISC_RADIUS_M, SIGN_FOOT_M),)

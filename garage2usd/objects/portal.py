@@ -1,6 +1,6 @@
 """Walls with a vehicle door: the portals of a garage."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -39,6 +39,14 @@ class PortalSpec(Spec, kind=KIND):
     """True if the roller door is up because a ramp lies behind it."""
     country: Country = Country.NONE
     """Country of the words on the door's signs."""
+    raised_arm_m: float | None = None
+    """Height of the underside of the raised barrier arm before the door, which the sign inside must not exceed."""
+
+    @property
+    def sign_heights_m(self) -> tuple[float, float]:
+        """Lower and upper limit of the sign inside, between the door's frame and the ceiling or the raised arm."""
+        top_m = self.height_m - _UNDER_CEILING_M
+        return self.door_height_m + _OVER_FRAME_M, top_m if self.raised_arm_m is None else min(top_m, self.raised_arm_m)
 
     def asset(self) -> Asset:
         """Make the meshes of a portal: wall, roller door, closed or up, steel frame, and lit signs on both faces."""
@@ -56,7 +64,7 @@ class PortalSpec(Spec, kind=KIND):
             ]
         )
         inside, outside = (Way.NOT_OUT, Way.IN) if self.is_entrance else (Way.OUT, Way.NOT_IN)
-        sign_room = (-jamb, jamb), (self.door_height_m + _OVER_FRAME_M, self.height_m - _UNDER_CEILING_M)
+        outer_heights = replace(self, raised_arm_m=None).sign_heights_m
         return Asset(
             (
                 make_part("LeftJamb", concrete[:6], "wall_concrete", collider=Collider.BOX),
@@ -64,8 +72,10 @@ class PortalSpec(Spec, kind=KIND):
                 make_part("Lintel", lintel, "wall_concrete", collider=Collider.BOX),
                 make_part("Frame", frame, "hazard", collider=Collider.MESH),
                 *door,
-                *lit_sign("Sign", inside, *sign_room, 0.0, country=self.country),
-                *lit_sign("OuterSign", outside, *sign_room, back, country=self.country, looks_back=True),
+                *lit_sign("Sign", inside, (-jamb, jamb), self.sign_heights_m, 0.0, country=self.country),
+                *lit_sign(
+                    "OuterSign", outside, (-jamb, jamb), outer_heights, back, country=self.country, looks_back=True
+                ),
             ),
         )
 

@@ -91,7 +91,14 @@ class RampSpec(Spec, kind=KIND):
         """Make the painted band and the stripe at the foot of a ramp's side wall."""
         top, parts = self.dado_m, []
         if top:
-            parts.append(make_part(f"{name}Band", _ribbon(face_m, self.profile, 0.0, top), "wall_band"))
+            runs, heights = zip(*self.profile, strict=True)
+
+            def from_floor(corners: NDArray[np.float64], _normals: NDArray[np.float64]) -> NDArray[np.float64]:
+                x, y, z = corners.T
+                return np.stack([np.sign(x) * z, (y - np.interp(-z, runs, heights)) * (DADO_M / top)], axis=1)
+
+            ribbon = _ribbon(face_m, self.profile, 0.0, top)
+            parts.append(make_part(f"{name}Band", ribbon, "wall_band", project=from_floor))
         if self.has_stripe:
             stripe = _ribbon(face_m, self.profile, top, top + DADO_STRIPE_M)
             parts.append(make_part(f"{name}Stripe", stripe, "band_stripe"))

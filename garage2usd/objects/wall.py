@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.assets.faces import box_faces
-from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
+from garage2usd.assets.mesh import Asset, Collider, Face, Part, along_main_axis, make_part
 from garage2usd.objects.kind import Kind, Spec
 from garage2usd.objects.outline import Polygon, rectangle, square
 
@@ -55,8 +55,12 @@ class WallSpec(Spec, kind=KIND):
         faces = box_faces((-half, top, -self.thickness_m), (half, self.height_m, 0), without="lrbtn")
         faces += box_faces((-half, 0, -self.thickness_m), (half, self.height_m, 0), without="f")
 
-        def from_top(face: NDArray[np.float64], _normal: NDArray[np.float64]) -> NDArray[np.float64]:
-            return np.stack([face[:, 0] + face[:, 2], face[:, 1] - self.height_m - face[:, 2]], axis=1)
+        def from_top(corners: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
+            # around the edges of the inner face, and the formwork begins at the top
+            is_upright = np.abs(normals[:, 1]) < 1 / 2
+            shift = np.stack([half * normals[:, 0], -self.height_m * is_upright], axis=1)
+            laid: NDArray[np.float64] = along_main_axis(corners, normals) + shift
+            return laid
 
         parts.append(make_part("Concrete", faces, "wall_concrete", collider=Collider.BOX, project=from_top))
         return Asset(tuple(parts))

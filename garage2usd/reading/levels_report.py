@@ -49,6 +49,8 @@ class LevelsReport(Record):
     config: GarageConfig
     tape: str | None = None
     parking_stalls: int
+    area_per_stall_m2: float | None = None
+    gross_area_per_stall_m2: float | None = None
     links: tuple[ReportedLink, ...]
     levels: tuple[LevelReport, ...]
     seconds: dict[str, float] | None = None

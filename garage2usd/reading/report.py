@@ -172,6 +172,7 @@ class Report(Record):
     principles: Principles | None = None
     circulation: CirculationFigures | None = None
     area_per_stall_m2: float | None = None
+    gross_area_per_stall_m2: float | None = None
     parking_stalls: int | None = None
     stall_uses: dict[str, int] | None = None
     illuminance: LightLevels | None = None

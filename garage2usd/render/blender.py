@@ -329,7 +329,8 @@ def _set_up_colour(scene: bpy.types.Scene, job: dict[str, Any]) -> None:
     scene.cycles.denoising_quality = "FAST" if job["is_draft"] else "HIGH"
     scene.cycles.use_light_tree = not job["is_draft"]
     scene.cycles.max_bounces = _DRAFT_BOUNCES if job["is_draft"] else _BOUNCES
-    scene.view_settings.view_transform = "AgX"
+    scene.view_settings.view_transform = job["view_transform"]
+    scene.view_settings.exposure = job["exposure_ev"]
     scene.render.image_settings.color_mode = "RGB"
 
 

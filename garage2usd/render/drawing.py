@@ -18,6 +18,7 @@ from pxr import Usd, UsdGeom
 from garage2usd.common.limits import lift
 from garage2usd.common.progress import Announce, Progress, time_in_words, unheard
 from garage2usd.common.system import cores
+from garage2usd.common.view_transform import EXPOSURE_EV, VIEW_TRANSFORM
 from garage2usd.reading.labels import Labels
 from garage2usd.render.blender_process import run_blender
 from garage2usd.render.cameras import View
@@ -297,6 +298,8 @@ class Drawing:
             "to_blender": to_blender.tolist(),
             "samples": self.samples,
             "tile_px": _TILE_PX,
+            "view_transform": VIEW_TRANSFORM,
+            "exposure_ev": EXPOSURE_EV,
             "seed": self.seed,
             "is_draft": self.is_draft,
             "device": self.device.kind,

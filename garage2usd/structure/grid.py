@@ -279,8 +279,12 @@ class Structure:
     @property
     def floor_m2(self) -> float:
         """Floor area inside the contour, without obstacles."""
+        return self.area_m2(self.cells != Cell.OBSTACLE)
+
+    def area_m2(self, squares: Mask) -> float:
+        """Return the area of some squares."""
         areas = np.outer(self.row_depths_mm, self.column_widths_mm)
-        return float(areas[self.cells != Cell.OBSTACLE].sum()) / _MM_PER_M**2
+        return float(areas[squares].sum()) / _MM_PER_M**2
 
     def cell_at(self, square: tuple[int, int]) -> Cell:
         """Return the kind of the square at (row, col); an obstacle outside the matrix."""

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 
+import numpy as np
 import shapely
 
 from garage2usd.garage import LaneGraph, LaneKind
@@ -13,7 +14,7 @@ from garage2usd.planning import MeasuredCirculation
 from garage2usd.structure.grid import Cell
 from garage2usd.view.drawing import Colour, Line, Point, Region
 
-__all__ = ["DEAD_END", "FREE", "LANE_COLOUR", "LINE_M", "arrows", "lane_legend", "ribbons", "squares"]
+__all__ = ["DEAD_END", "FREE", "LANDING", "LANE_COLOUR", "LINE_M", "arrows", "lane_legend", "ribbons", "squares"]
 
 LANE_COLOUR: dict[LaneKind, Colour] = {
     LaneKind.CROSSROADS: (98, 146, 148),
@@ -31,6 +32,8 @@ _LANE_NAME = {
     LaneKind.EXIT: "exit",
 }
 DEAD_END: Colour = (204, 152, 104)
+LANDING: Colour = (140, 124, 188)
+"""Colour of the squares at head and foot of a ramp between levels, which lead to no street."""
 FREE: Colour = (226, 224, 216)
 _SEAM: Colour = (206, 204, 196)
 _ARROW: Colour = (236, 238, 242)
@@ -43,9 +46,15 @@ def lane_legend(layout: Layout, found: MeasuredCirculation | None) -> list[tuple
     """List the kinds of lane on the plan with their colours."""
     if found is None:
         return [(LANE_COLOUR[LaneKind.STRAIGHT], "lane")]
-    rounds = found.circulation.rounds[layout.structure.cells >= Cell.LANE]
-    kinds = {node.kind for node, pruned in zip(layout.lane_graph.nodes, rounds.tolist(), strict=True) if not pruned}
+    is_lane, landings = layout.structure.cells >= Cell.LANE, layout.landings
+    tiles = zip(np.argwhere(is_lane).tolist(), found.circulation.rounds[is_lane].tolist(), strict=True)
+    kinds = {
+        node.kind
+        for node, (square, pruned) in zip(layout.lane_graph.nodes, tiles, strict=True)
+        if not pruned and tuple(square) not in landings
+    }
     entries = [(LANE_COLOUR[kind], _LANE_NAME[kind]) for kind in LaneKind if kind in kinds]
+    entries += [(LANDING, "landing of a ramp")] if landings else []
     return entries + ([(DEAD_END, "dead end")] if found.dead_ends else [])
 
 
@@ -62,6 +71,8 @@ def squares(layout: Layout, found: MeasuredCirculation) -> Iterator[Region | Lin
             box = rectangle(x[col], z[row], x[col + 1], z[row + 1])
             if kind is None:
                 yield Region(box, FREE, "free")
+            elif (row, col) in layout.landings:
+                yield Region(box, LANDING, "landing")
             elif rounds[row, col]:
                 yield Region(box, DEAD_END, f"{kind} dead_end")
             else:

@@ -91,13 +91,14 @@ def draw_plan(layout: Layout, *, stall: Stall | None = None, marks: Sequence[Mar
 def _figures(layout: Layout, found: MeasuredCirculation | None) -> str:
     """Key figures of the garage in a line: stalls, area per stall, loops, dead ends, stretches."""
     stalls = layout.parking_stalls
+    known = [f"{stalls} stalls, {layout.counts()['car']} occupied"]
+    known += [layout.area.per_stall(stalls).in_words()] if stalls else []
     if found is None:
-        return f"{stalls} stalls, {layout.counts()['car']} occupied, {layout.area_per_stall_m2:.1f} m2 a stall"
+        return ", ".join(known)
     loops = found.circulation.loops
     return ", ".join(
         [
-            f"{stalls} stalls, {layout.counts()['car']} occupied",
-            *([f"{layout.area_per_stall_m2:.1f} m2 a stall"] if stalls else []),
+            *known,
             f"{loops or 'no'} loop{'s' if loops > 1 else ''}",
             f"longest dead end {found.dead_end_m:.1f} m" if found.dead_ends else "no dead end",
             f"longest stretch without a junction {found.stretch_m:.1f} m",

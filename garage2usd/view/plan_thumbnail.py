@@ -1,6 +1,6 @@
 """Thumbnail of a plan's squares, for sheets with many plans."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from itertools import groupby
 
 import numpy as np
@@ -11,7 +11,7 @@ from garage2usd.objects.outline import rectangle
 from garage2usd.planning import measured_circulation
 from garage2usd.structure.grid import Cell, CellArray, Structure, edge_neighbour_count, outside_squares
 from garage2usd.view.drawing import Colour, Drawing, Line, Point, Region, Text
-from garage2usd.view.plan_lanes import DEAD_END, FREE, LANE_COLOUR
+from garage2usd.view.plan_lanes import DEAD_END, FREE, LANDING, LANE_COLOUR
 from garage2usd.view.plan_picture import SOLID, STALL_COLOUR
 from garage2usd.view.plan_sheet import PAPER
 
@@ -23,6 +23,7 @@ THUMBNAIL_COLOURS: dict[str, Colour] = {
     "dead_end": DEAD_END,
     "entrance": LANE_COLOUR[LaneKind.ENTRANCE],
     "exit": LANE_COLOUR[LaneKind.EXIT],
+    "landing": LANDING,
     "free": FREE,
     "obstacle": SOLID,
 }
@@ -33,7 +34,7 @@ _SEAM, _LETTER_HEIGHT = 0.06, 0.8
 _PX_PER_SQUARE = 16
 
 
-def draw_thumbnail(cells: CellArray, title: str) -> Drawing:
+def draw_thumbnail(cells: CellArray, title: str, landings: Collection[tuple[int, int]] = ()) -> Drawing:
     """Draw the squares of a plan with sides of one metre, whatever their actual sides.
 
     Parameters
@@ -42,6 +43,8 @@ def draw_thumbnail(cells: CellArray, title: str) -> Drawing:
         S, int8, shape (rows, cols).
     title
         Title of the drawing.
+    landings
+        (row, col) of the portals that lead to ramps between levels.
 
     Notes
     -----
@@ -49,11 +52,16 @@ def draw_thumbnail(cells: CellArray, title: str) -> Drawing:
     garage are left blank.
     """
     rows, cols = cells.shape
-    return Drawing((0.0, 0.0), (float(cols), float(rows)), _PX_PER_SQUARE, PAPER, title, list(_elements(cells)))
+    return Drawing(
+        (0.0, 0.0), (float(cols), float(rows)), _PX_PER_SQUARE, PAPER, title, list(_elements(cells, landings))
+    )
 
 
-def _elements(cells: CellArray) -> Iterator[Region | Line | Text]:
-    for row, line in enumerate(_kinds(cells)):
+def _elements(cells: CellArray, landings: Collection[tuple[int, int]]) -> Iterator[Region | Line | Text]:
+    kinds = _kinds(cells)
+    for row, col in landings:
+        kinds[row][col] = "landing"
+    for row, line in enumerate(kinds):
         for kind, run in groupby(range(len(line)), key=line.__getitem__):
             if kind:
                 squares = list(run)
@@ -64,6 +72,8 @@ def _elements(cells: CellArray) -> Iterator[Region | Line | Text]:
     yield Line([(x, y) for y, x in _comb(cols, rows)], PAPER, _SEAM, "seam")
     for cell, letter in _LETTERS.items():
         for row, col in np.argwhere(cells == cell).tolist():
+            if (row, col) in landings:
+                continue
             yield Text((col + 0.5, row + 0.5), letter, _LETTER_HEIGHT, _LETTER, kind="letter")
 
 

@@ -30,6 +30,10 @@ def wells(layout: Layout, sheet: Sheet) -> Iterator[Region | Line | Text]:
     """Draw the ramps that begin or end on a level."""
     if layout.well is None:
         return
+    columns, rows = (edges.tolist() for edges in (layout.structure.column_edges_m, layout.structure.row_edges_m))
+    for row, col in layout.landings:
+        middle = (columns[col] + columns[col + 1]) / 2, (rows[row] + rows[row + 1]) / 2
+        yield Text(middle, "landing", sheet.letters_m, INK, kind="landing")
     down, up = layout.well.lanes(layout.structure)
     for lane, is_down in ((down, True), (up, False)):
         line = _Line([(x, z) for x, _, z in lane.points])

@@ -25,7 +25,7 @@ _CUT: Colour = (96, 90, 86)
 _CAR = "car"
 _BEHIND: dict[str, Colour] = {"wall": (240, 238, 232), "column": (222, 220, 214), _CAR: (196, 208, 224)}
 """Kinds that are drawn behind the plane; walls hide what stands behind them."""
-_MASSIVE = ("beam", "column", "wall")
+_MASSIVE = ("beam", "ceiling", "column", "wall")
 """Kinds whose meshes lack faces that nobody sees."""
 _DEPTH_M = 12.0
 """How far behind the plane things are drawn."""

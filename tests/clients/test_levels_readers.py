@@ -1,11 +1,13 @@
 """Readers of a garage of several levels, judged by programs and computations that are not ours."""
 
+import io
 import json
 
 import numpy as np
 import pytest
 import shapely
 import trimesh
+from PIL import Image
 from support.browser import find_browser
 from support.glb_reader import Glb, assert_like_the_stage
 from support.gltf_validator import find_node, find_validator, validated
@@ -169,6 +171,43 @@ def test_the_viewer_hides_the_levels_above_the_chosen_one(page, judge):
     page.page.keyboard.press("Enter")
     assert page.facts()["Stall id"] == judge.stall_ids[stall]
     page.eval("document.activeElement.blur(), viewer.select(-1)")
+
+
+@pytest.mark.skipif(find_browser() is None, reason="no Chromium on the path")
+def test_a_ramp_is_lit_from_both_of_its_levels_without_an_edge(page, built, judge):
+    down = next(ramp for ramp in judge.ramps() if ramp[0, 1] > ramp[-1, 1])
+    runs = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(down[:, [0, 2]], axis=0), axis=1))])
+    ahead = (down[-1] - down[0]) / runs[-1]
+    side = np.array([-ahead[2], 0.0, ahead[0]])
+    level = built.garage.levels[1].layout
+    half_m = level.well.lanes(level.structure)[0].width_m / 2
+
+    def on_ramp(run_m, aside_m=0.0):
+        return np.array([np.interp(run_m, runs, down[:, axis]) for axis in range(3)]) + aside_m * side
+
+    eye = on_ramp(0.3 * runs[-1])
+    page.show_panels(False)
+    page.eval(
+        f"(viewer.setMode('walk'), viewer.walker.feet.set({', '.join(map(str, eye))}),"
+        f" viewer.walker.yaw = {np.arctan2(-ahead[0], -ahead[2])}, viewer.walker.pitch = -0.1, viewer.touch())"
+    )
+    page.rest()
+    seen = np.asarray(Image.open(io.BytesIO(page.page.screenshot())).convert("L"), dtype=float)
+
+    def brightness(places):
+        found = [page.screen(place) for place in places]
+        return np.mean([seen[int(y), int(x)] for x, y in found if 0 <= x < seen.shape[1] and 0 <= y < seen.shape[0]])
+
+    at_m = 0.3 * runs[-1] + np.arange(4.0, 9.0, 0.05)
+    bands = []
+    for height_m in (0.3, -0.4):  # on both sides of the floor of the upper level
+        wall = np.stack([on_ramp(run_m, half_m) for run_m in at_m])
+        wall[:, 1] = height_m
+        bands.append(brightness(wall))
+    assert bands[1] == pytest.approx(bands[0], rel=0.15)
+    floors = [brightness([on_ramp(run_m, 0.3)]) for run_m in np.linspace(0.42, 0.9, 24) * runs[-1]]
+    assert min(floors) > 0.45 * bands[0]
+    page.show_panels(True)
 
 
 @pytest.mark.skipif(find_browser() is None, reason="no Chromium on the path")

@@ -12,7 +12,8 @@ from pxr import Usd
 from support.browser import THREE_VERSION, find_browser, find_three, load_in_three
 from support.pictures import coarse, difference, read_png, store, stored
 from support.places import MILLIMETRE, assert_same_places
-from support.sample_files import REPOSITORY, each_object_sample
+from support.sample_files import OBJECT_SAMPLES, REPOSITORY
+from support.soak import soak_but
 from support.stage_textures import texture_names
 
 from garage2usd.assets import MATERIALS
@@ -29,6 +30,7 @@ pytestmark = [
 ]
 
 VIEWS = ["inside", "above"]
+LOOKS = REPOSITORY / "samples" / "looks.toml"
 
 
 def images_by_mark(package):
@@ -60,7 +62,7 @@ def uses_of_textures(layout, quality):
 # the browser refuses 1294 for want of resources
 
 
-@each_object_sample
+@pytest.mark.parametrize("sample", soak_but([LOOKS], OBJECT_SAMPLES), ids=lambda path: path.stem)
 def test_three_agrees_with_the_layout(sample, builds, tmp_path):
     build = builds(sample, "usdz")
     layout = build.garage.layout

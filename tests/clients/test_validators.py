@@ -10,9 +10,10 @@ from pathlib import Path
 import pytest
 from pxr import Sdf, Usd, UsdValidation
 from support.label_tables import labelled_objects
-from support.sample_files import OBJECT_SAMPLES, SAMPLES, each_build, each_package
+from support.sample_files import OBJECT_SAMPLES, SAMPLES, USUAL_SAMPLES, each_build, each_package
 from support.small_garage import SETTINGS
 from support.small_levels import SMALL_LEVELS
+from support.soak import soak_but
 
 from garage2usd import GarageConfig, build, build_levels
 
@@ -112,9 +113,12 @@ def test_shared_assets_and_a_stage_that_refers_to_them_pass_both(tmp_path):
         assert nvidia_findings(path, tmp_path / f"{number}.csv", "--no-variants") == []
 
 
-def test_nvidia_validation_of_prototypes_finds_nothing(builds, tmp_path):
-    """Those of the samples that have all kinds of objects between them, at once, as many are of several."""
-    for sample in OBJECT_SAMPLES:
+@pytest.mark.parametrize(
+    "samples", [USUAL_SAMPLES, pytest.param(OBJECT_SAMPLES, marks=pytest.mark.soak)], ids=["usual", "all"]
+)
+def test_nvidia_validation_of_prototypes_finds_nothing(samples, builds, tmp_path):
+    """Those of samples that have all kinds of objects between them, at once, as many are of several."""
+    for sample in samples:
         folder = builds(sample, "usdc").asset_folder
         for file in filter(Path.is_file, folder.rglob("*")):
             copy = tmp_path / "assets" / file.relative_to(folder)
@@ -136,7 +140,7 @@ def test_nvidia_validation_sees_a_broken_prototype(all_kinds, tmp_path):
     assert [finding["Rule"] for finding in findings] == ["ExtentsChecker"]
 
 
-@pytest.mark.parametrize("sample", [*PAPER, *MIXED], ids=lambda path: path.stem)
+@pytest.mark.parametrize("sample", soak_but(MIXED, [*PAPER, *MIXED]), ids=lambda path: path.stem)
 def test_every_format_holds_the_same(sample, builds):
     """So that what one format passes in full, the others need not."""
     texts, assets = {}, {}

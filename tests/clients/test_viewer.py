@@ -9,6 +9,7 @@ from PIL import Image
 from support.browser import find_browser
 from support.label_tables import labelled_objects
 from support.sample_files import REPOSITORY
+from support.soak import soak_but
 from support.viewer_page import viewed
 
 from garage2usd.stage.arrangement import arrange
@@ -23,7 +24,7 @@ pytestmark = [
 VIEWED = {"hand_drawn": "usdz", "large_20x30": "usdc"}
 
 
-@pytest.fixture(scope="module", params=VIEWED)
+@pytest.fixture(scope="module", params=soak_but(["hand_drawn"], VIEWED))
 def opened(builds, request):
     build = builds(REPOSITORY / "samples" / f"{request.param}.toml", VIEWED[request.param])
     with viewed(build.stage) as page:

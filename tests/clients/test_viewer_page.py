@@ -38,5 +38,6 @@ def test_a_rebuild_gives_the_same_bytes(tmp_path):
     assert b"MIT" in kept["licenses.txt"]
 
 
+@pytest.mark.soak
 def test_the_source_is_well_typed():
     run(SOURCE, "tsc", "--noEmit")

@@ -4,6 +4,7 @@ import networkx as nx
 import numpy as np
 import pytest
 from support.overlaps import assert_solid_objects_keep_apart
+from support.soak import soak_but
 
 from garage2usd.config import GarageConfig
 from garage2usd.config.fittings import CEILING_ROOM_M
@@ -58,7 +59,7 @@ def reached(cells, kind):
     return found
 
 
-@pytest.mark.parametrize("block", range(10))
+@pytest.mark.parametrize("block", soak_but(2, range(10)))
 def test_every_seed_builds_every_stall_is_reached_and_nothing_solid_meets(block):
     for seed in range(10 * block, 10 * block + 10):
         config = GarageConfig(**settings(seed))

@@ -2,6 +2,7 @@
 
 import pytest
 from support.driving_simulation import drive_stalls
+from support.soak import soak_but
 
 from garage2usd import GarageConfig, generate
 from garage2usd.checks import Severity, judged_layout
@@ -28,8 +29,11 @@ def settings(seed, profile="cn-jgj100"):
     }
 
 
-@pytest.mark.parametrize("seed", range(9))
-@pytest.mark.parametrize("profile", PROFILE_NAMES)
+CASES = [(profile, seed) for profile in PROFILE_NAMES for seed in range(9)]
+EACH_SEED_ONCE = [(PROFILE_NAMES[seed % len(PROFILE_NAMES)], seed) for seed in range(9)]
+
+
+@pytest.mark.parametrize(("profile", "seed"), soak_but(EACH_SEED_ONCE, CASES))
 def test_check_finds_nothing_and_every_stall_is_proven(profile, seed):
     garage = generate(GarageConfig(**settings(seed, profile)))
     findings, _ = judged_layout(garage.layout, garage.config)
@@ -37,8 +41,9 @@ def test_check_finds_nothing_and_every_stall_is_proven(profile, seed):
     assert all(proof.is_full for proof in prove_stalls(garage.layout, most_explained=0))
 
 
-def test_a_simulated_car_drives_along_directions_into_each_stall_and_out():
-    driven, faults, unproven = drive_stalls(150, seed=20, settings=settings)
-    assert driven == 150
+@pytest.mark.parametrize("count", soak_but(1, [40, 150]))
+def test_a_simulated_car_drives_along_directions_into_each_stall_and_out(count):
+    driven, faults, unproven = drive_stalls(count, seed=20, settings=settings)
+    assert driven == count
     assert faults == []
     assert unproven == []

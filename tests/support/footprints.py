@@ -122,7 +122,7 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
         case MirrorSpec():
             return _centred(2 * spec.radius_m, 0.2)
         case ChargerSpec():
-            return _centred(0.32, 0.1)
+            return shapely.box(-0.23, -0.045, 0.23, 0.135)
         case HydrantCabinetSpec():
             return shapely.box(-0.325, 0, 0.325, 0.27)
         case FireExtinguisherSpec():
@@ -136,7 +136,7 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
         case TyreMarkSpec():
             return _centred(1.8, 2 * spec.length_m)
         case NoParkingSignSpec():
-            return _centred(0.5, 0.5)
+            return _centred(0.6, 0.4)
     raise TypeError(spec)
 
 

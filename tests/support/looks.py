@@ -1,15 +1,24 @@
 """Garages that differ in their look alone, and what no look may change of them."""
 
+import json
+from functools import cache
+
 from garage2usd.config import GarageConfig
 from garage2usd.driving import prove_stalls
 from garage2usd.pipeline import generate
 
 
 def garage(**groups):
-    """A small garage whose look has some groups of axes."""
-    return generate(GarageConfig(seed=3, plan={"episodes": 100}, look=groups))
+    """A small garage whose look has some groups of axes; made once in a process."""
+    return _garage(json.dumps(groups, sort_keys=True))
 
 
+@cache
+def _garage(groups):
+    return generate(GarageConfig(seed=3, plan={"episodes": 100}, look=json.loads(groups)))
+
+
+@cache
 def beside_its_look(made):
     """Plan, stalls, placements with what cars can touch of them, and proofs, as values that compare."""
     layout = made.layout

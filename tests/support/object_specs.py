@@ -2,10 +2,11 @@
 
 import string
 from dataclasses import replace
+from functools import cache
 
 from garage2usd.assets.figures import POSES
 from garage2usd.config.look import ColumnSection, Dirt, Guard
-from garage2usd.config.vehicles import CAR_BODIES, PAINTS, VehicleClass
+from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_BODIES, PAINTS, VehicleClass
 from garage2usd.garage.coil_line import CoilLine
 from garage2usd.objects.bag import BagSort, BagSpec
 from garage2usd.objects.barrier import BarrierSpec
@@ -54,6 +55,7 @@ from garage2usd.objects.waste_bin import BIN_COLOURS, BinSpec
 from garage2usd.objects.wheel_stop import WheelStopSpec
 from garage2usd.objects.zone_plate import ColumnPlatesSpec, ZonePlateSpec
 from support.foreign_cars import own_car
+from support.soak import soak_but
 
 MARKINGS = (
     Marking(((-4.05, -1.0), (-4.05, -0.88), (4.05, -0.88), (4.05, -1.0)), Surface.PAINT_YELLOW, Paint.LANE_LINE),
@@ -109,6 +111,7 @@ SPECS = {
     "column_rectangular": ColumnSpec(0.6, 3.2, RECTANGULAR, head_m=0.4, boards=(CABINET._replace(side=3),)),
     "column_rectangular_rubber": ColumnSpec(0.6, 3.2, RECTANGULAR, is_long_along_x=True, guard=Guard.RUBBER),
     "ceiling": CeilingSpec(8.1, 8.1, 0.25),
+    "ceiling_of_a_lower_level": CeilingSpec(8.1, 8.1, 0.4, bears_floor=True),
     "tube": LampSpec(1.5, 0.12, drop_m=0.115, luminance_nit=4000.0),
     "beam": BeamSpec(7.5, 0.4, 0.4),
     "node": BeamNodeSpec(((-0.3, -0.2, 0.3, 0.2), (-0.2, 0.2, 0.2, 0.3)), 0.4),
@@ -136,6 +139,8 @@ SPECS = {
     "fire_extinguisher": FireExtinguisherSpec(),
     "oil": StainSpec(StainMark.OIL, 2, 0.9, 0.7),
     "wear": StainSpec(StainMark.WEAR_T, 0, 8.1, 6.5),
+    "seam": StainSpec(StainMark.SEAM, 3, 1.0, 4.0),
+    "repair": StainSpec(StainMark.REPAIR, 1, 1.1, 2.2),
     **{f"dirt_{dirt}": DirtSpec(StainMark.WEAR_STRAIGHT, 1, 8.1, 6.5, dirt) for dirt in (Dirt.FAINT, Dirt.FILTHY)},
     **{f"puddle_{variant}": PuddleSpec(variant, 2.2, 1.4) for variant in range(12)},
     "gully": DrainSpec(0.3, 0.3),
@@ -181,3 +186,15 @@ SPECS = {
     "dusty": CarSpec("small_suv", PAINTS[0], is_dusty=True),
 }
 """One shape at least of each class of `garage2usd.objects.Spec`."""
+
+_WIDE = {f"car_{body.name}" for body in CAR_BODIES if body not in DRIVEN_BODIES} - {"car_roadster"}
+"""Cases of bodies for `make soak`: six that drive and one with a soft top have all parts that bodies have."""
+KEPT = [case for case in SPECS if case not in _WIDE]
+CASES = soak_but(KEPT, SPECS)
+"""The names of all cases for ``parametrize``."""
+
+
+@cache
+def asset_of_case(case):
+    """The meshes of a case, made once in a process, not those that are made ahead."""
+    return SPECS[case].asset()

@@ -48,6 +48,14 @@ class Page:
             " for (let k = 0; k < 2; k += busy() ? 0 : 1) await new Promise(requestAnimationFrame); }"
         )
 
+    def show_panels(self, shown):
+        """Show or hide all that covers the picture."""
+        visibility = "" if shown else "hidden"
+        self.eval(
+            "document.querySelectorAll('body > :not(#view)')"
+            f".forEach((panel) => {{ panel.style.visibility = '{visibility}'; }})"
+        )
+
     def screen(self, point):
         """CSS pixels of a place in metres."""
         x, y = self.eval(

@@ -1,7 +1,12 @@
 """The C# readers, compiled once in each worker."""
 
+from functools import cache
+
 import pytest
+from support.small_garage import SETTINGS
 from support.unity import layer, reader
+
+from garage2usd import GarageConfig, build
 
 
 @pytest.fixture(scope="session")
@@ -22,6 +27,19 @@ def prefab_dump(tmp_path_factory):
     running = reader.Reader(layer.compile_prefab_dump(tmp_path_factory.mktemp("prefab_dump")))
     yield running
     running.close()
+
+
+@pytest.fixture(scope="session")
+def small_builds(tmp_path_factory):
+    """Build the garage of twelve squares in a format and perhaps another form, once."""
+
+    @cache
+    def built(extension, form=None):
+        stage = {**SETTINGS["stage"], **({"form": form} if form else {})}
+        folder = tmp_path_factory.mktemp("small")
+        return build(GarageConfig(**{**SETTINGS, "stage": stage}), folder / f"small.{extension}")
+
+    return built
 
 
 @pytest.fixture(scope="session")

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdShade, Vt
 from support.documentation import blocks
-from support.sample_files import REPOSITORY, SAMPLES
+from support.sample_files import REPOSITORY
 from support.unity import reader
 from support.unity.layer import (
     EDITOR,
@@ -22,13 +22,16 @@ from support.unity.layer import (
     sources_of,
 )
 
-SAMPLE = next(sample for sample in SAMPLES if sample.stem == "paper_7x9")
-
 
 @pytest.mark.skipif(reader.missing() is not None, reason=str(reader.missing()))
 @pytest.mark.parametrize(
     "defines",
-    [(), (UNITY_6,), (EDITOR, "GARAGE_OTHER_USD_IMPORTER"), ("UNITY_WEBGL",)],
+    [
+        pytest.param((), marks=pytest.mark.soak),  # as for the script of the guide below
+        (UNITY_6,),
+        pytest.param((EDITOR, "GARAGE_OTHER_USD_IMPORTER"), marks=pytest.mark.soak),
+        pytest.param(("UNITY_WEBGL",), marks=pytest.mark.soak),
+    ],
     ids="-".join,
 )
 def test_the_package_compiles_without_a_warning(tmp_path, defines):
@@ -45,7 +48,7 @@ def test_the_script_of_the_guide_compiles(tmp_path):
 
 
 @pytest.mark.skipif(reader.missing() is not None, reason=str(reader.missing()))
-@pytest.mark.parametrize("defines", [(EDITOR,), (EDITOR, UNITY_6)], ids="-".join)
+@pytest.mark.parametrize("defines", [(EDITOR,), pytest.param((EDITOR, UNITY_6), marks=pytest.mark.soak)], ids="-".join)
 def test_the_tests_for_unity_s_own_runner_pass_on_the_fakes(tmp_path, defines):
     compile_package(tmp_path, *defines)
     names = ["Garage.Usd", "UnityFakes", "Garage.Unity", "Garage.Unity.Editor", "NUnitFakes"]
@@ -64,8 +67,8 @@ def test_the_tests_for_unity_s_own_runner_pass_on_the_fakes(tmp_path, defines):
 
 
 @pytest.mark.skipif(reader.missing() is not None, reason=str(reader.missing()))
-def test_unity_6_makes_the_same_prefab(tmp_path, prefabs, builds):
-    build = builds(SAMPLE, "usdc")
+def test_unity_6_makes_the_same_prefab(tmp_path, prefabs, small_builds):
+    build = small_builds("usdc")
     program = reader.Reader(compile_prefab_dump(tmp_path, UNITY_6))
     newer = program.ask("prefab", build.stage)
     program.close()
@@ -390,17 +393,17 @@ def test_players_name_a_root_folder(prefab_dump, tmp_path):
     assert failed["failure"] == f"UsdFormatException: {stage}: file: is not in the root folder {tmp_path / 'others'}"
 
 
-def test_an_import_that_is_cancelled_leaves_nothing(prefab_dump, builds):
-    found = prefab_dump.ask("prefab", builds(SAMPLE, "usdc").stage, "cancel=1")
+def test_an_import_that_is_cancelled_leaves_nothing(prefab_dump, small_builds):
+    found = prefab_dump.ask("prefab", small_builds("usdc").stage, "cancel=1")
     assert ["cancelled" in error for error in found["errors"]] == [True]
     assert "objects" not in found
     assert found["progressBarLeft"] is False
 
 
 @pytest.mark.parametrize("extension", ["usdc", "usdz"])
-def test_players_load_the_same_as_the_editor_imports(prefab_dump, prefabs, builds, extension):
+def test_players_load_the_same_as_the_editor_imports(prefab_dump, prefabs, small_builds, extension):
     """From a file with others beside it, and from a package in memory."""
-    build = builds(SAMPLE, extension)
+    build = small_builds(extension)
     expected = prefabs(build.stage)
     found = prefab_dump.ask("load", build.stage)
     assert found["objects"] == len(expected.objects)
@@ -427,8 +430,8 @@ def test_players_need_a_reference_material_where_the_shader_is_not_built_in(pref
     assert "Universal Render Pipeline/Lit" in other["failure"]
 
 
-def test_the_navmesh_is_made_of_what_one_can_drive_on_and_bump_into(prefabs, builds):
-    build = builds(SAMPLE, "usdc")
+def test_the_navmesh_is_made_of_what_one_can_drive_on_and_bump_into(prefabs, small_builds):
+    build = small_builds("usdc")
     prefab = prefabs(build.stage)
     classes = set(prefab.found["navMesh"]["classes"])
     assert classes >= {"floor", "parking_stall", "wall", "column", "ramp"}
@@ -439,8 +442,8 @@ def test_the_navmesh_is_made_of_what_one_can_drive_on_and_bump_into(prefabs, bui
     assert size[2] > structure.row_depths_mm.sum() / 1000
 
 
-def test_the_inspector_shows_every_setting_once(prefabs, builds):
-    drawn = [name for name in prefabs(builds(SAMPLE, "usdc").stage).found["inspector"] if name.startswith("settings.")]
+def test_the_inspector_shows_every_setting_once(prefabs, small_builds):
+    drawn = [name for name in prefabs(small_builds("usdc").stage).found["inspector"] if name.startswith("settings.")]
     source = (reader.PACKAGE / "Runtime" / "ImportSettings.cs").read_text()
     fields = [
         line.split("=")[0].rstrip(" ;").split()[-1] for line in source.splitlines() if "public " in line and ";" in line

@@ -16,7 +16,7 @@ from garage2usd.config.stage import StageConfig, StageForm
 
 HEIGHT_M = 0.05
 """Of the curves of the lane graph over the floor."""
-FORMS = [StageForm.INSTANCED, StageForm.NESTED]
+FORMS = [StageForm.INSTANCED, pytest.param(StageForm.NESTED, marks=pytest.mark.soak)]
 
 
 @pytest.fixture(scope="module", params=FORMS, ids=str)

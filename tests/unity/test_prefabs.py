@@ -22,16 +22,35 @@ from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import asset_of
 
 SAMPLE = {sample.stem: sample for sample in SAMPLES}
+SMALL = None
+"""In the place of a sample: the garage of twelve squares."""
 IN_ALL_FORMS = SAMPLE["irregular"], SAMPLE["mixed_stalls"]
 FORMS = [("usda", None), ("usdc", "nested"), ("usdz", None), ("usdc", "flat")]
 IMPORTS = [
-    pytest.param(sample, *form, id="-".join(map(str, (sample.stem, *form))))
-    for sample, form in [
-        *itertools.product(IN_ALL_FORMS, FORMS),
-        *((sample, ("usdc", "nested")) for sample in OBJECT_SAMPLES if sample not in IN_ALL_FORMS),
-        (SAMPLE["paper_7x9"], ("usdz", "flat")),
-    ]
+    *itertools.product([SMALL, *IN_ALL_FORMS], FORMS),
+    *((sample, ("usdc", "nested")) for sample in OBJECT_SAMPLES if sample not in IN_ALL_FORMS),
+    (SAMPLE["paper_7x9"], ("usdz", "flat")),
 ]
+
+
+def each_import(cases):
+    """The small garage in all forms, and wide ones of samples."""
+    marked = [
+        pytest.param(
+            sample,
+            *form,
+            id="-".join(map(str, (sample.stem if sample else "small", *form))),
+            marks=[] if sample is SMALL else [pytest.mark.soak],
+        )
+        for sample, form in cases
+    ]
+    return pytest.mark.parametrize(("sample", "extension", "form"), marked)
+
+
+def in_forms(*forms):
+    return each_import(itertools.product([SMALL, SAMPLE["irregular"]], forms))
+
+
 INSTANCERS = tuple(f"/{kind.scattered}" for kind in KINDS if kind.scattered)
 COLLIDERS = {
     Collider.MESH: ("MeshCollider", False),
@@ -41,14 +60,14 @@ COLLIDERS = {
 
 
 @pytest.fixture(scope="session")
-def imported(prefabs, builds):
-    """Import a sample in a format and form, once."""
+def imported(prefabs, builds, small_builds):
+    """Import a sample, or the small garage, in a format and form, once."""
     made = {}
 
     def one(sample, extension, form=None):
-        key = sample.stem, extension, form
+        key = sample, extension, form
         if key not in made:
-            build = builds(sample, extension, form)
+            build = small_builds(extension, form) if sample is SMALL else builds(sample, extension, form)
             made[key] = build, prefabs(build.stage)
         return made[key]
 
@@ -66,7 +85,7 @@ def directed_object(item) -> np.ndarray:
     return np.concatenate([place_of(item), -axes_of(item)[:, 2]])
 
 
-@pytest.mark.parametrize(("sample", "extension", "form"), IMPORTS)
+@each_import(IMPORTS)
 def test_every_object_of_the_layout_stands_and_looks_as_it_should(imported, sample, extension, form):
     build, prefab = imported(sample, extension, form)
     placements = build.garage.layout.placements
@@ -79,9 +98,9 @@ def test_every_object_of_the_layout_stands_and_looks_as_it_should(imported, samp
         assert_same_places(found, expected)
 
 
-@pytest.mark.parametrize(("extension", "form"), [("usda", None), ("usdc", "nested"), ("usdc", "flat")])
-def test_every_part_of_every_asset_is_drawn_and_collides_as_it_should(imported, extension, form):
-    build, prefab = imported(SAMPLE["irregular"], extension, form)
+@in_forms(("usda", None), ("usdc", "nested"), ("usdc", "flat"))
+def test_every_part_of_every_asset_is_drawn_and_collides_as_it_should(imported, sample, extension, form):
+    build, prefab = imported(sample, extension, form)
     expected = {}
     for placement in build.garage.layout.placements:
         for part in asset_of(placement.spec).parts:
@@ -100,7 +119,7 @@ def test_every_part_of_every_asset_is_drawn_and_collides_as_it_should(imported, 
 
 
 def test_boxes_are_around_their_meshes_and_colliders_rub_as_the_stage_says(imported):
-    build, prefab = imported(SAMPLE["paper_7x9"], "usda")
+    build, prefab = imported(SMALL, "usda")
     stage = Usd.Stage.Open(str(build.stage))
     expected = Counter()
     for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
@@ -134,9 +153,9 @@ def content(prim: Usd.Prim) -> str:
     return digest.hexdigest()
 
 
-@pytest.mark.parametrize(("extension", "form"), FORMS)
-def test_there_is_one_mesh_asset_for_each_distinct_mesh(imported, extension, form):
-    build, prefab = imported(SAMPLE["irregular"], extension, form)
+@in_forms(*FORMS)
+def test_there_is_one_mesh_asset_for_each_distinct_mesh(imported, sample, extension, form):
+    build, prefab = imported(sample, extension, form)
     stage = Usd.Stage.Open(str(build.stage))
     roots = [stage.GetPseudoRoot(), *stage.GetPrototypes()]
     meshes = {content(prim) for root in roots for prim in Usd.PrimRange(root) if prim.IsA(UsdGeom.Mesh)}
@@ -156,9 +175,9 @@ def file_names(prim: Usd.Prim, connected: str) -> set[str]:
     return {Path(source[0].GetPrim().GetAttribute("inputs:file").Get().path).name}
 
 
-@pytest.mark.parametrize("form", [None, "nested"])
-def test_every_material_has_its_textures(imported, form):
-    build, prefab = imported(SAMPLE["irregular"], "usdc", form)
+@in_forms(("usdz", None), ("usdc", "nested"))
+def test_every_material_has_its_textures(imported, sample, extension, form):
+    build, prefab = imported(sample, extension, form)
     stage = Usd.Stage.Open(str(build.stage))
     expected = Counter()
     for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
@@ -186,7 +205,7 @@ def test_every_material_has_its_textures(imported, form):
 
 
 def test_the_fronts_of_all_meshes_look_outwards(imported):
-    _, prefab = imported(SAMPLE["paper_7x9"], "usda")
+    _, prefab = imported(SMALL, "usda")
     checked = 0
     for mesh in prefab.of_type("Mesh").values():
         if "vertices" not in mesh:
@@ -205,7 +224,7 @@ def test_the_fronts_of_all_meshes_look_outwards(imported):
 
 def test_an_asymmetric_garage_is_not_mirrored(imported):
     """The corners of every column, as the layout has them, are in the prefab and those of its mirror image are not."""
-    build, prefab = imported(SAMPLE["irregular"], "usdz")
+    build, prefab = imported(SAMPLE["mixed_stalls"], "usdz")
     columns = build.garage.layout.of_kind("column")
     corners = np.concatenate(
         [np.array(asset_of(column.spec).parts[0].points) + column.position_m for column in columns]
@@ -223,7 +242,7 @@ def test_an_asymmetric_garage_is_not_mirrored(imported):
 
 
 def test_lights_shine_down_from_the_tubes_as_strongly_as_the_formula_says(imported):
-    build, prefab = imported(SAMPLE["paper_7x9"], "usdc")
+    build, prefab = imported(SMALL, "usda")
     tubes = np.array([place.position_m for place in build.garage.layout.of_kind("light")])
     lights = [item for item in prefab.objects if "light" in item]
     found = np.array([place_of(item) for item in lights])
@@ -243,9 +262,9 @@ def test_lights_shine_down_from_the_tubes_as_strongly_as_the_formula_says(import
     assert not [item for item in prefab.objects if item["path"].endswith("/Glow")]
 
 
-@pytest.mark.parametrize(("extension", "form"), [("usda", None), ("usdc", "nested"), ("usdc", "flat")])
-def test_labelled_objects_have_the_ids_of_the_table_beside_the_stage(imported, extension, form):
-    build, prefab = imported(SAMPLE["irregular"], extension, form)
+@in_forms(("usda", None), ("usdc", "nested"), ("usdc", "flat"))
+def test_labelled_objects_have_the_ids_of_the_table_beside_the_stage(imported, sample, extension, form):
+    build, prefab = imported(sample, extension, form)
     expected = {item["path"]: (item["id"], item["class"]) for item in labelled_objects(build.labels)}
     found = {}
     for item in prefab.objects:
@@ -259,8 +278,8 @@ def test_labelled_objects_have_the_ids_of_the_table_beside_the_stage(imported, e
     assert sorted(others) == list(range(len(expected) + 1, len(found) + 1))
 
 
-def test_labels_without_a_table_are_numbered_and_bad_tables_refused(prefabs, prefab_dump, builds, tmp_path):
-    build = builds(SAMPLE["paper_7x9"], "usdz")
+def test_labels_without_a_table_are_numbered_and_bad_tables_refused(prefabs, prefab_dump, small_builds, tmp_path):
+    build = small_builds("usdz")
     alone = tmp_path / "alone" / "alone.usdz"
     alone.parent.mkdir()
     shutil.copy(build.stage, alone)
@@ -286,7 +305,7 @@ def test_labels_without_a_table_are_numbered_and_bad_tables_refused(prefabs, pre
 
 
 def test_what_moves_is_not_static(imported):
-    _, prefab = imported(SAMPLE["paper_7x9"], "usda")
+    _, prefab = imported(SMALL, "usda")
     moving = {item["path"] for label in ("car", "number_plate", "barrier") for item in prefab.labelled(label)}
     assert moving
     for item in prefab.objects[1:]:
@@ -296,8 +315,8 @@ def test_what_moves_is_not_static(imported):
         assert item["static"] == (0 if is_moving else 1 | 2 | 16 | 64), item["path"]
 
 
-def test_variants_of_the_stage_decide_what_is_there(prefabs, builds, tmp_path):
-    build = builds(SAMPLE["paper_7x9"], "usdc")
+def test_variants_of_the_stage_decide_what_is_there(prefabs, small_builds):
+    build = small_builds("usdc")
     stage = Usd.Stage.CreateNew(str(build.stage.with_name("switched.usda")))
     root = stage.DefinePrim("/Garage")
     root.GetReferences().AddReference(f"./{build.stage.name}")
@@ -317,7 +336,7 @@ def test_variants_of_the_stage_decide_what_is_there(prefabs, builds, tmp_path):
 
 
 def test_an_import_depends_on_every_file_that_it_read(imported):
-    build, prefab = imported(SAMPLE["paper_7x9"], "usda")
+    build, prefab = imported(SMALL, "usda")
     folder = build.stage.parent.name
     files = {f"{folder}/{path.relative_to(build.stage.parent)}" for path in build.asset_folder.rglob("*.*")}
     assert set(prefab.found["sources"]) >= files - {f"{folder}/{build.stage.name}"}

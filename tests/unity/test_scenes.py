@@ -46,9 +46,10 @@ def areas(points: np.ndarray, counts: np.ndarray, indices: np.ndarray) -> tuple[
     return flat + least.sum(), flat + most.sum()
 
 
+@pytest.mark.parametrize("sample", [None, pytest.param(PAPER, marks=pytest.mark.soak)], ids=["small", "paper"])
 @pytest.mark.parametrize(("extension", "form"), [("usda", "nested"), ("usdz", None)])
-def test_sample(usd_dump, builds, extension, form):
-    path = builds(PAPER, extension, form).stage
+def test_sample(usd_dump, builds, small_builds, sample, extension, form):
+    path = (builds(sample, extension, form) if sample else small_builds(extension, form)).stage
     scene = scene_of(usd_dump, path)
     assert scene["warnings"] == []
     stage = Usd.Stage.Open(str(path))

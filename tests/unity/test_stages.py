@@ -4,12 +4,19 @@ import json
 
 import pytest
 from pxr import Tf, Usd, UsdUtils
-from support.sample_files import SAMPLES, each_object_sample
+from support.sample_files import OBJECT_SAMPLES, SAMPLES
 from support.small_garage import SETTINGS
 from support.unity.agreement import STAGES, as_pxr_says, installed, same, written
 from support.unity.small_stages import SMALL_STAGES
 
 from garage2usd import GarageConfig, build
+
+PAPER = next(sample for sample in SAMPLES if sample.stem == "paper_7x9")
+
+
+def named(sample):
+    """The name of a sample, of which none is the garage of twelve squares."""
+    return sample.stem if sample else "small"
 
 
 @pytest.mark.parametrize("form", ["usda", "usdc"])
@@ -69,17 +76,24 @@ def test_stages_of_installed_packages(usd_dump, package):
     assert read > 0.8 * len(paths)
 
 
-@each_object_sample
-def test_sample(usd_dump, builds, sample):
+@pytest.mark.parametrize(
+    "sample", [None, *(pytest.param(sample, marks=pytest.mark.soak) for sample in OBJECT_SAMPLES)], ids=named
+)
+def test_sample(usd_dump, builds, small_builds, sample):
     """The crate is what ``pxr`` says; text and package are the crate to the last bit, so one comparison serves all."""
-    stages = {extension: builds(sample, extension).stage for extension in ("usda", "usdc", "usdz")}
+    made = {
+        extension: builds(sample, extension) if sample else small_builds(extension)
+        for extension in ("usda", "usdc", "usdz")
+    }
+    stages = {extension: build.stage for extension, build in made.items()}
     text, crate, package = (usd_dump.answer("stage", stage) for stage in stages.values())
     assert text == crate
     assert package == crate
     assert as_pxr_says(json.loads(crate), stages["usdc"]) == []
 
 
+@pytest.mark.parametrize("sample", [None, pytest.param(PAPER, marks=pytest.mark.soak)], ids=named)
 @pytest.mark.parametrize(("extension", "form"), [("usdc", "flat"), ("usda", "nested")])
-def test_form_of_a_sample(usd_dump, builds, extension, form):
-    paper = next(sample for sample in SAMPLES if sample.stem == "paper_7x9")
-    assert same(usd_dump, builds(paper, extension, form).stage) == []
+def test_form_of_a_sample(usd_dump, builds, small_builds, sample, extension, form):
+    made = builds(sample, extension, form) if sample else small_builds(extension, form)
+    assert same(usd_dump, made.stage) == []

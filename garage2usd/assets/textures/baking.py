@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from garage2usd.assets.asphalt_repairs import bake_repairs
 from garage2usd.assets.plate_texture import bake_plate_ink, bake_plates
 from garage2usd.assets.stain_texture import bake_dirt, bake_road_dust, bake_stains
 from garage2usd.assets.textures.ceilings import CEILING_FINISHES, CEILINGS
@@ -31,6 +32,7 @@ _BAKERS: Bakers = {
     **STEELS,
     **_FINISHES,
     "stains.png": bake_stains,
+    "asphalt_repairs.png": bake_repairs,
     "dirt.png": bake_dirt,
     "road_dust.png": bake_road_dust,
     "plate_characters.png": bake_plates,

@@ -86,11 +86,10 @@ def _epoxy(rng: np.random.Generator) -> Pixels:
     return shaded(value * (1.0 - scuffs) * (1.0 - scratches) * (1.0 - film) * (1.0 - chips), _GREY)
 
 
-# asphalt: 2.1 m a repeat shows its stones, 8.1 m its patches
+# asphalt: 2.1 m a repeat shows its stones, 8.1 m its shades
 
 _STONES_SHAPE = 768, 768
 _PATCHED_SHAPE = 1024, 1024
-_PATCHES = 4
 
 
 def _asphalt(rng: np.random.Generator) -> Pixels:
@@ -104,24 +103,10 @@ def _asphalt(rng: np.random.Generator) -> Pixels:
 
 
 def _asphalt_patched(rng: np.random.Generator) -> Pixels:
-    """Worn asphalt with older and newer patches, whose edges and cracks are sealed with bitumen."""
+    """Worn asphalt; its patches and cracks are those of `garage2usd.assets.asphalt_repairs`."""
     shape = _PATCHED_SHAPE
     value = 132.0 + 18.0 * (clouds(rng, shape, (5, 5), 5) - 0.5) + 15.0 * (grain(rng, shape) - 0.5)
-    rows, columns = np.arange(shape[0])[:, None], np.arange(shape[1])[None, :]
-    patched, sealed = np.zeros(shape), np.zeros(shape)
-    ragged = 5.0 * (clouds(rng, shape, (30, 30), 3) - 0.5)
-    for _ in range(_PATCHES):
-        top, left = (int(rng.integers(side)) for side in shape)
-        high, wide = (int(rng.integers(50, 190)) for _ in range(2))
-        down, across = (rows - top) % shape[0] - high, (columns - left) % shape[1] - wide
-        # signed distance from the border of a rectangle with these half sides, negative inside
-        away = np.maximum(np.abs(down) - high, np.abs(across) - wide) + ragged
-        patched = np.where(away < 0, 42.0 * (int(rng.integers(256)) / 255.0) - 30.0, patched)
-        sealed = np.maximum(sealed * (away > 0), 0.8 * ramp(np.abs(away), 3.5, 1.5))
-    bends = clouds(rng, shape, (8, 8), 5), clouds(rng, shape, (8, 8), 5)
-    edges = cells(rng, shape, (4, 4), (90.0 * (bends[0] - 0.5), 90.0 * (bends[1] - 0.5))).from_edge
-    sealed = np.maximum(sealed, ramp(edges, 4.0, 2.5) * ramp(clouds(rng, shape, (5, 5), 2), 0.54, 0.58))
-    return shaded((value + patched) * (1.0 - 0.5 * sealed), _NEUTRAL)
+    return shaded(value, _NEUTRAL)
 
 
 # blocks of 100 by 200 mm in herringbone: 2.4 m a repeat

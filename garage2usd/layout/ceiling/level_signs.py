@@ -12,6 +12,7 @@ from garage2usd.layout.placement import Placement, edge_yaw_rad, placed, to_worl
 from garage2usd.layout.shell.well import Departure, Well
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects.exit_sign import EXIT_SIGN_WIDTH_M, Turn
+from garage2usd.objects.lane_sign import LaneSignSpec, LaneSignText
 from garage2usd.objects.level_plate import LEVEL_PLATE_WIDTH_M, LevelPlateSpec
 from garage2usd.objects.level_sign import Heading, LevelSignSpec
 from garage2usd.structure.lane_graph import LaneSquares, Square
@@ -36,9 +37,9 @@ def level_signs(
     """Place signs that name the levels, for drivers.
 
     Over the landing before a ramp a sign names the level that it leads to, with an arrow up or down; signs over the
-    lanes into the junction before it point there. Over a landing where cars arrive a sign names this level. Signs hang
-    beside the exit signs and at their height; over landings, which no services cross, higher up where they must. There
-    are none without space above the clear height.
+    lanes into the junction before it point there. Over a landing where cars arrive a sign names this level, and beside
+    the ramp another one forbids to enter it. Signs hang beside the exit signs and at their height; over landings, which
+    no services cross, higher up where they must. There are none without space above the clear height.
     """
     ceiling_m, room_m = fittings.ceiling_height_m, fittings.ceiling_height_m - fittings.clear_height_m
     if not fittings.exit_signs:
@@ -55,6 +56,10 @@ def level_signs(
         for landing, way in well.arrivals.items():
             spec = LevelSignSpec(well.name, None, top_m, height_m)
             signs.append(_hung("LevelSign", spec, grid.tiles[landing], way, ceiling_m, side=1, at_back=True))
+            no_entry = LaneSignSpec(LaneSignText.NO_ENTRY, top_m, height_m)
+            signs.append(
+                _hung("NoEntrySign", no_entry, grid.tiles[landing], way.opposite, ceiling_m, side=1, at_back=True)
+            )
     height_m = round(min(_MOST_M, room_m - levels.sign_top_m), 3)
     if height_m < _LEAST_M:
         return signs
@@ -105,7 +110,7 @@ def _back_to_junction(landing: Square, square: Square, graph: LaneSquares) -> tu
 
 def _hung(
     name: str,
-    spec: LevelSignSpec,
+    spec: LevelSignSpec | LaneSignSpec,
     tile: Tile,
     faces: Edge,
     ceiling_m: float,

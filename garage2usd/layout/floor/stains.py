@@ -27,7 +27,7 @@ from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import Square
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["floor_stains"]
+__all__ = ["drain_box", "drawn_yaw", "floor_stains", "overlap", "overlaps_paint", "stain_box"]
 
 _WEAR_LIFT_M = 0.0008
 _CONCRETE_LIFT_M = 0.0012
@@ -89,11 +89,11 @@ class _SquareStains:
 
     def put(self, name: str, spec: StainSpec | TyreMarkSpec, place: Point, yaw_rad: float, lift_m: float) -> None:
         """Add a stain, unless it overlaps another one of the same height, or is damage of the concrete on a drain."""
-        box = _box(spec, place, yaw_rad)
-        if any(lift_m == height and _overlap(box, other) for height, other in self.boxes):
+        box = stain_box(spec, place, yaw_rad)
+        if any(lift_m == height and overlap(box, other) for height, other in self.boxes):
             return
         self.boxes.append((lift_m, box))
-        if lift_m == _CONCRETE_LIFT_M and self.drain is not None and _overlap(box, self.drain):
+        if lift_m == _CONCRETE_LIFT_M and self.drain is not None and overlap(box, self.drain):
             return
         point = self.tile.x_m + place[0], self.tile.z_m + place[1]
         self.placed.append(placed(name, spec, point, height_m=lift_m, yaw_rad=yaw_rad, square=self.tile.square))
@@ -137,8 +137,9 @@ def floor_stains(
     numbers = draws.of_step(Step.FLOOR_STAINS, max(_LANE_SLOTS + most, 2 * most), _DRAWS)
     drain_on = {drain.square: (drain, spec) for drain, spec in of_spec(drains, DrainSpec)}
     for tile, panel in zip(grid, floors, strict=True):
-        floor = _SquareStains(tile)
-        floor = _SquareStains(tile, _drain_box(tile, *drain_on[tile.square]) if tile.square in drain_on else None)
+        floor = _SquareStains(
+            tile, _local(tile, drain_box(*drain_on[tile.square])) if tile.square in drain_on else None
+        )
         drawn = numbers[tile.square]
         if tile.cell is Cell.FREE:
             _stain_stalls(floor, stalls_on.get(tile.square, []), drawn, rate)
@@ -169,7 +170,7 @@ def _stain_stalls(floor: _SquareStains, stalls: list[PlacedStall], drawn: NDArra
             first, last = _ENGINE_FROM_REAR_M
             local = (2 * across - 1) * _ENGINE_ASIDE_M, rear + first + (last - first) * along
             oil = _stain(StainMark.OIL, variant)
-            floor.put(f"Oil_{number}", oil, _to_tile(floor.tile, stall, local), _drawn_yaw(variant), _OIL_LIFT_M)
+            floor.put(f"Oil_{number}", oil, _to_tile(floor.tile, stall, local), drawn_yaw(variant), _OIL_LIFT_M)
 
 
 def _to_tile(tile: Tile, stall: PlacedStall, local: Point) -> Point:
@@ -220,16 +221,16 @@ def _stain_lane(floor: _SquareStains, panel: Spec, setback_m: float, drawn: NDAr
         if there >= rate * share:
             continue
         spec = _stain(mark, variant)
-        yaw = _drawn_yaw(size) if mark is not StainMark.PATCH else 0.0
-        place = _offset_within(tile, setback_m, _box(spec, (0.0, 0.0), yaw), across, along)
-        if place is None or (mark is StainMark.PATCH and _overlaps_paint(panel, _box(spec, place, yaw))):
+        yaw = drawn_yaw(size) if mark is not StainMark.PATCH else 0.0
+        place = _offset_within(tile, setback_m, stain_box(spec, (0.0, 0.0), yaw), across, along)
+        if place is None or (mark is StainMark.PATCH and overlaps_paint(panel, stain_box(spec, place, yaw))):
             continue
         floor.put(f"{mark.value.capitalize()}_{slot}", spec, place, yaw, lift_m)
     there, variant, size, across, along = drawn[len(_ON_LANES)].tolist()
     if tile.axis_is_x is not None and there < rate * _BRAKED_SHARE:
         yaw = edge_yaw_rad((Edge.LEFT if tile.axis_is_x else Edge.UP) if size < 1 / 2 else _positive_edge(tile))
         marks = TyreMarkSpec(int(variant * 2), _BRAKE_LENGTHS_M[int(size * 8) % 2])
-        place = _offset_within(tile, setback_m, _box(marks, (0.0, 0.0), yaw), across, along)
+        place = _offset_within(tile, setback_m, stain_box(marks, (0.0, 0.0), yaw), across, along)
         if place is not None:
             floor.put("BrakeMarks", marks, place, yaw, _TYRE_LIFT_M)
 
@@ -239,13 +240,18 @@ def _positive_edge(tile: Tile) -> Edge:
     return Edge.RIGHT if tile.axis_is_x else Edge.DOWN
 
 
-def _drain_box(tile: Tile, drain: Placement, spec: DrainSpec) -> Box:
-    """Return the bounding box of an axis-aligned drain, in the coordinates of its tile."""
-    x, z = drain.position_m[0] - tile.x_m, drain.position_m[2] - tile.z_m
+def drain_box(drain: Placement, spec: DrainSpec) -> Box:
+    """Return the bounding box of an axis-aligned drain in the garage."""
+    x, _, z = drain.position_m
     half_x, half_z = spec.width_m / 2, spec.length_m / 2
     if drain.yaw_rad:
         half_x, half_z = half_z, half_x
     return x - half_x, z - half_z, x + half_x, z + half_z
+
+
+def _local(tile: Tile, box: Box) -> Box:
+    """Return a box in the coordinates of a tile."""
+    return box[0] - tile.x_m, box[1] - tile.z_m, box[2] - tile.x_m, box[3] - tile.z_m
 
 
 def _stalls_opening_on(tile: Tile, edge: Edge, stalls_on: dict[Square, list[PlacedStall]]) -> Iterator[PlacedStall]:
@@ -266,7 +272,7 @@ def _mark_turns(
         place = _to_tile(tile, stall, (0.0, stall.length_m / 2 + 0.02))
         for signed in (turn, -turn):
             spec = TyreMarkSpec(int(variant * 2), _TURN_LENGTH_M, round(signed, 6))
-            x0, z0, x1, z1 = _box(spec, place, stall.yaw_rad)
+            x0, z0, x1, z1 = stain_box(spec, place, stall.yaw_rad)
             # the mark ends at the mouth's edge and keeps the cars' distance from the other edges
             if _lies_within(tile, (x0, z0, x1, z1), setback_m, stall.edge):
                 floor.put(f"TurnMarks_{index + 1}", spec, place, stall.yaw_rad, _TYRE_LIFT_M)
@@ -292,7 +298,7 @@ def _stain(mark: StainMark, variant: float) -> StainSpec:
     return StainSpec(mark, kind, *sizes[kind % len(sizes)])
 
 
-def _drawn_yaw(draw: float) -> float:
+def drawn_yaw(draw: float) -> float:
     """Return one of sixteen yaws by the last digits of a random number."""
     return int(draw * 1000 * _YAWS) % _YAWS * (math.tau / _YAWS) - math.pi
 
@@ -306,9 +312,9 @@ def _offset_within(tile: Tile, setback_m: float, box: Box, across: float, along:
     return x0 + (x1 - x0) * across, z0 + (z1 - z0) * along
 
 
-def _overlaps_paint(panel: Spec, box: Box) -> bool:
+def overlaps_paint(panel: Spec, box: Box) -> bool:
     """Return True if a box overlaps a marking of a panel."""
-    return isinstance(panel, PanelSpec) and any(_overlap(box, paint) for paint in _marking_boxes(panel))
+    return isinstance(panel, PanelSpec) and any(overlap(box, paint) for paint in _marking_boxes(panel))
 
 
 @lru_cache(maxsize=4096)
@@ -319,12 +325,12 @@ def _marking_boxes(panel: PanelSpec) -> tuple[Box, ...]:
     return tuple((*(shape.min(axis=0) - gap).tolist(), *(shape.max(axis=0) + gap).tolist()) for shape in corners)
 
 
-def _overlap(one: Box, other: Box) -> bool:
+def overlap(one: Box, other: Box) -> bool:
     """Return True if two boxes overlap."""
     return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
 
 
-def _box(spec: StainSpec | TyreMarkSpec, place: Point, yaw_rad: float) -> Box:
+def stain_box(spec: StainSpec | TyreMarkSpec, place: Point, yaw_rad: float) -> Box:
     """Return the bounding box of a stain at a place."""
     x0, z0, x1, z1 = _turned_box(spec, yaw_rad)
     return x0 + place[0], z0 + place[1], x1 + place[0], z1 + place[1]

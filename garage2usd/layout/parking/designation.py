@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable
+from collections.abc import Set as AbstractSet
 from dataclasses import replace
 
 import numpy as np
@@ -11,27 +12,46 @@ from garage2usd.config import ParkingConfig
 from garage2usd.garage import StallKind
 from garage2usd.layout.nearness import Points
 from garage2usd.layout.placement import PlacedStall, Placement, StallUse, edge_yaw_rad, rounded
-from garage2usd.objects.charger import ChargerSpec
+from garage2usd.objects.charger import CHARGER_FRONT_M, ChargerSpec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.panel import Marking, Paint, Surface
 from garage2usd.profiles import Profile
 from garage2usd.profiles.access import AccessWidths, access_widths, van_stalls
+from garage2usd.structure.lane_graph import Square
 
-__all__ = ["chargers", "use_symbol", "with_designated_stalls"]
+__all__ = ["chargers", "room_for_charger_m", "use_symbol", "with_designated_stalls"]
 
 _ACCESSIBLE_SHARE = 0.02
 _ACCESSIBLE_FROM_STALLS = 25
 """Garages with at least this many stalls have an accessible one."""
 _CHARGER_FROM_REAR_M = 0.055
-_CHARGER_BEYOND_LINE_M = 0.055
+_CHARGER_BEYOND_LINE_M = CHARGER_FRONT_M + 0.01
+_BEFORE_GUARD_M = 0.02
 _SYMBOL_Z_M = 0.35
 _ROUNDING_M = 1e-6
 
 
 def with_designated_stalls(
-    stalls: tuple[PlacedStall, ...], anchors: Iterable[Point], parking: ParkingConfig, profile: Profile
+    stalls: tuple[PlacedStall, ...],
+    anchors: Iterable[Point],
+    parking: ParkingConfig,
+    profile: Profile,
+    *,
+    ways_in_and_out: AbstractSet[Square] = frozenset(),
 ) -> tuple[PlacedStall, ...]:
     """Designate the stalls nearest to `anchors` (stair cores or doors) as accessible, and the next ones for charging.
+
+    Parameters
+    ----------
+    stalls
+        All stalls.
+    anchors
+        Points (x, z) where people leave on foot.
+    parking, profile
+        Shares of the uses, or the numbers that the profile requires.
+    ways_in_and_out
+        Squares of the portals and of the lanes before them. Stalls beside them are the last choice for charging: cars
+        back out there, or a charger stands at the edge of the carriageway.
 
     Notes
     -----
@@ -67,12 +87,18 @@ def with_designated_stalls(
         accessible -= len(row) - 1
         vans -= min(vans, len(row) - 1)
         divided.update(zip(row, _redrawn([stalls[taken] for taken in row], widths), strict=True))
-    for index in [index for index in order if uses[index] is StallUse.STANDARD][:charging]:
+    quiet_first = sorted(order, key=lambda index: not ways_in_and_out.isdisjoint(_squares_at_ends(stalls[index])))
+    for index in [index for index in quiet_first if uses[index] is StallUse.STANDARD][:charging]:
         uses[index] = StallUse.EV
     return tuple(
         stall if use is stall.use else replace(divided.get(index, stall), use=use)
         for index, (stall, use) in enumerate(zip(stalls, uses, strict=True))
     )
+
+
+def _squares_at_ends(stall: PlacedStall) -> tuple[Square, Square]:
+    """Return the squares before the entry of a stall and behind its rear."""
+    return stall.access_square, stall.edge.opposite.beyond(stall.square)
 
 
 def _divided(
@@ -189,6 +215,13 @@ def _wheelchair() -> list[tuple[Point, ...]]:
         tuple((round(x - 0.1, 6), round(z + _SYMBOL_Z_M, 6)) for x, z in list(shape.exterior.coords)[:-1])
         for shape in sorted(shapes, key=lambda shape: shape.bounds)
     ]
+
+
+def room_for_charger_m(stall: PlacedStall) -> float:
+    """Return the room at the rear of a stall that its charger takes; 0 without one, or with one beside the car."""
+    if stall.use is not StallUse.EV or stall.stall_kind is StallKind.PARALLEL:
+        return 0.0
+    return _CHARGER_FROM_REAR_M + CHARGER_FRONT_M + _BEFORE_GUARD_M
 
 
 def chargers(stalls: tuple[PlacedStall, ...]) -> list[Placement]:

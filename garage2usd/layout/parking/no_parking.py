@@ -10,7 +10,7 @@ from garage2usd.layout.egress.cores import Core
 from garage2usd.layout.placement import Placement, edge_yaw_rad, of_spec, placed, to_world
 from garage2usd.layout.shell.building import DOOR_FRAME_M
 from garage2usd.layout.tiles import TileGrid
-from garage2usd.objects.no_parking_sign import NoParkingSignSpec
+from garage2usd.objects.no_parking_sign import SIGN_FOOT_M, NoParkingSignSpec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.structure.doors import door_edges
@@ -22,6 +22,8 @@ __all__ = ["no_parking_signs"]
 _QUARTER_TURN = np.pi / 2
 _FROM_END_M = 0.35
 _FROM_JAMB_M, _FROM_WALL_M = 0.3, 0.4
+_FROM_CORE_M = SIGN_FOOT_M + 0.1
+"""Least distance of a sign's middle from a core: its foot keeps clear of the door's handle."""
 
 
 def no_parking_signs(
@@ -52,7 +54,8 @@ def _before_core(core: Core) -> Placement:
     turned = -1 if core.edge.name in {"UP", "RIGHT"} else 1
     across = turned * away * (core.width_m / 2 - _FROM_END_M)
     yaw = edge_yaw_rad(core.edge)
-    return _sign(to_world((across, core.depth_m / 2 + core.recess_m / 2), core.centre_m, yaw), yaw, core.square)
+    ahead = core.depth_m / 2 + max(core.recess_m / 2, _FROM_CORE_M)
+    return _sign(to_world((across, ahead), core.centre_m, yaw), yaw, core.square)
 
 
 def _beside_doors(grid: TileGrid, walls: Iterable[Placement]) -> list[Placement]:

@@ -6,6 +6,7 @@ from garage2usd.common.randomness import Step
 from garage2usd.config.own_cars import OwnCar, VehiclesConfig, read_own_cars
 from garage2usd.config.vehicles import PAINTS, CarBody
 from garage2usd.layout.draws import SquareDraws
+from garage2usd.layout.parking.designation import room_for_charger_m
 from garage2usd.layout.parking.parked_cars import ParkedCars
 from garage2usd.layout.placement import PlacedStall, Placement, rounded
 from garage2usd.native import elementary
@@ -64,8 +65,9 @@ def _in_place_of(car: Placement, spec: CarSpec, model: OwnCar, stall: PlacedStal
     # the rear wheels keep their position in front of the wheel stop
     rear = z - _behind_wheels(spec.measures, is_reversed=is_reversed)
     z = rear + _behind_wheels(model, is_reversed=is_reversed)
+    behind_m = max(_CLEARANCE_M, room_for_charger_m(stall))
     mouth = stall.length_m / 2 - _CLEARANCE_M - half_z
-    if side < 0 or z > mouth or z < half_z - stall.length_m / 2 + _CLEARANCE_M:
+    if side < 0 or z > mouth or z < half_z - stall.length_m / 2 + behind_m:
         return None
     point = rounded(stall.to_world((min(max(x, -side), side), z)))
     return replace(car, spec=car_spec(model, PAINTS[0]), position_m=(point[0], car.position_m[1], point[1]))

@@ -18,6 +18,7 @@ from garage2usd.config import GarageConfig, ParkingConfig
 from garage2usd.config.vehicles import CAR_BODIES, CarBody
 from garage2usd.garage import Stall, StallKind
 from garage2usd.layout.draws import SquareDraws
+from garage2usd.layout.parking.designation import room_for_charger_m
 from garage2usd.layout.parking.fleet import Fleet
 from garage2usd.layout.parking.stalls import WHEEL_STOP_FROM_REAR_M
 from garage2usd.layout.placement import PlacedStall, Placement, StallUse
@@ -267,11 +268,12 @@ def _car(
     _, reverse, yaw_share, side_share, along_share, body_share, paint_share = drawn
     # cars in parallel and angled stalls face along the traffic; assumes that nobody backs into them
     is_reversed = stall.stall_kind is StallKind.PERPENDICULAR and reverse < fleet.reversed_share
-    bodies = fitting(stall.width_m, stall.length_m, is_reversed=is_reversed)
+    behind_m = max(_REAR_CLEARANCE_M, room_for_charger_m(stall))
+    bodies = fitting(stall.width_m, stall.length_m, is_reversed=is_reversed, behind_m=behind_m)
     if not bodies:
         return None
     body = fleet.body_of(bodies, body_share)
-    room_m = _room_m(stall.length_m, body, is_reversed=is_reversed)
+    room_m = _room_m(stall.length_m, body, is_reversed=is_reversed, behind_m=behind_m)
     # width' <= width + length |sin yaw| and length' <= length + width |sin yaw|
     side_room, end_room = stall.width_m - 2 * _END_CLEARANCE_M - body.overall_width_m, room_m - body.length_m
     sin = max(min((side_room + _GAP_M) / body.length_m, end_room / body.overall_width_m), 0.0)
@@ -383,22 +385,26 @@ def occupancy_of(stalls: tuple[PlacedStall, ...], parking: ParkingConfig) -> dic
 
 
 @lru_cache
-def fitting(width_m: float, length_m: float, *, is_reversed: bool) -> tuple[CarBody, ...]:
-    """Bodies that fit a stall of a width and length in metres."""
+def fitting(
+    width_m: float, length_m: float, *, is_reversed: bool, behind_m: float = _REAR_CLEARANCE_M
+) -> tuple[CarBody, ...]:
+    """Bodies that fit a stall of a width and length in metres, with a clearance behind them."""
     return tuple(
         body
         for body in CAR_BODIES
-        if body.fits(width_m - 2 * _END_CLEARANCE_M, _room_m(length_m, body, is_reversed=is_reversed))
+        if body.fits(
+            width_m - 2 * _END_CLEARANCE_M, _room_m(length_m, body, is_reversed=is_reversed, behind_m=behind_m)
+        )
     )
 
 
-def _room_m(length_m: float, body: CarBody, *, is_reversed: bool) -> float:
+def _room_m(length_m: float, body: CarBody, *, is_reversed: bool, behind_m: float) -> float:
     """Length of a stall usable by a car, from the entry to the tyres at the wheel stop."""
     overhang_m = body.length_m - body.wheelbase_m - body.front_overhang_m if is_reversed else body.front_overhang_m
     # half of the tyre's chord at the height of the wheel stop
     tyre_m = math.sqrt((2 * body.wheel_radius_m - WHEEL_STOP_HEIGHT_M) * WHEEL_STOP_HEIGHT_M)
     axle_m = WHEEL_STOP_FROM_REAR_M + WHEEL_STOP_WIDTH_M / 2 + tyre_m
-    return length_m - _END_CLEARANCE_M - max(_REAR_CLEARANCE_M, axle_m - overhang_m)
+    return length_m - _END_CLEARANCE_M - max(behind_m, axle_m - overhang_m)
 
 
 def _cut_normal(share: float, spread: float, low: float, high: float) -> float:

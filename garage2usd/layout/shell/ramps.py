@@ -12,23 +12,24 @@ from garage2usd.layout.ceiling.lamps import TUBE
 from garage2usd.layout.fittings import TUBE_DEPTH_M
 from garage2usd.layout.placement import Placement, of_spec, placed
 from garage2usd.layout.shell.building import DOOR_FRAME_M
-from garage2usd.objects.barrier import BarrierSpec
+from garage2usd.objects.barrier import ARM_HALF_M, PIVOT_M, BarrierSpec
+from garage2usd.objects.lit_sign import LEAST_SIGN_M
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.ramp import RampSpec
 from garage2usd.objects.sky import SkySpec
 
-__all__ = ["barriers", "ramp_lights", "with_ramps"]
+__all__ = ["ramp_lights", "with_barriers", "with_ramps"]
 
 _PARAPET_M = 1.3
 _SKY_M = 3.0
 _KERB_ROOM_M = 0.1
 _BARRIER_GAP_M = 0.32
 _BARRIER_NEAR_M, _BARRIER_FAR_M = 0.9, 2.6
-_ELBOW_MAX_M = 2.75
-_ELBOW_BELOW_CEILING_M = 0.35
+_LEGIBLE_SIGN_M = 0.2
+"""Least height of a sign below a raised arm."""
 _LIGHTS_AT = (0.25, 0.6)
 """Places of the ramp lights, as shares of the covered part's length."""
-_ARM_HALF_M, _ARM_GAP_M = 0.04, 0.01
+_ARM_GAP_M = 0.005
 
 
 def with_ramps(
@@ -128,27 +129,48 @@ def ramp_lights(walls: Iterable[Placement], fittings: FittingsConfig) -> list[Pl
     return lights
 
 
-def barriers(walls: list[Placement], fittings: FittingsConfig) -> list[Placement]:
+def with_barriers(walls: list[Placement], fittings: FittingsConfig) -> tuple[list[Placement], list[Placement]]:
     """Place a barrier gate inside each open vehicle door, on the driver's left; every other gate is raised.
 
-    A raised arm needs room between the clear height and the lights; all gates are lowered without the room.
+    A raised arm folds under the lights, above the clear height and above the sign over the door, so that nobody's view
+    of the sign passes through it. The gate is lowered instead where that leaves no legible sign.
+
+    Returns
+    -------
+    tuple of list of Placement
+        The walls, with the signs of their doors below raised arms, and the gates.
     """
     if not fittings.barriers:
-        return []
+        return walls, []
+    seen: list[Placement] = []
     gates: list[Placement] = []
-    for wall, portal in of_spec(walls, PortalSpec):
-        if not portal.is_open:
+    for wall in walls:
+        portal = wall.spec
+        if not isinstance(portal, PortalSpec) or not portal.is_open:
+            seen.append(wall)
             continue
         half = portal.door_width_m / 2 - DOOR_FRAME_M
-        elbow = max(
-            fittings.clear_height_m + _ARM_HALF_M + _ARM_GAP_M,
-            min(portal.height_m - _ELBOW_BELOW_CEILING_M, _ELBOW_MAX_M),
-        )
-        has_room = elbow + _ARM_HALF_M <= portal.height_m - TUBE_DEPTH_M
-        is_raised = has_room and len(gates) % 2 == 0
-        spec = BarrierSpec(round(2 * half + _BARRIER_GAP_M, 3), is_raised=is_raised, elbow_m=round(elbow, 3))
+        arm_m = round(2 * half + _BARRIER_GAP_M, 3)
+        under_lights_m, upright_m = portal.height_m - TUBE_DEPTH_M - _ARM_GAP_M - ARM_HALF_M, PIVOT_M + 2 * half
+        elbow_m, below = min(under_lights_m, upright_m), portal
+        if under_lights_m < upright_m:  # else all of the arm is beside the opening
+            below = replace(portal, raised_arm_m=round(elbow_m - ARM_HALF_M - _ARM_GAP_M, 3))
+        has_room = elbow_m - ARM_HALF_M >= fittings.clear_height_m + _ARM_GAP_M
+        is_raised = has_room and len(gates) % 2 == 0 and (_is_legible(below) or not _has_sign(portal))
+        seen.append(replace(wall, spec=below) if is_raised else wall)
+        spec = BarrierSpec(arm_m, is_raised=is_raised, elbow_m=round(elbow_m, 3))
         left, along, turn = (1, _BARRIER_FAR_M, 0.0) if portal.is_entrance else (-1, _BARRIER_NEAR_M, np.pi)
         place = wall.to_world((left * (half + _BARRIER_GAP_M), along))
         yaw = round(float(np.remainder(wall.yaw_rad + turn + np.pi, 2 * np.pi) - np.pi), 6)
         gates.append(placed(wall.name.replace("Portal", "Barrier"), spec, place, yaw_rad=yaw))
-    return gates
+    return seen, gates
+
+
+def _has_sign(portal: PortalSpec) -> bool:
+    low_m, high_m = portal.sign_heights_m
+    return high_m - low_m >= LEAST_SIGN_M
+
+
+def _is_legible(portal: PortalSpec) -> bool:
+    low_m, high_m = portal.sign_heights_m
+    return high_m - low_m >= _LEGIBLE_SIGN_M

@@ -13,12 +13,15 @@ from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
+from garage2usd.config.look import FloorFinish
 from garage2usd.garage import LaneGraph, LaneKind, Stall
 from garage2usd.layout import Layout
 from garage2usd.layout.ceiling.lamps import TUBE, installed_lamps, ramp_lamps
 from garage2usd.layout.ceiling.lighting import lane_points_of, light_up
 from garage2usd.layout.draws import SquareDraws
+from garage2usd.layout.floor.repairs import floor_repairs
 from garage2usd.layout.floor.stall_numbers import stall_numbers
+from garage2usd.layout.floor_area import FloorArea
 from garage2usd.layout.garage_stalls import stall_quads
 from garage2usd.layout.parking.designation import chargers
 from garage2usd.layout.parking.number_plates import number_plates
@@ -28,7 +31,7 @@ from garage2usd.layout.parking.stall_table import StallTable
 from garage2usd.layout.parking.stalls import bare_stall_panels, wheel_stops
 from garage2usd.layout.parking.tight import tight_stalls
 from garage2usd.layout.placement import Placement, placed
-from garage2usd.layout.shell.ramps import barriers, ramp_lights, with_ramps
+from garage2usd.layout.shell.ramps import ramp_lights, with_barriers, with_ramps
 from garage2usd.layout.signs import country_of, with_signs_of
 from garage2usd.layout.surveyed.floor import surveyed_floor
 from garage2usd.layout.surveyed.ground import SurveyedGround
@@ -94,10 +97,10 @@ class SurveyedLayout(Layout):
         return partial(lay_out_survey, self.survey)
 
     @property
-    def area_per_stall_m2(self) -> float:
-        """Floor inside the outline for each stall that cars park in; infinite without any."""
-        area = shapely.Polygon(self.survey.outline).area
-        return float(area / self.parking_stalls) if self.parking_stalls else float("inf")
+    def area(self) -> FloorArea:
+        """The ground inside the outline, of which nothing is known to be no floor."""
+        area = float(shapely.Polygon(self.survey.outline).area)
+        return FloorArea(area, area)
 
     def node_squares(self) -> NDArray[np.int32]:
         """Return the (row, col) by which files name each lane node, which are counted in one row."""
@@ -190,7 +193,9 @@ def lay_out_survey(
     )
 
     def parts() -> Iterator[Iterable[Placement]]:
-        yield surveyed_floor(ground, network, stalls)
+        yield (floors := list(surveyed_floor(ground, network, stalls)))
+        if look.floor.finish is FloorFinish.PATCHED:
+            yield floor_repairs(floors, draws)
         yield bare_stall_panels(stalls, look.markings)
         yield wheel_stops(stalls, fittings, config.standard)
         yield [*parked.cars, *number_plates(stalls, parked.cars, draws, country)]
@@ -198,8 +203,8 @@ def lay_out_survey(
         yield chargers(stalls)
         yield _ceiling(ground, config)
         yield lamps
-        yield (walls := with_ramps(shell, ground.polygon, fittings, look.walls))
-        yield barriers(walls, fittings)
+        walls, gates = with_barriers(with_ramps(shell, ground.polygon, fittings, look.walls), fittings)
+        yield from (walls, gates)
         yield ramp_lamps(ramp_lights(walls, fittings), look.lights, illuminance.luminance_nit, seed=seed)
         yield pillars
 

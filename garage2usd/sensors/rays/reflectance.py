@@ -89,6 +89,7 @@ _OF_KEY = {
         ),
         MaterialClass.ROAD_PAINT,
     ),
+    "asphalt_repair": MaterialClass.ASPHALT,
     "floor_asphalt": MaterialClass.ASPHALT,
     "floor_asphalt_patched": MaterialClass.ASPHALT,
     "ceiling_insulation": MaterialClass.OTHER,

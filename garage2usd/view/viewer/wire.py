@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.common.view_transform import EXPOSURE_EV
 from garage2usd.garage import Stall
 from garage2usd.reading.lanes import GUIDE_LIFT_M, Lanes
 from garage2usd.view.viewer.colliders import collider_lines
@@ -36,6 +37,7 @@ def encode_scene(scene: Scene) -> bytes:
         "name": scene.name,
         "facts": dict(scene.facts),
         "remarks": list(scene.remarks),
+        "exposure": 2.0**EXPOSURE_EV,
         "boundsM": np.round(scene.bounds_m, 4).tolist(),
         "levels": [{"name": level.name, "path": level.path} for level in scene.levels],
         "labels": labels,

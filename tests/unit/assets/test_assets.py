@@ -1,27 +1,22 @@
 from collections import Counter, defaultdict
-from functools import cache
 
 import networkx as nx
 import numpy as np
 import pytest
 import shapely
-from support.object_specs import SPECS
+from support.object_specs import CASES, SPECS, asset_of_case
+from support.soak import soak_but
 
 from garage2usd.assets import MATERIALS, Collider, finished
-from garage2usd.config.vehicles import CAR_BODIES
+from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_BODIES
 from garage2usd.pipeline import generate
 from garage2usd.stage.prototypes import asset_of
-
-
-@cache
-def asset_of_case(case):
-    return SPECS[case].asset()
 
 
 def each_part(check):
     """Make a test of each object from a check of one of its parts."""
 
-    @pytest.mark.parametrize("case", SPECS)
+    @pytest.mark.parametrize("case", CASES)
     def test(case):
         for part in asset_of_case(case).parts:
             check(case, part)
@@ -126,7 +121,7 @@ def test_a_speed_bump_has_the_standard_s_section():
     assert np.ptp(stop, axis=0) == pytest.approx([1.65, 0.1, 0.15], abs=1e-6)
 
 
-@pytest.mark.parametrize("body", CAR_BODIES, ids=lambda body: body.name)
+@pytest.mark.parametrize("body", soak_but(DRIVEN_BODIES, CAR_BODIES), ids=lambda body: body.name)
 def test_cars_keep_their_measures_and_stand_on_their_wheels(body):
     asset = asset_of_case(f"car_{body.name}")
     parts = {part.name: part for part in asset.parts}
@@ -175,12 +170,14 @@ def test_texture_coordinates_run_on_under_the_paint():
             assert known == pytest.approx(place, abs=1e-4)
 
 
-def test_colliders_are_on_what_can_be_touched():
-    for case in SPECS:
-        asset = asset_of_case(case)
-        kind = SPECS[case].kind
-        is_floor = kind.name in {"floor", "stall"}
-        assert (kind.is_solid or is_floor) == any(part.collider for part in asset.parts), case
+@pytest.mark.parametrize("case", CASES)
+def test_colliders_are_on_what_can_be_touched(case):
+    kind = SPECS[case].kind
+    is_floor = kind.name in {"floor", "stall"}
+    assert (kind.is_solid or is_floor) == any(part.collider for part in asset_of_case(case).parts)
+
+
+def test_floors_collide_as_meshes_and_wheel_stops_as_hulls():
     assert {part.collider for part in asset_of_case("floor").parts} == {Collider.MESH}
     assert {part.collider for part in asset_of_case("stop").parts} == {Collider.CONVEX_HULL}
 

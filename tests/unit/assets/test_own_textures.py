@@ -20,6 +20,7 @@ GREY, RED, GREEN, BLUE = (
     np.full((32, 64), 10, np.uint8),
 )
 COLOUR = np.dstack([RED, GREEN, BLUE])
+EMPTY = {"site": {"width_cells": 4, "height_cells": 4}, "plan": {"episodes": 50}, "parking": {"occupancy": 0.0}}
 
 
 def save(path, pixels, **options):
@@ -30,7 +31,7 @@ def save(path, pixels, **options):
 
 def surface_of(folder, tmp_path, material="FloorConcrete", **settings):
     """What the stage says of a material whose role has textures in a folder: by input, (file, channel) or a value."""
-    config = GarageConfig(site={"width_cells": 4, "height_cells": 4}, look={"textures": str(folder)}, **settings)
+    config = GarageConfig(**EMPTY, look={"textures": str(folder)}, **settings)
     built = garage2usd.build(config, tmp_path / "out" / "garage.usdc")
     stage = Usd.Stage.Open(str(built.stage))
     prims = Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies())
@@ -153,7 +154,7 @@ def test_a_picture_that_all_readers_take_keeps_its_bytes_unless_it_is_too_large(
 def test_a_repeat_covers_the_metres_that_are_asked_for_and_is_as_long_as_the_picture(tmp_path):
     save(tmp_path / "set" / "floor_color.png", COLOUR)
     (tmp_path / "set" / "textures.toml").write_text("[floor]\nrepeat_m = 4.0\n")
-    config = GarageConfig(site={"width_cells": 4, "height_cells": 4}, look={"textures": str(tmp_path / "set")})
+    config = GarageConfig(**EMPTY, look={"textures": str(tmp_path / "set")})
     stage = Usd.Stage.Open(str(garage2usd.build(config, tmp_path / "out" / "garage.usdc").stage))
     spans = []
     for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):

@@ -66,7 +66,7 @@ def test_build_and_report_tell_the_same(counted, built):
     folder, told = built
     report = json.loads((folder / "g_report.json").read_text())
     assert re.search(rf"^ +stalls  {stalls} \(.*; kept free: .*access aisle", told, re.MULTILINE)
-    assert f"m2/stall  {area_m2:.1f}\n" in told
+    assert f"m2/stall  {area_m2:.1f} net, {area_m2:.1f} gross, with ramps and obstacles\n" in told
     assert len(re.findall(r"m2.{0,4}stall", told)) == 1
     assert report["parking_stalls"] == stalls
     assert report["area_per_stall_m2"] == pytest.approx(area_m2, abs=1e-3)

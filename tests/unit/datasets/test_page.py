@@ -5,6 +5,7 @@ import hashlib
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from html.parser import HTMLParser
 
 import numpy as np
@@ -272,6 +273,21 @@ def test_a_thumbnail_has_each_square_once():
         allowed = {"lane": 1, "dead_end": 1, "entrance": 2, "exit": 3, "stalls": 0, "free": 0, "obstacle": -1}
         assert kinds == {allowed[region.kind]}
     assert (covered == 1).all()
+
+
+def test_the_page_tells_floor_net_and_gross_and_landings_of_several_levels(plans, tmp_path):
+    plan = replace(plans[0], gross_area_per_stall_m2=43.21, levels=2)
+    row, col = np.argwhere(plan.cells == Cell.EXIT)[0].tolist()
+    outside = np.pad(plan.cells, ((2, 0), (3, 0)), constant_values=Cell.OBSTACLE)
+    shown = []
+    for landings in ((), ((row + 2, col + 3),)):
+        page = tmp_path / f"{len(landings)}.html"
+        write_page(page, [replace(plan, cells=outside, landings=landings)])
+        shown.append(page.read_text())
+    assert f"{plan.area_per_stall_m2:.1f} m2 a stall net, 43.2 gross" in shown[0]
+    without, marked = (page.count('class="landing"') for page in shown)
+    assert marked == without + 1
+    assert "landing of a ramp" in shown[1]
 
 
 def test_the_variety_on_the_page_is_that_of_the_plans(plans, tmp_path):

@@ -5,7 +5,8 @@ import pytest
 import shapely
 from pxr import Usd, UsdGeom, UsdSemantics, UsdShade
 from support.footprints import footprint
-from support.sample_files import REPOSITORY, each_sample
+from support.sample_files import REPOSITORY, SAMPLES, SMALL_SAMPLES
+from support.soak import soak_but
 
 from garage2usd.config import GarageConfig
 from garage2usd.layout import lay_out
@@ -38,7 +39,7 @@ def ground_of(layout):
     )
 
 
-@each_sample
+@pytest.mark.parametrize("sample", soak_but(SMALL_SAMPLES, SAMPLES), ids=lambda path: path.stem)
 def test_every_open_door_has_its_ramp_outside_the_garage(sample, builds):
     layout = builds(sample, "usdc").garage.layout
     doors = [place for place in layout.of_kind("portal") if place.spec.is_open]

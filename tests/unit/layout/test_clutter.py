@@ -1,14 +1,17 @@
 """People and things that stand about: where they stand, how many, and that no car is in need of their ground."""
 
+import json
 import math
 from collections import Counter
 from dataclasses import astuple, replace
+from functools import cache
 
 import numpy as np
 import pytest
 import shapely
 from shapely import affinity
 from support import clutter_judge
+from support.soak import soak_but
 
 from garage2usd.checks import check_layout
 from garage2usd.common.errors import ConfigError
@@ -28,9 +31,14 @@ SORTS = set(MANY) - {"open_boots"}
 MANY_SEEDS = range(8)
 
 
-def garage(seed, clutter, **settings):
+def garage(seed, clutter):
+    return _garage(seed, json.dumps(clutter, sort_keys=True))
+
+
+@cache
+def _garage(seed, clutter):
     site = {"height_cells": 5 + seed % 4, "width_cells": 5 + seed // 4 % 5}
-    return generate(GarageConfig(seed=seed, site=site, clutter=clutter, **settings))
+    return generate(GarageConfig(seed=seed, site=site, clutter=json.loads(clutter)))
 
 
 def clutter_of(layout):
@@ -107,7 +115,7 @@ def test_over_many_garages_clutter_stands_on_ground_that_is_nobodys():
     assert min(found.values()) > 3, found
 
 
-@pytest.mark.parametrize("seed", [0, 5, 7, 14, 23, 62])
+@pytest.mark.parametrize("seed", soak_but([0, 7], [0, 5, 7, 14, 23, 62]))
 def test_a_judge_that_shares_no_code_finds_nothing_in_the_way(seed):
     _, stalls, found, faults = clutter_judge.judged(seed)
     assert stalls > 5
@@ -144,7 +152,7 @@ def carriageways(layout):
         yield shapely.box(x[col] + 0.8, z[row] + 0.8, x[col + 1] - 0.8, z[row + 1] - 0.8)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", soak_but([3, 5], range(6)))
 def test_every_stall_that_was_proven_stays_so_and_checks_find_no_more(seed):
     bare, full = garage(seed, {}), garage(seed, MANY)
     assert clutter_of(full.layout)

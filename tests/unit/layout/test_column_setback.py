@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapely
 from click.testing import CliRunner
+from support.soak import soak_but
 
 from garage2usd import ConfigError, GarageConfig, generate
 from garage2usd.checks import judged_layout
@@ -38,8 +39,13 @@ def feet_of(garage):
         yield place.name, (row, col), offset, [shapely.Polygon(outline) for outline in place.outlines()]
 
 
-@pytest.mark.parametrize("setback_m", [0.5, 1.0, 1.8])
-@pytest.mark.parametrize("seed", range(3))
+SETBACKS_M = (0.5, 1.0, 1.8)
+
+
+@pytest.mark.parametrize(
+    ("seed", "setback_m"),
+    soak_but([*enumerate(SETBACKS_M)], [(seed, setback_m) for seed in range(3) for setback_m in SETBACKS_M]),
+)
 def test_columns_beside_one_lane_stand_back_and_others_stay(seed, setback_m):
     made = garage_with(setback_m, seed=seed)
     away = {(True, True, False, False): (0, 1), (False, False, True, True): (0, -1)}
@@ -58,8 +64,9 @@ def test_columns_beside_one_lane_stand_back_and_others_stay(seed, setback_m):
 
 
 @pytest.mark.parametrize("kinds", [{"perpendicular": 1}, {"perpendicular": 0.5, "angled": 0.3, "parallel": 0.2}])
-def test_no_column_stands_in_a_stall_and_check_finds_nothing_more(kinds):
-    for seed in range(3):
+@pytest.mark.parametrize("seeds", soak_but(1, [range(1), range(1, 3)]))
+def test_no_column_stands_in_a_stall_and_check_finds_nothing_more(kinds, seeds):
+    for seed in seeds:
         usual, made = (garage_with(setback_m, seed=seed, stalls={"kinds": kinds}) for setback_m in (0, 1.0))
         stalls = shapely.STRtree([shapely.Polygon(stall.corners_m()).buffer(-0.01) for stall in made.layout.stalls])
         for name, _, _, outlines in feet_of(made):

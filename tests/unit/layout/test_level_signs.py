@@ -1,12 +1,16 @@
 """Signs in garages of several levels: exit signs lead to the street, and others name the levels."""
 
+import xml.etree.ElementTree as ET
+
+import numpy as np
 import pytest
 from support.level_judge import LevelJudge
 from support.overlaps import Solids
+from support.sight import EYE_M, part_named, share_hidden, spread_over, triangles, world
 from support.sign_judge import SignJudge
 from support.small_levels import SMALL_HELICES, SMALL_LEVELS
 
-from garage2usd import GarageConfig, build_levels, generate_levels
+from garage2usd import GarageConfig, build_levels, export, generate_levels
 from garage2usd.assets.countries import Country
 from garage2usd.objects.signage import SIGNAGE
 
@@ -38,6 +42,60 @@ def test_signs_say_where_ramps_lead_and_which_level_this_is(built):
     }
     for name, level in zip(judge.judge.names, garage.levels, strict=True):
         assert sum(plate.level == name for plate in plates) == len(level.layout.cores) > 0
+
+
+def no_entries(judge):
+    """Signs with the bar of a no-entry sign."""
+    return [sign for sign in judge.signs if sign.label == "lane_sign" and "Bar" in sign.shapes]
+
+
+def test_signs_forbid_to_drive_against_each_ramp(built):
+    """At the foot of each ramp down and the head of each ramp up, facing those who could drive in."""
+    garage, judge = built
+    fittings, signs = garage.config.fittings, no_entries(judge)
+    ramps = judge.judge.ramps()
+    assert len(signs) == len(ramps) == 2 * (len(garage.levels) - 1)
+    for ramp in ramps:
+        end, way = ramp[-1], (ramp[-1] - ramp[-2])[[0, 2]]
+        way /= np.linalg.norm(way)
+        near = [sign for sign in signs if np.linalg.norm((sign.place - end)[[0, 2]]) < 5 and sign.way @ way < -0.99]
+        (sign,) = (sign for sign in near if 0 < sign.place[1] - end[1] < garage.config.building.storey_m)
+        aside = (sign.place - end)[[0, 2]] @ [-way[1], way[0]]
+        assert abs(aside) < 1.2
+        height_m = sign.place[1] - end[1]
+        assert height_m + sign.low_m >= fittings.clear_height_m - 1e-4
+        assert height_m + sign.high_m <= fittings.ceiling_height_m + 1e-4
+
+
+def test_no_sign_of_a_ramp_hides_another_one_from_its_readers(built):
+    """From the middle of the right half of the lane, at half a square to two before a sign."""
+    garage, _ = built
+    for level in garage.levels:
+        hung = [*level.layout.of_kind("lane_sign"), *level.layout.of_kind("exit_sign")]
+        hung += level.layout.of_kind("fire_shutter")
+        forbidden = [sign for sign in hung if sign.name.startswith("NoEntry")]
+        assert len(forbidden) == len(level.layout.well.arrivals)
+        for sign in hung:
+            near = [each for each in forbidden if np.linalg.norm(np.subtract(each.position_m, sign.position_m)) < 9]
+            if not near or sign.kind == "fire_shutter":
+                continue
+            name = {"exit_sign": "Box", "lane_sign": "Disc" if sign in forbidden else "Border"}[sign.kind]
+            points = spread_over(world(sign, part_named(sign, name).points))
+            ground = -sign.position_m[1] + EYE_M
+            eyes = world(sign, [(across, ground, far) for across in (0.3, 1.2) for far in (4.0, 8.0, 14.0)])
+            # a no-entry sign behind none, and none behind a no-entry sign
+            others = [each for each in (hung if sign in forbidden else forbidden) if each is not sign]
+            faces = np.concatenate([triangles(each) for each in others])
+            assert share_hidden(eyes, points, faces) < 0.1, sign
+
+
+@pytest.mark.parametrize("built", ["straight"], indirect=True)
+def test_maps_have_the_signs_that_forbid_to_enter_ramps(built, tmp_path):
+    _, judge = built
+    (road,) = export(judge.judge.stage.GetRootLayer().realPath, [tmp_path / "g.xodr"])
+    found = [signal for signal in ET.parse(road).getroot().iter("signal") if signal.get("type") == "267"]
+    assert len(found) == len(no_entries(judge))
+    assert {signal.get("country") for signal in found} == {"DE"}
 
 
 def test_signs_of_levels_touch_nothing_that_hangs_beside_them(built):

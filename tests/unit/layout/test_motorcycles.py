@@ -10,6 +10,7 @@ from pxr import Usd
 from support.label_tables import labelled_objects
 from support.rays import Rays
 from support.slot_frames import from_above
+from support.soak import soak_but
 from support.stage_lanes import read_stage
 
 import garage2usd
@@ -54,8 +55,12 @@ def built(tmp_path_factory):
     return garage2usd.build(GarageConfig(**SETTINGS), tmp_path_factory.mktemp("motorcycles") / "g.usdc")
 
 
-@pytest.mark.parametrize(("seed", "share"), [(0, 0.05), (1, 0.1), (2, 0.15), (3, 0.3)])
-@pytest.mark.parametrize("profile", PROFILE_NAMES)
+SHARES = (0.05, 0.1, 0.15, 0.3)
+CASES = [(profile, seed, share) for profile in PROFILE_NAMES for seed, share in enumerate(SHARES)]
+EACH_SHARE_ONCE = [(PROFILE_NAMES[seed], seed, share) for seed, share in enumerate(SHARES)]
+
+
+@pytest.mark.parametrize(("profile", "seed", "share"), soak_but(EACH_SHARE_ONCE, CASES))
 def test_they_are_as_near_to_their_share_as_whole_squares_allow(profile, seed, share):
     sizes = {"standard": 1 - share, "motorcycle": share}
     stalls = {"sizes": sizes, "kinds": {"perpendicular": 0.8, "angled": 0.2}}

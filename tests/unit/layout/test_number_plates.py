@@ -9,13 +9,14 @@ from pxr import Usd, UsdGeom, UsdShade
 from support.glb_reader import Glb
 from support.label_tables import labelled_objects
 from support.small_garage import SETTINGS
+from support.soak import soak_but
 
 from garage2usd.assets.countries import Country
 from garage2usd.assets.number_plates import painted_plates, plate_coordinates
 from garage2usd.assets.plate_texture import BAND, CHARACTERS, SPACE, cell_corners
 from garage2usd.checks import check_file
 from garage2usd.config import GarageConfig
-from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_PLATE, PAINTS
+from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_BODIES, DRIVEN_PLATE, PAINTS
 from garage2usd.layout.parking.number_plates import number_plates
 from garage2usd.maps.glb import write_glb
 from garage2usd.objects.car import CarSpec
@@ -54,7 +55,7 @@ def small(**stage):
     )
 
 
-@pytest.fixture(scope="module", params=FORMS)
+@pytest.fixture(scope="module", params=soak_but(["text", "flat", "nested"], FORMS))
 def made(request, tmp_path_factory):
     name, stage = FORMS[request.param]
     return request.param, build(small(**stage), tmp_path_factory.mktemp(request.param) / name)
@@ -185,7 +186,7 @@ def test_a_text_that_no_plate_has_is_refused(text):
         plate_coordinates(text)
 
 
-@pytest.mark.parametrize("body", CAR_BODIES, ids=lambda body: body.name)
+@pytest.mark.parametrize("body", soak_but(DRIVEN_BODIES, CAR_BODIES), ids=lambda body: body.name)
 def test_plates_lie_on_their_holders(body):
     holders = next(part for part in asset_of(CarSpec(body.name, PAINTS[0])).parts if part.name == "PlateHolders").points
     sheets = [asset_of(NumberPlateSpec(body.name, "K47 M92")).parts[0], *painted_plates(body, "K47 M92")]

@@ -8,6 +8,7 @@ import pytest
 import shapely
 from pxr import Usd, UsdGeom
 from support.label_tables import labelled_objects
+from support.soak import soak_but
 
 from garage2usd.common.errors import StageError
 from garage2usd.config import GarageConfig
@@ -27,7 +28,7 @@ FORMS = {
 }
 
 
-@pytest.fixture(scope="module", params=FORMS)
+@pytest.fixture(scope="module", params=soak_but(["instanced", "flat", "nested"], FORMS))
 def made(request, tmp_path_factory):
     name, stage = FORMS[request.param]
     config = GarageConfig(seed=6, site=SITE, plan={"episodes": 200}, stage=stage)

@@ -8,6 +8,7 @@ import pytest
 import shapely
 from pxr import Usd, UsdGeom, UsdShade
 from support.lettering import agreement, outline
+from support.soak import soak_but
 
 from garage2usd.assets import MATERIALS, pascal_case
 from garage2usd.assets.countries import Country
@@ -40,7 +41,7 @@ def places(layout):
     ]
 
 
-@pytest.mark.parametrize(("profile", "country"), PROFILES.items())
+@pytest.mark.parametrize(("profile", "country"), soak_but([("cn-jgj100", "CN"), ("us-ada", "US")], PROFILES.items()))
 def test_signs_are_those_of_the_profile_and_stay_in_their_places(profile, country):
     usual, other = laid_out(profile, "international"), laid_out(profile, "profile")
     assert other.structure == usual.structure
@@ -153,7 +154,9 @@ PLATES = {"CN": "[京沪川湘冀][U-Z]·[A-Z]{3}\\d\\d", "DE": "[JTU] [A-Z]{2} 
 PLATES["US"] = "[A-Z]{2}\\d \\d[A-Z]{2}"
 
 
-@pytest.mark.parametrize(("profile", "country"), PROFILES.items())
+@pytest.mark.parametrize(
+    ("profile", "country"), soak_but([("cn-jgj100", "CN"), ("uk-istructe", "GB")], PROFILES.items())
+)
 def test_number_plates_are_those_of_the_country(profile, country, tmp_path):
     config = GarageConfig(
         seed=3, plan=PLAN, profile=profile, look={"signs": {"of": "profile"}}, stage={"texture_quality": "low"}

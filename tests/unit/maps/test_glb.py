@@ -15,8 +15,9 @@ from support.glb_reader import Glb, assert_like_the_stage, assert_stalls
 from support.label_tables import labelled_objects
 from support.map_faults import Fault, planted
 from support.places import MILLIMETRE, assert_same_places
-from support.sample_files import each_small_sample
+from support.sample_files import SMALL_SAMPLES, USUAL_SAMPLES
 from support.small_garage import SETTINGS
+from support.soak import soak_but
 
 from garage2usd import GarageConfig, build
 from garage2usd.common.errors import StageError
@@ -44,7 +45,7 @@ def test_it_is_the_stage(made, tmp_path):
     judge(write_glb, made, tmp_path)
 
 
-@each_small_sample
+@pytest.mark.parametrize("sample", soak_but(USUAL_SAMPLES[:1], SMALL_SAMPLES), ids=lambda path: path.stem)
 def test_it_is_the_stage_of_a_sample_and_little_larger(sample, builds, tmp_path):
     built = builds(sample, "usdz")
     judge(write_glb, built, tmp_path)
@@ -177,7 +178,7 @@ FAULTS = (
 )
 
 
-@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.name)
+@pytest.mark.parametrize("fault", soak_but(3, FAULTS), ids=lambda fault: fault.name)
 def test_a_planted_fault_is_found(fault, made, tmp_path):
     with planted(fault, "glb") as module, pytest.raises(AssertionError):
         judge(module.write_glb, made, tmp_path)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import shapely
-from support.object_specs import SPECS
+from support.object_specs import CASES, KEPT, SPECS, asset_of_case
 
 from garage2usd.config.vehicles import VehicleClass
 from garage2usd.objects import CAR_LABELS, CLASSES, CLASSES_VERSION, KINDS, PIECE_LABELS, Kind, Spec, _in_order
@@ -62,7 +62,7 @@ def test_numbers_of_classes_stay_as_they_are_in_data_sets():
 
 def test_pieces_are_of_classes_that_there_are_and_all_paint_has_one():
     assert {str(paint) for paint in Paint} == {each.label for each in PAINT_CLASSES}
-    seen = {part.piece for spec in SPECS.values() for part in spec.asset().parts}
+    seen = {part.piece for case in KEPT for part in asset_of_case(case).parts}
     assert {"", *PIECE_LABELS} >= seen > {"lane_line"}
     assert all(each.cityscapes in CITYSCAPES for each in CLASSES)
 
@@ -78,9 +78,9 @@ def test_two_kinds_cannot_share_a_number_a_name_or_a_label(field):
     assert [kind.name for kind in _in_order([Kind(**second), Kind(**first)])] == ["a", "b"]
 
 
-def touched(spec):
+def touched(asset):
     """Outlines (x, z) of what a car could touch of each part with a collider: of its faces below a car's roof."""
-    for part in spec.asset().parts:
+    for part in asset.parts:
         if part.collider is None or part.name in DRIVEN_OVER:
             continue
         for corners in np.split(part.points[part.face_indices].astype(float), np.cumsum(part.face_counts)[:-1]):
@@ -95,18 +95,18 @@ def hangs(kind):
     return kind.name == "mirror" or kind.follows in {VariantSet.CEILING, VariantSet.LIGHTS}
 
 
-@pytest.mark.parametrize("case", SPECS)
+@pytest.mark.parametrize("case", CASES)
 def test_the_outline_on_the_ground_holds_what_a_car_could_touch_and_little_more(case):
     spec = SPECS[case]
     outlines = [shapely.Polygon(outline) for outline in spec.outlines()]
     assert all(outline.is_valid and outline.area > 0 for outline in outlines)
     assert all(outline.convex_hull.area == pytest.approx(outline.area) for outline in outlines)
     ground = shapely.union_all(outlines)
-    stands = [] if hangs(spec.kind) else list(touched(spec))
+    stands = [] if hangs(spec.kind) else list(touched(asset_of_case(case)))
     assert bool(stands) == bool(outlines)
     if case == "raised_barrier":
         return  # its arm counts as if it were down
     for shape in stands:
         assert shapely.within(shape, ground.buffer(2e-3)), shape.bounds
-    points = np.concatenate([part.points[:, [0, 2]] for part in spec.asset().parts])
+    points = np.concatenate([part.points[:, [0, 2]] for part in asset_of_case(case).parts])
     assert shapely.within(ground, shapely.MultiPoint(points).envelope.buffer(0.11, join_style="mitre")) or not stands

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 from support.sample_files import REPOSITORY
+from support.small_garage import PLAN
+from support.soak import soak_but
 
 SCRIPT = """
 import sys
@@ -19,12 +21,23 @@ for extension in ("usda", "usdc", "usdz"):
 """
 
 
-@pytest.fixture(scope="module", params=["paper_7x9", "irregular"])
+SMALL = f'''
+seed = 2
+clutter = {{amount = "usual"}}
+parking = {{occupancy = 0.5}}
+plan = {{episodes = 50}}
+site = {{structure = """{PLAN}"""}}
+'''
+
+
+@pytest.fixture(scope="module", params=soak_but(["small"], ["small", "paper_7x9", "irregular"]))
 def twice(request, tmp_path_factory):
     folders = []
+    small = tmp_path_factory.mktemp("small") / "small.toml"
+    small.write_text(SMALL)
     for hash_seed, zone in (("1", "UTC"), ("77", "Asia/Tokyo")):
         folder = tmp_path_factory.mktemp(f"{request.param}_{hash_seed}")
-        sample = REPOSITORY / "samples" / f"{request.param}.toml"
+        sample = small if request.param == "small" else REPOSITORY / "samples" / f"{request.param}.toml"
         environment = {**os.environ, "PYTHONHASHSEED": hash_seed, "TZ": zone}
         subprocess.run(
             [sys.executable, "-c", SCRIPT, str(sample), str(folder)], check=True, env=environment, timeout=600

@@ -324,7 +324,8 @@ def test_the_title_has_the_figures_of_the_report(circulating, tmp_path):
     figures, loops = report["circulation"], report["circulation"]["loops"]
     assert title.text == (
         f"{report['parking_stalls']} stalls, {sum(stall['occupied'] for stall in report['stalls'])} occupied, "
-        f"{report['area_per_stall_m2']:.1f} m2 a stall, {loops} loops, "
+        f"{report['area_per_stall_m2']:.1f} m2 a stall net, {report['gross_area_per_stall_m2']:.1f} gross, "
+        f"{loops} loops, "
         f"longest dead end {figures['longest_dead_end_m']:.1f} m, "
         f"longest stretch without a junction {figures['longest_stretch_m']:.1f} m"
     )

@@ -2,12 +2,14 @@
  * The light of each level as one picture of its plan, so that hundreds of tubes cost a surface one look-up.
  *
  * Red is the square root of a quarter of the direct light on the floor (1 is what most of the lit floor has), green how
- * much of the ceiling shines, blue how much of the light reaches the floor past cars and columns.
+ * much of the ceiling shines, blue how much of the light reaches the floor past cars and columns, alpha where a ramp leads
+ * up from the floor, over which there is no slab but the lamps of the level above.
  */
 
 import * as THREE from "three";
 import type { Boxes } from "./boxes";
 import { SHADING } from "./classes";
+import { isInside } from "./guides";
 import type { SceneFile } from "./scene_file";
 
 const MARGIN_M = 4;
@@ -17,6 +19,7 @@ const COARSE_M = 1;
 const REACH_M = 14;
 const SHADE_BLUR_M = 0.35;
 const SHADE = 0.62;
+const [DARKEST, BRIGHTEST] = [0.1, 10];
 
 export interface LightPlan {
   /** A layer for each level. */
@@ -32,8 +35,8 @@ export interface LevelLight {
   height: number;
   /** Height of the floor in metres. */
   floor: number;
-  /** Whether anything shines. */
-  lit: boolean;
+  /** Luminance of a white surface in the direct light that is 1 in the picture, as a renderer has it; 0 where nothing shines. */
+  unit: number;
 }
 
 interface Lamp {
@@ -60,22 +63,24 @@ export function lightPlanOf(scene: SceneFile, boxes: Boxes): LightPlan {
   const layers = new Uint8Array(4 * columns * rows * scene.levels);
   for (let level = 0; level < scene.levels; level++) {
     const lamps = all.filter((lamp) => lamp.level === level);
+    const ramps = rampsUp(scene, boxes, level);
     const data = layers.subarray(4 * columns * rows * level, 4 * columns * rows * (level + 1));
     const heights = lamps.map((lamp) => lamp.y).sort((a, b) => a - b);
     const floor = floorHeight(scene, boxes, level);
-    const { field, across, along, lit } = directLight(lamps, floor, left, back, width, depth);
+    // in the well of ramps those of the level above shine down to this floor
+    const through = all.filter(({ level: own, x, z }) => own === level - 1 && ramps.some((ramp) => isInside(ramp, x, z)));
+    const { field, across, along, unit } = directLight(lamps, through, ramps, floor, left, back, width, depth);
     for (let row = 0; row < rows; row++)
       for (let column = 0; column < columns; column++) {
         const light = between(field, across, along, ((column + 0.5) * texel) / COARSE_M, ((row + 0.5) * texel) / COARSE_M);
-        const at = 4 * (row * columns + column);
-        data[at] = Math.min(255, 255 * Math.sqrt(light / 4));
-        data[at + 3] = 255;
+        data[4 * (row * columns + column)] = Math.min(255, 255 * Math.sqrt(light / 4));
       }
     const transform = [1 / texel, 0, 0, 1 / texel, -left / texel, -back / texel] as const;
     drawn(columns, rows, transform, (context) => drawLamps(context, lamps), data, 1);
     drawn(columns, rows, transform, (context) => drawShade(context, scene, boxes, { level, floor }), data, 2);
+    drawn(columns, rows, transform, (context) => ramps.forEach((ramp) => fill(context, ramp)), data, 3);
     blur(data, columns, rows, Math.max(1, Math.round(SHADE_BLUR_M / texel)));
-    levels.push({ height: heights.length ? heights[heights.length >> 1] : scene.header.boundsM[1][1], floor, lit });
+    levels.push({ height: heights.length ? heights[heights.length >> 1] : scene.header.boundsM[1][1], floor, unit });
   }
 
   const texture = new THREE.DataArrayTexture(layers, columns, rows, scene.levels);
@@ -120,26 +125,44 @@ function lampsOf(scene: SceneFile): Lamp[] {
   return lamps;
 }
 
-/** Direct light on the floor by the point-by-point method, on a grid of metres; its upper quartile is 1. */
-function directLight(lamps: Lamp[], floor: number, left: number, back: number, width: number, depth: number) {
+/** Outlines of the ramps that lead up from a level to another one. */
+function rampsUp(scene: SceneFile, boxes: Boxes, level: number): [number, number][][] {
+  const found: [number, number][][] = [];
+  for (let object = 0; level > 0 && object < scene.count; object++)
+    if (scene.level[object] === level && scene.labelOf(object) === "ramp") found.push(footprint(scene, boxes, object));
+  return found;
+}
+
+/**
+ * Direct light on the floor by the point-by-point method, on a grid of metres, with that through the openings over the
+ * ramps; its upper quartile is 1.
+ */
+function directLight(
+  lamps: Lamp[], through: Lamp[], ramps: [number, number][][], floor: number, left: number, back: number, width: number, depth: number,
+) {
   const [across, along] = [Math.ceil(width / COARSE_M) + 1, Math.ceil(depth / COARSE_M) + 1];
   const field = new Float32Array(across * along);
-  for (const lamp of lamps) {
+  const open = through.length
+    ? Array.from(field, (_, k) => ramps.some((ramp) => isInside(ramp, left + (k % across) * COARSE_M, back + Math.floor(k / across) * COARSE_M)))
+    : [];
+  const add = (lamp: Lamp, everywhere: boolean) => {
     const height = lamp.y - floor;
-    if (height < 0.5 || lamp.down <= 0) continue;
+    if (height < 0.5 || lamp.down <= 0) return;
     const [column, row] = [(lamp.x - left) / COARSE_M, (lamp.z - back) / COARSE_M];
     const reach = REACH_M / COARSE_M;
     for (let j = Math.max(0, Math.ceil(row - reach)); j <= Math.min(along - 1, row + reach); j++)
       for (let i = Math.max(0, Math.ceil(column - reach)); i <= Math.min(across - 1, column + reach); i++) {
         const square = ((i - column) * COARSE_M) ** 2 + ((j - row) * COARSE_M) ** 2 + height * height;
-        field[j * across + i] += (lamp.power * lamp.down * height * height) / (square * square);
+        if (everywhere || open[j * across + i]) field[j * across + i] += (lamp.power * lamp.down * height * height) / (square * square);
       }
-  }
+  };
+  for (const lamp of lamps) add(lamp, true);
+  for (const lamp of through) add(lamp, false);
   const bright = field.filter((value) => value > 0).sort();
-  const scale = bright.length ? 1 / bright[Math.floor(0.75 * bright.length)] : 0;
-  const lit = scale > 0;
-  for (let k = 0; k < field.length; k++) field[k] = lit ? field[k] * scale : 0;
-  return { field, across, along, lit };
+  const most = bright.length ? bright[Math.floor(0.75 * bright.length)] : 0;
+  for (let k = 0; k < field.length; k++) field[k] = most > 0 ? field[k] / most : 0;
+  // what others made may be lit in other units, and is still to be seen
+  return { field, across, along, unit: most > 0 ? Math.min(BRIGHTEST, Math.max(DARKEST, most / Math.PI)) : 0 };
 }
 
 function between(field: Float32Array, across: number, along: number, x: number, z: number): number {
@@ -201,11 +224,14 @@ function drawShade(
 ): void {
   for (let object = 0; object < scene.count; object++) {
     if (scene.level[object] !== level || !SHADING.has(scene.labelOf(object)) || boxes.world[6 * object + 1] > floor + 0.6) continue;
-    const corners = footprint(scene, boxes, object);
-    context.beginPath();
-    corners.forEach(([x, z], k) => (k ? context.lineTo(x, z) : context.moveTo(x, z)));
-    context.fill();
+    fill(context, footprint(scene, boxes, object));
   }
+}
+
+function fill(context: CanvasRenderingContext2D, corners: [number, number][]): void {
+  context.beginPath();
+  corners.forEach(([x, z], k) => (k ? context.lineTo(x, z) : context.moveTo(x, z)));
+  context.fill();
 }
 
 /** Corners (x, z) of the box of an object, seen from above. */

@@ -105,6 +105,9 @@ class Viewer {
     // smooth edges cost a renderer in software more than all else
     const antialias = !isSoftware();
     const renderer = new THREE.WebGLRenderer({ canvas: element<HTMLCanvasElement>("view"), antialias });
+    // as garage2usd render has it; the shader of surfaces takes this curve from three.js
+    renderer.toneMapping = THREE.AgXToneMapping;
+    renderer.toneMappingExposure = scene.header.exposure;
     const light = lightPlanOf(scene, boxes);
     const materials = new SurfaceMaterials(scene, await textures, light);
     const instances = await Instances.create(scene, boxes, chunks, materials);

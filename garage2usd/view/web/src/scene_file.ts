@@ -59,6 +59,8 @@ interface Header {
   name: string;
   facts: Record<string, string>;
   remarks: string[];
+  /** Factor on all light before the view transform AgX, as of `garage2usd render`. */
+  exposure: number;
   boundsM: [[number, number, number], [number, number, number]];
   /** Those of a garage of several levels, the top one first; none of a garage of one. */
   levels: { name: string; path: string }[];

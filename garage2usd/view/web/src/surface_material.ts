@@ -40,7 +40,7 @@ uniform highp sampler2D palette;
 uniform highp sampler2D labels;
 uniform mediump sampler2DArray plan;
 uniform vec4 frame;
-uniform vec3 levels[LEVELS]; // of each level: lights, floor, whether anything shines
+uniform vec3 levels[LEVELS]; // of each level: lights, floor, luminance of white where the plan is 1
 uniform float byLabel;
 uniform float selected;
 uniform float gloss;
@@ -51,7 +51,12 @@ varying vec2 vCoordinate;
 
 float lightOf(float stored) { return 4.0 * stored * stored; }
 
-vec3 filmic(vec3 x) { return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0); }
+/** Direct and bounced light of a level. */
+vec2 lightAt(vec2 at, float level, float direct, float unit) {
+  if (unit <= 0.0) return vec2(0.9);
+  float bounce = max(lightOf(textureLod(plan, vec3(at, level), 5.0).r), 0.2);
+  return unit * vec2(max(lightOf(direct), 0.2 * bounce), bounce);
+}
 
 void main() {
   vec3 normal = normalize(vNormalW) * (gl_FrontFacing ? 1.0 : -1.0);
@@ -86,20 +91,27 @@ void main() {
         level = float(k);
         heights = levels[k];
       }
-    float lit = heights.z;
     vec2 at = (vPlace.xz + 0.6 * normal.xz - frame.xy) * frame.zw;
     vec4 here = texture(plan, vec3(at, level));
-    float bounce = mix(0.9, max(lightOf(textureLod(plan, vec3(at, level), 5.0).r), 0.2), lit);
-    // as on a photograph, pools of light and what lies between them are nearer to each other than they are
-    float direct = mix(0.9, max(0.62 * lightOf(here.r) + 0.38 * bounce, 0.2), lit);
+    vec2 light = lightAt(at, level, here.r, heights.z);
     float above = vPlace.y - heights.y;
+    // in the well of a ramp the light of the level above passes into that of the level below
+    if (level > 0.5) {
+      vec3 upper = levels[int(level) - 1];
+      float share = here.a * (1.0 - smoothstep(0.0, 1.0, (upper.y - vPlace.y) / (upper.y - heights.y)));
+      light = mix(light, lightAt(at, level - 1.0, textureLod(plan, vec3(at, level - 1.0), 0.0).r, upper.z), share);
+    }
+    if (level < float(LEVELS) - 1.5) above = mix(above, 2.0, textureLod(plan, vec3(at, level + 1.0), 0.0).a);
+    float direct = light.x;
+    float bounce = light.y;
     float shade = mix(here.b, 1.0, smoothstep(0.0, 0.7, above));
     float low = mix(0.62, 1.0, smoothstep(-0.2, 1.4, above));
-    float side = (0.40 * direct + 0.42 * bounce) * low * mix(shade, 1.0, 0.4);
-    float top = direct * shade + 0.18 * bounce;
-    float under = 0.62 * bounce + 0.06;
-    float light = normal.y > 0.0 ? mix(side, top, normal.y) : mix(side, under, -normal.y);
-    light = light * (1.0 + 0.07 * normal.x) + 0.02;
+    // shares of a path tracer's light on floors, walls and cars of the same place
+    float side = (0.26 * direct + 0.27 * bounce) * low * mix(shade, 1.0, 0.4);
+    float top = 0.82 * direct * shade + 0.06 * bounce;
+    float under = 0.24 * bounce + 0.01;
+    float lit = normal.y > 0.0 ? mix(side, top, normal.y) : mix(side, under, -normal.y);
+    lit *= 1.0 + 0.07 * normal.x;
 
     // what it mirrors: the tubes and the ceiling between them, or the floor
     vec3 away = reflect(-view, normal);
@@ -119,8 +131,8 @@ void main() {
     vec3 base = mix(vec3(0.04), colour, metallic);
     vec3 fresnel = base + (max(vec3(1.0 - roughness), base) - base) * grazing;
     float coat = finish.w * (0.04 + 0.96 * grazing) * gloss;
-    shown = colour * (1.0 - metallic) * light * 1.42 + fresnel * mirrored * shade * gloss + coat * clear + glow.rgb;
-    shown = filmic(0.82 * shown);
+    shown = colour * (1.0 - metallic) * lit + fresnel * mirrored * shade * gloss + coat * clear + glow.rgb;
+    shown = AgXToneMapping(shown);
   }
   if (abs(vInfo.z - selected) < 0.5) shown = mix(shown, vec3(1.0, 0.62, 0.08), 0.45);
   gl_FragColor = vec4(shown, opacity);
@@ -144,7 +156,7 @@ export class SurfaceMaterials {
       layers: { value: layers.texture },
       plan: { value: light.texture },
       frame: { value: light.frame },
-      levels: { value: light.levels.map(({ height, floor, lit }) => new THREE.Vector3(height, floor, lit ? 1 : 0)) },
+      levels: { value: light.levels.map(({ height, floor, unit }) => new THREE.Vector3(height, floor, unit)) },
       byLabel: { value: 0 },
       selected: { value: -1 },
       gloss: { value: 1 },
