@@ -142,7 +142,7 @@ def _ramp_clearances(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]
             continue
         caster = BoxTree(corners.reshape(-1, 3), np.arange(len(corners) * 3, dtype=np.int32).reshape(-1, 3))
         ahead = np.diff(points, axis=0, append=points[-1:] * 2 - points[-2:-1])[:, [0, 2]]
-        ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
+        ahead /= np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), _LEAST_RUN_M)
         up = np.tile([0.0, 1.0, 0.0], (len(points), 1))
         aside = np.stack([ahead[:, 1], np.zeros(len(points)), -ahead[:, 0]], axis=1)
         clear = profile.clear_height

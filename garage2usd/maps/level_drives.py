@@ -292,7 +292,11 @@ class LevelsDrivePlanner:
 
     def _ramp_m(self, lower: int) -> float:
         """Return the length of the ramps down to a level, as seen from above."""
-        return max(float(ramp.runs_m[-1] - ramp.runs_m[0]) for ramp in self._planner(lower).road.ramps)
+        runs_m = [float(ramp.runs_m[-1] - ramp.runs_m[0]) for ramp in self._planner(lower).road.ramps]
+        if not runs_m:
+            name = self._garage.levels[lower].place.name
+            raise ConfigError("stall", name, "a level whose ramps have a straight floor to drive on")
+        return max(runs_m)
 
     def _span(self, end_m: float, level: int, upper: int | None) -> FloorSpan:
         """Return the floors of a level with the ramps down from an upper level, and with those to the street."""
