@@ -103,7 +103,7 @@ def _of_report(document: Mapping[str, Any], path: Path) -> tuple[BuiltGarage, Ga
     try:
         report = report_of(document, path)
     except ReportError as error:
-        raise ConfigError(_FIELD, str(path), f"a report with config, S, R and C ({error.reason})") from None
+        raise ReportError(path, f"{error.reason}; check reads a report with config, S, R and C") from None
     structure = Structure.from_arrays(cells_from_text("\n".join(report.S), field="S"), report.R, report.C)
     told, unreachable = report.stalls, report.unreachable_stalls
     directions = given_directions(structure, report.one_way, field="one_way")

@@ -1,5 +1,6 @@
-"""Outlines of text: capital letters and digits drawn with a broad pen, and Chinese characters."""
+"""Outlines of text: capital letters, digits and signs drawn with a broad pen, and Chinese characters."""
 
+import unicodedata
 from functools import lru_cache
 
 import shapely
@@ -7,7 +8,7 @@ from shapely import affinity
 
 from garage2usd.assets.han_glyphs import HAN_PITCH, HAN_WIDTH, han_glyph, is_han
 
-__all__ = ["GLYPH_PITCH", "GLYPH_WIDTH", "text_length", "text_shape"]
+__all__ = ["GLYPH_PITCH", "GLYPH_WIDTH", "drawn_form", "text_length", "text_shape", "undrawn"]
 
 GLYPH_WIDTH = 0.56
 """Width of each character as a share of its height."""
@@ -122,7 +123,49 @@ _STROKES |= {
     "X": (((0.06, -0.05), (0.50, 1.05)), ((0.50, -0.05), (0.06, 1.05))),
     "Y": (((0.06, -0.05), (0.28, 0.52)), ((0.50, -0.05), (0.28, 0.52)), ((0.28, 0.46), (0.28, 1.0))),
     "Z": (((0.0, _TOP), (_RIGHT, _TOP), (_LEFT, _BOTTOM), (GLYPH_WIDTH, _BOTTOM)),),
+    "/": (((0.06, 1.05), (0.50, -0.05)),),
+    "\\": (((0.06, -0.05), (0.50, 1.05)),),
+    ".": (((0.28, 0.84), (0.28, 1.0)),),
+    ",": (((0.32, 0.80), (0.20, 1.05)),),
+    ":": (((0.28, 0.26), (0.28, 0.42)), ((0.28, 0.70), (0.28, 0.86))),
+    "+": (((0.04, _MIDDLE), (0.52, _MIDDLE)), ((0.28, 0.26), (0.28, 0.74))),
+    "_": (((0.0, _BOTTOM), (GLYPH_WIDTH, _BOTTOM)),),
+    "(": (((0.40, -0.02), (0.20, 0.25), (0.20, 0.75), (0.40, 1.02)),),
+    ")": (((0.16, -0.02), (0.36, 0.25), (0.36, 0.75), (0.16, 1.02)),),
+    "#": (
+        ((0.20, 0.1), (0.16, 0.9)),
+        ((0.40, 0.1), (0.36, 0.9)),
+        ((0.0, 0.36), (GLYPH_WIDTH, 0.36)),
+        ((0.0, 0.66), (GLYPH_WIDTH, 0.66)),
+    ),
 }
+_ABOVE: dict[str, tuple[Stroke, ...]] = {
+    "\u0300": (((0.14, -0.02), (0.34, 0.18)),),
+    "\u0301": (((0.42, -0.02), (0.22, 0.18)),),
+    "\u0302": (((0.12, 0.18), (0.28, 0.02), (0.44, 0.18)),),
+    "\u0303": (((0.06, 0.14), (0.20, 0.04), (0.36, 0.12), (0.50, 0.02)),),
+    "\u0308": (((0.16, 0.0), (0.16, 0.16)), ((0.40, 0.0), (0.40, 0.16))),
+    "\u030a": (((0.20, 0.0), (0.36, 0.0), (0.36, 0.16), (0.20, 0.16), (0.20, 0.0)),),
+    "\u030c": (((0.12, 0.0), (0.28, 0.16), (0.44, 0.0)),),
+}
+"""Strokes of Unicode's combining marks above a letter, which is lowered for them."""
+_UNDER_MARK, _FINE_STROKE = 0.76, 0.1
+"""Height of a letter with a mark, as a share of those without; and the pen of marks."""
+
+
+def drawn_form(text: str) -> str:
+    """Return a text as it is drawn: in capital letters, with each mark joined to its letter."""
+    return unicodedata.normalize("NFC", unicodedata.normalize("NFC", text.replace("\u2013", "-")).upper())
+
+
+def undrawn(text: str) -> list[str]:
+    """Return the characters of a text that cannot be drawn, each once."""
+    return [sign for sign in dict.fromkeys(drawn_form(text)) if not _is_drawn(sign) and not is_han(sign)]
+
+
+def _is_drawn(character: str) -> bool:
+    apart = unicodedata.normalize("NFD", character)
+    return apart[0] in _STROKES and (len(apart) == 1 or apart[1:] in _ABOVE)
 
 
 def text_shape(text: str, height_m: float) -> shapely.Geometry:
@@ -131,14 +174,15 @@ def text_shape(text: str, height_m: float) -> shapely.Geometry:
     Parameters
     ----------
     text
-        Digits, capital letters, spaces and hyphens; or Chinese characters.
+        Characters without those of `undrawn`, in the form of `drawn_form`.
     height_m
         Height of the characters.
     """
-    pitch, glyph = (HAN_PITCH, han_glyph) if is_han(text) else (GLYPH_PITCH, _glyph)
+    pitch = HAN_PITCH if is_han(text) else GLYPH_PITCH
     shapes = []
     for index, character in enumerate(text):
         across = (index - (len(text) - 1) / 2) * pitch
+        glyph = han_glyph if is_han(character) else _glyph
         shapes.append(affinity.translate(glyph(character), across))
     return affinity.scale(shapely.union_all(shapes), height_m, height_m, origin=(0, 0))
 
@@ -149,14 +193,23 @@ def text_length(text: str) -> float:
     return width + pitch * (len(text) - 1)
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=128)
 def _glyph(character: str) -> shapely.Geometry:
     """Outline of a character of height 1, centred at the origin."""
-    strokes = [
-        shapely.LineString(stroke).buffer(_STROKE / 2, cap_style="flat", join_style="mitre")
-        if stroke[0] != stroke[-1]
-        else shapely.LinearRing(stroke).buffer(_STROKE / 2, join_style="mitre")
-        for stroke in _STROKES[character]
-    ]
-    glyph = shapely.intersection(shapely.union_all(strokes), shapely.box(0, 0, GLYPH_WIDTH, 1), grid_size=1e-4)
+    apart = unicodedata.normalize("NFD", character)
+    glyph = _drawn(_STROKES[apart[0]], _STROKE)
+    for mark in apart[1:]:
+        lowered = affinity.scale(glyph, 1, _UNDER_MARK, origin=(0, 1))
+        glyph = shapely.union(lowered, _drawn(_ABOVE[mark], _FINE_STROKE), grid_size=1e-4)
     return affinity.translate(glyph, -GLYPH_WIDTH / 2, -0.5)
+
+
+def _drawn(strokes: tuple[Stroke, ...], pen: float) -> shapely.Geometry:
+    """Outline of strokes in a cell."""
+    lines = [
+        shapely.LineString(stroke).buffer(pen / 2, cap_style="flat", join_style="mitre")
+        if stroke[0] != stroke[-1]
+        else shapely.LinearRing(stroke).buffer(pen / 2, join_style="mitre")
+        for stroke in strokes
+    ]
+    return shapely.intersection(shapely.union_all(lines), shapely.box(0, 0, GLYPH_WIDTH, 1), grid_size=1e-4)

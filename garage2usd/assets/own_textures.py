@@ -154,7 +154,8 @@ def _opened(file: MapFile, role: str, use: Callable[[Image.Image], Given]) -> Gi
     except (UnidentifiedImageError, OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
         if isinstance(error, ConfigError):
             raise
-        raise ConfigError(field, file.path, f"{allowed} ({error})") from None
+        reason = "" if isinstance(error, UnidentifiedImageError) else f" ({error})"
+        raise ConfigError(field, file.path, f"{allowed}{reason}") from None
 
 
 @lru_cache(maxsize=32)

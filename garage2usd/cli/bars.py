@@ -1,11 +1,13 @@
-"""Progress bars on a terminal; elsewhere a line of text every ten seconds."""
+"""Progress bars on a terminal with a cursor; elsewhere a line of text every ten seconds."""
 
+import os
 import time
 from types import TracebackType
 from typing import TYPE_CHECKING, Self, TextIO
 
 import click
 
+from garage2usd.cli.streams import drawn_on
 from garage2usd.cli.termination import TERMINATION
 from garage2usd.common.progress import time_in_words
 
@@ -15,11 +17,11 @@ if TYPE_CHECKING:
 __all__ = ["Bars"]
 
 _EVERY_S = 10.0
-"""Interval between two lines without a terminal; shorter steps print nothing."""
+"""Interval between two lines without a cursor; shorter steps print nothing."""
 
 
 class Bars:
-    """Progress bars, one for each step; without a terminal, lines with the progress.
+    """Progress bars, one for each step; without a cursor to move, lines with the progress.
 
     Parameters
     ----------
@@ -30,7 +32,8 @@ class Bars:
     """
 
     def __init__(self, stream: TextIO, *, unit: str | None = None) -> None:
-        self._stream = stream
+        self._stream, self._screen = stream, drawn_on(stream)
+        self._has_cursor = stream.isatty() and os.environ.get("TERM") != "dumb"
         self._unit = unit
         self._step = ""
         self._bar: ProgressBar[int] | None = None
@@ -49,7 +52,7 @@ class Bars:
     def __call__(self, step: str, done: int, total: int) -> None:
         """Show that `done` of `total` units of `step` are finished."""
         TERMINATION.insist()
-        if not self._stream.isatty():
+        if not self._has_cursor:
             self._say(step, done, total)
             return
         if step != self._step or self._bar is None:
@@ -58,7 +61,7 @@ class Bars:
             self._bar = click.progressbar(
                 length=total,
                 label=f"{step:>10}",
-                file=self._stream,
+                file=self._screen,
                 show_pos=self._unit is not None,
                 item_show_func=self._rate,
             )
@@ -67,8 +70,8 @@ class Bars:
 
     def announce(self, text: str) -> None:
         """Print a line above the current bar."""
-        if self._bar is not None and self._stream.isatty():
-            click.echo("\r\033[K", file=self._stream, nl=False)
+        if self._bar is not None and self._has_cursor:
+            click.echo("\r\033[K", file=self._screen, nl=False)
         click.echo(text, file=self._stream)
 
     def _say(self, step: str, done: int, total: int) -> None:

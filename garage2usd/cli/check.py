@@ -9,6 +9,7 @@ import click
 
 from garage2usd.cli.bars import Bars
 from garage2usd.cli.parameters import INPUT_FILE, profile_option
+from garage2usd.common.usd_messages import usd_messages
 
 __all__ = ["check"]
 
@@ -47,6 +48,7 @@ def check(ctx: click.Context, *, path: Path, profile: str | None, as_json: bool)
             not_checked = checks.not_checked(garage.levels[0].garage, against)
         else:
             findings, not_checked = checks.check(garage, against), checks.not_checked(garage, against)
+    usd_messages()  # findings say the same
     counts = Counter(finding.severity.value for finding in findings)
     if as_json:
         document = {

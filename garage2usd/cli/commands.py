@@ -7,9 +7,11 @@ import click
 
 from garage2usd.cli.termination import TERMINATION
 from garage2usd.common.errors import ConfigError, Garage2UsdError
+from garage2usd.common.usd_messages import keep_usd_messages, usd_messages
 
 __all__ = ["Commands"]
 
+_MOST_USD_MESSAGES = 5
 _USAGE_FIELDS = {"frames", "output", "profile"}
 
 
@@ -19,6 +21,7 @@ class Commands(click.Group):
     def main(self, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401 - as click has it
         """Run a command; usage errors end in 2, all others in 1. A real bug shows its traceback."""
         TERMINATION.install()
+        keep_usd_messages()
         try:
             return super().main(*args, **kwargs)
         except Garage2UsdError as error:
@@ -33,6 +36,12 @@ class Commands(click.Group):
 
             click.echo(f"Error: USD cannot read the stage ({usd_reason(error)})", err=True)
             sys.exit(1)
+        finally:
+            said = usd_messages()
+            for message in said[:_MOST_USD_MESSAGES]:
+                click.echo(f"in the stage: {message}", err=True)
+            if len(said) > _MOST_USD_MESSAGES:
+                click.echo(f"in the stage: {len(said) - _MOST_USD_MESSAGES} more, see garage2usd check", err=True)
 
 
 def _is_of_usd(error: Exception) -> bool:

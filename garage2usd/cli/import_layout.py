@@ -9,6 +9,7 @@ import click
 
 from garage2usd.cli.bars import Bars
 from garage2usd.cli.parameters import INPUT_FILE, echo_table, profile_option, seed_option
+from garage2usd.common.errors import printable
 
 if TYPE_CHECKING:
     from garage2usd.imports import ImportedGarage
@@ -69,12 +70,12 @@ def import_layout(
         made = make(source, output, config=settings, proves=not no_proofs, progress=progress)
     unplaced = made.layout.unplaced
     for name, reason in unplaced[:_MOST_NAMED]:
-        click.echo(f"not placed: {name}: {reason}", err=True)
+        click.echo(f"not placed: {printable(name)}: {printable(reason)}", err=True)
     if len(unplaced) > _MOST_NAMED:
         click.echo(f"not placed: {len(unplaced) - _MOST_NAMED} more, see {made.report}", err=True)
     for stall in made.layout.fitted:
         if stall.note:
-            click.echo(f"changed: {stall.source.name}: {stall.note}", err=True)
+            click.echo(f"changed: {printable(stall.source.name)}: {printable(stall.note)}", err=True)
     _describe(made)
 
 

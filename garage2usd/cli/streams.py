@@ -1,11 +1,12 @@
-"""Standard output and error: they accept any text and report a full disk in one line."""
+"""Standard output and error: they accept any text, show control characters and report a full disk in one line."""
 
 import errno
 import io
 import os
+import re
 import sys
 from contextlib import suppress
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, Any, TextIO, cast
 
 from garage2usd.common.errors import OutputError
 from garage2usd.common.system import is_console
@@ -13,24 +14,62 @@ from garage2usd.common.system import is_console
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
 
-__all__ = ["open_streams"]
+__all__ = ["ShownText", "drawn_on", "open_streams"]
 
 _OUTPUT, _ERROR = 1, 2
+_CONTROL = re.compile("[\0-\b\v-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
+"""Characters that move the cursor, ring, colour or reverse text, except tabs and ends of lines."""
 
 
 def open_streams() -> None:
     """Reopen standard output and standard error, so that they accept any text in any encoding.
 
-    Characters outside the encoding, for example in a file's name, are printed as their code numbers. A standard output
-    that accepts no more data raises `OutputError`; data for a failed standard error or for closed streams is lost.
+    Control characters, and those outside the encoding, for example in a file's name, are printed as their code numbers.
+    A standard output that accepts no more data raises `OutputError`; data for a failed standard error or for closed
+    streams is lost.
     """
     for number in range(_ERROR + 1):  # else the next file gets the number, and what libraries print goes into it
         try:
             os.fstat(number)
         except OSError:
             os.open(os.devnull, os.O_RDWR)
-    sys.stdout = _opened(sys.stdout or os.fdopen(_OUTPUT, "w", closefd=False), is_needed=True)
-    sys.stderr = _opened(sys.stderr or os.fdopen(_ERROR, "w", closefd=False), is_needed=False)
+    output, error = (
+        sys.stdout or os.fdopen(_OUTPUT, "w", closefd=False),
+        sys.stderr or os.fdopen(_ERROR, "w", closefd=False),
+    )
+    sys.stdout = cast("TextIO", ShownText(_opened(output, is_needed=True)))
+    sys.stderr = cast("TextIO", ShownText(_opened(error, is_needed=False)))
+
+
+def drawn_on(stream: TextIO) -> TextIO:
+    """Return the stream below a `ShownText`, on which progress bars move the cursor; else the stream itself."""
+    return stream.below if isinstance(stream, ShownText) else stream
+
+
+class ShownText:
+    """A text stream that writes control characters as escapes: names and messages in files cannot drive a terminal.
+
+    It has no attribute `buffer`, through which click would write past it.
+
+    Parameters
+    ----------
+    below
+        The stream that gets the text.
+    """
+
+    def __init__(self, below: TextIO) -> None:
+        self.below = below
+
+    def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - of the stream below
+        """Return an attribute of the stream below."""
+        if name in {"below", "buffer"}:
+            raise AttributeError(name)
+        return getattr(self.below, name)
+
+    def write(self, text: str) -> int:
+        """Write text."""
+        self.below.write(_CONTROL.sub(lambda found: ascii(found[0])[1:-1], text))
+        return len(text)
 
 
 def _opened(stream: TextIO, *, is_needed: bool) -> TextIO:

@@ -8,6 +8,7 @@ import stat
 import tomllib
 import zipfile
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -77,8 +78,8 @@ def read_bytes(path: Path, *, field: str, max_bytes: int = MAX_SETTINGS_BYTES) -
     return data
 
 
-def read_text(path: Path, *, field: str, max_bytes: int = MAX_SETTINGS_BYTES) -> str:
-    """Read a text file in UTF-8, or in UTF-16 with a byte order mark, which is removed.
+def read_text(path: Path, *, field: str, max_bytes: int = MAX_SETTINGS_BYTES, otherwise: str = "utf-8") -> str:
+    """Read a text file in UTF-8, or in UTF-16 with a byte order mark, which is removed; or else in another encoding.
 
     Raises
     ------
@@ -86,9 +87,13 @@ def read_text(path: Path, *, field: str, max_bytes: int = MAX_SETTINGS_BYTES) ->
         As `read_bytes`, and for other encodings.
     """
     data = read_bytes(path, field=field, max_bytes=max_bytes)
+    is_wide = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     try:
-        return data.decode("utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig")
+        return data.decode("utf-16" if is_wide else "utf-8-sig")
     except UnicodeDecodeError as error:
+        if not is_wide and otherwise != "utf-8":
+            with suppress(UnicodeDecodeError):
+                return data.decode(otherwise)
         raise ConfigError(field, str(path), f"UTF-8 text ({error.reason} at byte {error.start})") from None
 
 

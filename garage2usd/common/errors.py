@@ -1,7 +1,9 @@
 """Hierarchy of errors: each names the failure, the value, the allowed values, and the seed that reproduces it."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from enum import Enum
+from pathlib import Path
 
 __all__ = [
     "ConfigError",
@@ -15,6 +17,7 @@ __all__ = [
     "StageError",
     "UnreachableStallError",
     "UnreadableFileError",
+    "printable",
 ]
 
 
@@ -50,7 +53,7 @@ class ConfigError(Garage2UsdError, ValueError):
         self.field = field
         self.value = value
         self.allowed = allowed
-        super().__init__(f"{field}: got {_brief(value)}; allowed: {allowed}")
+        super().__init__(f"{printable(field)}: got {_brief(value)}; allowed: {printable(' '.join(allowed.split()))}")
 
 
 class DataSetError(Garage2UsdError):
@@ -65,7 +68,7 @@ class DataSetError(Garage2UsdError):
     """
 
     def __init__(self, path: object, reason: str) -> None:
-        super().__init__(f"{_printable(path)}: {reason}")
+        super().__init__(f"{printable(path)}: {printable(' '.join(reason.split()))}")
 
 
 class GenerationError(Garage2UsdError):
@@ -127,7 +130,7 @@ class OutputError(Garage2UsdError, OSError):
 
     def __str__(self) -> str:
         """Path and reason, without the error number of OSError."""
-        return f"{_printable(self.path)}: {self.reason}"
+        return f"{printable(self.path)}: {self.reason}"
 
 
 class UnreadableFileError(Garage2UsdError):
@@ -144,7 +147,7 @@ class UnreadableFileError(Garage2UsdError):
     def __init__(self, path: object, reason: str) -> None:
         self.path = path
         self.reason = reason
-        super().__init__(f"{_printable(path)}: {reason}")
+        super().__init__(f"{printable(path)}: {printable(' '.join(reason.split()))}")
 
 
 class StageError(UnreadableFileError):
@@ -193,9 +196,25 @@ class RenderError(Garage2UsdError):
         super().__init__(f"Blender ended with {code}: {said}")
 
 
-def _printable(path: object) -> str:
-    """Format a path in one line, with escapes for non-printable characters."""
+def printable(path: object) -> str:
+    """Format a path or name in one line, with escapes for non-printable characters."""
     return "".join(sign if sign.isprintable() else ascii(sign)[1:-1] for sign in str(path))
+
+
+def _bare(value: object) -> object:
+    """Return a value as it is written in a file: without the names of classes, which `repr` prints."""
+    if isinstance(value, Enum):
+        return value.value
+    if isinstance(value, Path):
+        return str(value)
+    for to_plain in ("tolist", "model_dump"):  # of arrays, and of settings
+        if hasattr(value, to_plain) and not isinstance(value, type):
+            return _bare(getattr(value, to_plain)())
+    if isinstance(value, Mapping):
+        return {_bare(key): _bare(each) for key, each in value.items()}
+    if isinstance(value, list | tuple) and type(value) in {list, tuple}:
+        return type(value)(map(_bare, value))
+    return value
 
 
 _BRIEF_CHARACTERS = 80
@@ -203,6 +222,6 @@ _BRIEF_CHARACTERS = 80
 
 def _brief(value: object) -> str:
     """Format a value in one line: a path in full, since its end is significant, any other value truncated."""
-    text = repr(value).replace("\n", "")  # arrays are printed over several lines
+    text = repr(_bare(value)).replace("\n", "")  # arrays are printed over several lines
     is_path = isinstance(value, str) and os.sep in value and "\n" not in value
     return text if is_path or len(text) <= _BRIEF_CHARACTERS else f"{text[:_BRIEF_CHARACTERS]}..."

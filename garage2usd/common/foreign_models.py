@@ -3,6 +3,7 @@
 
 import hashlib
 import io
+import logging
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,8 +14,9 @@ from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 
 from garage2usd.common.documents import read_bytes
-from garage2usd.common.errors import ConfigError
+from garage2usd.common.errors import ConfigError, Garage2UsdError
 from garage2usd.common.extras import of_extra
+from garage2usd.common.glb_container import read_glb
 
 __all__ = ["MODEL_SUFFIXES", "ForeignPart", "ForeignSurface", "model_digest", "read_model"]
 
@@ -25,6 +27,8 @@ _MOST_TRIANGLES = 400_000
 _LARGEST_PX = 1024
 _FLIPPED_IN = 0.0
 _BYTE = 255.0
+_WORD_TO_BYTE = 257
+_COORDINATES = ("texCoord2f", "float2", "texCoord2d", "double2", "texCoord2h", "half2")
 _Z_UP_TO_Y_UP = np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]])
 
 
@@ -92,19 +96,26 @@ def model_digest(path: Path, *, field: str) -> str:
     ConfigError
         If a file cannot be read, or a reference cannot be resolved.
     """
-    files = [path]
-    if path.suffix.lower() != ".glb":
+    if path.suffix.lower() == ".glb":
+        container = read_glb(path, field=field, max_bytes=_MOST_BYTES)
+        told = [container.data, *(data for _, data in sorted(container.files.items()))]
+    else:
         from pxr import Tf, UsdUtils  # noqa: PLC0415 - few garages have models of one's own
 
+        quiet = UsdUtils.CoalescingDiagnosticDelegate()
         try:
             layers, assets, missing = UsdUtils.ComputeAllDependencies(str(path))
-        except Tf.ErrorException:
+        except (Tf.ErrorException, UnicodeDecodeError):
             raise ConfigError(field, str(path), "a file of USD that can be read") from None
+        finally:
+            del quiet
+        # other files that are missing count where they are read
+        missing = [name for name in missing if name.lower().endswith(MODEL_SUFFIXES)]
         if missing:
             raise ConfigError(field, f"{path} without {min(missing)}", "a model whose references lead to files")
-        files += [Path(layer.realPath) for layer in layers] + [Path(asset) for asset in assets]
-    inner = {file for file in files if "[" not in str(file) and file != path}
-    told = [read_bytes(file, field=field, max_bytes=_MOST_BYTES) for file in (path, *sorted(inner))]
+        files = [Path(layer.realPath) for layer in layers] + [Path(asset) for asset in assets]
+        inner = {file for file in files if "[" not in str(file) and file != path}
+        told = [read_bytes(file, field=field, max_bytes=_MOST_BYTES) for file in (path, *sorted(inner))]
     return hashlib.sha256(b"".join(hashlib.sha256(data).digest() for data in told)).hexdigest()
 
 
@@ -125,7 +136,14 @@ def read_model(path: Path, *, field: str) -> tuple[ForeignPart, ...]:
     MissingExtraError
         If the file is a GLB, and the package that reads it is not installed.
     """
-    parts = tuple(part for part in (_of_glb if path.suffix.lower() == ".glb" else _of_usd)(path, field) if len(part.st))
+    is_glb = path.suffix.lower() == ".glb"
+    try:
+        parts = tuple(part for part in (_of_glb if is_glb else _of_usd_quietly)(path, field) if len(part.st))
+    except Garage2UsdError:
+        raise
+    except Exception:  # noqa: BLE001 - whatever the tables of a file of others hold
+        kind = "a GLB whose tables are whole" if is_glb else "a file of USD whose values are those of its schemas"
+        raise ConfigError(field, str(path), kind) from None
     count = sum(len(part.st) for part in parts)
     if not 0 < count <= _MOST_TRIANGLES:
         raise ConfigError(field, f"{path} of {count} triangles", f"models of 1 to {_MOST_TRIANGLES} triangles")
@@ -137,11 +155,11 @@ def read_model(path: Path, *, field: str) -> tuple[ForeignPart, ...]:
 def _of_glb(path: Path, field: str) -> Iterator[ForeignPart]:
     with of_extra("a model as GLB"):
         import trimesh  # noqa: PLC0415 - of an extra
-    data = read_bytes(path, field=field, max_bytes=_MOST_BYTES)
-    try:
-        scene: Any = trimesh.load_scene(io.BytesIO(data), file_type="glb", process=False)
-    except Exception as error:  # noqa: BLE001 - trimesh raises whatever its parsers do
-        raise ConfigError(field, str(path), f"a GLB that can be read ({type(error).__name__})") from None
+    logging.getLogger("trimesh").addHandler(logging.NullHandler())
+    container = read_glb(path, field=field, max_bytes=_MOST_BYTES)
+    scene: Any = trimesh.load_scene(
+        io.BytesIO(container.data), file_type="glb", process=False, resolver=dict(container.files)
+    )
     for node in sorted(scene.graph.nodes_geometry):
         matrix, name = scene.graph[node]
         mesh = scene.geometry[name]
@@ -168,41 +186,46 @@ def _of_pbr(material: Any, path: Path, field: str) -> ForeignSurface:  # noqa: A
 
     given = getattr(material, "baseColorFactor", None)
     colour = np.ones(4) if given is None else np.asarray(given, dtype=np.float64) / _BYTE
-    picture = getattr(material, "baseColorTexture", None)
-    rough, metal = factor("roughnessFactor", 1.0), factor("metallicFactor", 0.0 if picture is not None else 1.0)
-    packed, normals, occlusion = (
-        None if given is None else _image(given, path, field)
-        for given in (
-            getattr(material, name, None) for name in ("metallicRoughnessTexture", "normalTexture", "occlusionTexture")
-        )
-    )
+    title = str(getattr(material, "name", "") or "")
+
+    def image(name: str) -> Image.Image | None:
+        given = getattr(material, name, None)
+        return None if given is None else _image(given, f"{path}, {name} of the material '{title}'", field)
+
+    packed, normals, occlusion = map(image, ("metallicRoughnessTexture", "normalTexture", "occlusionTexture"))
+    coloured = image("baseColorTexture")
+    rough, metal = factor("roughnessFactor", 1.0), factor("metallicFactor", 0.0 if coloured else 1.0)
     if packed is not None:
         metal = factor("metallicFactor", 1.0)
         _, green, blue = packed.split()
         packed = _packed(occlusion.getchannel("R") if occlusion else 1.0, _times(green, rough), _times(blue, metal))
     return ForeignSurface(
-        str(getattr(material, "name", "") or ""),
+        title,
         (round(float(colour[0]), 4), round(float(colour[1]), 4), round(float(colour[2]), 4)),
         rough,
         metal,
         round(float(colour[3]), 4) if getattr(material, "alphaMode", None) == "BLEND" else 1.0,
-        b"" if picture is None else _png(_image(picture, path, field)),
+        b"" if coloured is None else _png(coloured),
         b"" if packed is None else _png(packed),
         b"" if normals is None else _png(normals),
     )
 
 
-def _image(picture: Any, path: Path, field: str) -> Image.Image:  # noqa: ANN401 - a picture, or the bytes of one
+def _image(picture: Any, place: str, field: str) -> Image.Image:  # noqa: ANN401 - a picture, or the bytes of one
     """Convert an image to RGB, and reduce it to the size limit of garages."""
     try:
         image: Image.Image = Image.open(io.BytesIO(picture)) if isinstance(picture, bytes) else picture
+        if image.mode.startswith("I"):  # 16 bits of grey, which `convert` would cut off at 255
+            image = Image.fromarray((np.asarray(image) // _WORD_TO_BYTE).clip(0, 255).astype(np.uint8))
         image = image.convert("RGB")
         if max(image.size) > _LARGEST_PX:
             scale = _LARGEST_PX / max(image.size)
             width, height = (max(1, round(side * scale)) for side in image.size)
             image = image.resize((width, height), Image.Resampling.BOX)
-    except (UnidentifiedImageError, OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
-        raise ConfigError(field, str(path), f"a model with textures that can be read ({error})") from None
+    except UnidentifiedImageError:
+        raise ConfigError(field, place, "a picture of a known format, such as PNG or JPEG") from None
+    except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
+        raise ConfigError(field, place, f"a picture that can be read ({error})") from None
     return image
 
 
@@ -230,6 +253,17 @@ def _packed(*channels: Image.Image | float) -> Image.Image:
     )
 
 
+def _of_usd_quietly(path: Path, field: str) -> list[ForeignPart]:
+    """Read a model of USD; USD's own warnings about it are no lines of a command."""
+    from pxr import UsdUtils  # noqa: PLC0415 - few garages have models of one's own
+
+    quiet = UsdUtils.CoalescingDiagnosticDelegate()
+    try:
+        return list(_of_usd(path, field))
+    finally:
+        del quiet
+
+
 def _of_usd(path: Path, field: str) -> Iterator[ForeignPart]:
     from pxr import Tf, Usd, UsdGeom, UsdShade  # noqa: PLC0415 - few garages have models of one's own
 
@@ -240,6 +274,8 @@ def _of_usd(path: Path, field: str) -> Iterator[ForeignPart]:
     is_z_up = UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z
     turn = _Z_UP_TO_Y_UP if is_z_up else np.eye(3)
     metres = float(stage.GetMetadata(UsdGeom.Tokens.metersPerUnit))
+    if not 0 < metres < np.inf:
+        raise ConfigError(field, f"{path} with metersPerUnit = {metres:g}", "metres per unit above 0")
     time = Usd.TimeCode.EarliestTime()
     places = UsdGeom.XformCache(time)
     surfaces: dict[str, ForeignSurface] = {}
@@ -254,15 +290,12 @@ def _of_usd(path: Path, field: str) -> Iterator[ForeignPart]:
             surfaces[key] = _of_preview(material, path, field)
         return surfaces[key]
 
-    for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
+    root = stage.GetDefaultPrim() or stage.GetPseudoRoot()  # beside the default prim there may be a ground or a studio
+    for prim in Usd.PrimRange(root, Usd.TraverseInstanceProxies()):
         if not _is_drawn(prim, time):
             continue
         mesh = UsdGeom.Mesh(prim)
-        points = np.asarray(mesh.GetPointsAttr().Get(time) or (), dtype=np.float64).reshape(-1, 3)
-        counts = np.asarray(mesh.GetFaceVertexCountsAttr().Get(time) or (), dtype=np.int64)
-        indices = np.asarray(mesh.GetFaceVertexIndicesAttr().Get(time) or (), dtype=np.int64)
-        if counts.sum() != len(indices) or (len(indices) and not 0 <= indices.min() <= indices.max() < len(points)):
-            raise ConfigError(field, f"{path}, {prim.GetPath()}", "meshes whose faces name their points")
+        points, counts, indices = _faces(mesh, time, path, field)
         matrix = np.asarray(places.GetLocalToWorldTransform(prim), dtype=np.float64)
         world = (points @ matrix[:3, :3] + matrix[3, :3]) @ turn.T * metres
         fans, face_of = _fans(counts)
@@ -273,12 +306,40 @@ def _of_usd(path: Path, field: str) -> Iterator[ForeignPart]:
             triangles, st = triangles[:, ::-1], st[:, ::-1]
         left = np.ones(len(counts), dtype=bool)
         for subset in UsdShade.MaterialBindingAPI(prim).GetMaterialBindSubsets():
-            chosen = np.zeros(len(counts), dtype=bool)
-            chosen[np.asarray(subset.GetIndicesAttr().Get(time) or (), dtype=np.int64)] = True
+            chosen = _chosen(subset, len(counts), time, path, field)
             left &= ~chosen
             kept = chosen[face_of]
             yield ForeignPart(str(subset.GetPath()), triangles[kept], st[kept], surface_of(subset.GetPrim()), is_z_up)
         yield ForeignPart(str(prim.GetPath()), triangles[left[face_of]], st[left[face_of]], surface_of(prim), is_z_up)
+
+
+def _faces(
+    mesh: Any,  # noqa: ANN401 - of pxr
+    time: Any,  # noqa: ANN401
+    path: Path,
+    field: str,
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+    """Points of a mesh, the corners of each face, and the point of each corner."""
+    points = np.asarray(mesh.GetPointsAttr().Get(time) or (), dtype=np.float64).reshape(-1, 3)
+    counts, indices = (
+        np.asarray(attribute.Get(time) or (), dtype=np.int64)
+        for attribute in (mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr())
+    )
+    is_whole = (counts >= 0).all() and counts.sum() == len(indices)
+    if not is_whole or (len(indices) and not 0 <= indices.min() <= indices.max() < len(points)):
+        raise ConfigError(field, f"{path}, {mesh.GetPath()}", "meshes whose faces name their points")
+    return points, counts, indices
+
+
+def _chosen(subset: Any, count: int, time: Any, path: Path, field: str) -> NDArray[np.bool_]:  # noqa: ANN401 - of pxr
+    """True for each of `count` faces that belongs to a subset."""
+    faces = np.asarray(subset.GetIndicesAttr().Get(time) or (), dtype=np.int64)
+    wrong = faces[(faces < 0) | (faces >= count)].tolist()
+    if wrong:
+        raise ConfigError(field, f"{path}, {subset.GetPath()} with face {wrong[0]}", f"faces 0 to {count - 1}")
+    chosen = np.zeros(count, dtype=bool)
+    chosen[faces] = True
+    return chosen
 
 
 def _is_drawn(prim: Any, time: Any) -> bool:  # noqa: ANN401 - of pxr
@@ -303,8 +364,9 @@ def _coordinates(mesh: Any, indices: NDArray[np.int64], points: int, time: Any) 
     """Texture coordinates of each corner, zeros if there are none; shape (corners, 2)."""
     from pxr import UsdGeom  # noqa: PLC0415 - as above
 
-    for primvar in UsdGeom.PrimvarsAPI(mesh).GetPrimvarsWithValues():
-        if primvar.GetTypeName().scalarType not in {"texCoord2f", "float2"}:
+    given = UsdGeom.PrimvarsAPI(mesh).GetPrimvarsWithValues()
+    for primvar in sorted(given, key=lambda primvar: primvar.GetPrimvarName() != "st"):
+        if str(primvar.GetTypeName().scalarType) not in _COORDINATES:  # whose hash is not that of its text
             continue
         values = np.asarray(primvar.ComputeFlattened(time) or (), dtype=np.float64).reshape(-1, 2)
         if len(values) == len(indices):
@@ -335,11 +397,14 @@ def _of_preview(material: Any, path: Path, field: str) -> ForeignSurface:  # noq
         source = given.GetConnectedSources()[0][0]
         reader = UsdShade.Shader(source.source.GetPrim())
         file = reader.GetInput("file") if reader else None
-        asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(file.Get().resolvedPath)) if file and file.Get() else None
-        if not asset:
+        named = file.Get() if file else None
+        if not named or not named.path or "<UDIM>" in named.path:
             return None
+        asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(named.resolvedPath))
+        if not asset:
+            raise ConfigError(field, f"{path} without {named.path}", "a model whose references lead to files")
         with asset:
-            return _image(bytes(asset.GetBuffer()), path, field), str(source.sourceName)
+            return _image(bytes(asset.GetBuffer()), f"{path}, {named.path}", field), str(source.sourceName)
 
     def channel(key: str, number: float) -> Image.Image | float:
         found = texture(key)

@@ -1,11 +1,17 @@
 """Base classes and validation of settings and records in files."""
 
-from collections.abc import Iterator, Mapping
-from typing import Any, TypeVar, get_args
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from garage2usd.common.errors import ConfigError
+from garage2usd.common.spelling import nearest
+
+if TYPE_CHECKING:
+    from pydantic.fields import FieldInfo
+    from pydantic_core import ErrorDetails
 
 __all__ = ["Record", "Settings", "config_error", "first_fault", "validated"]
 
@@ -62,13 +68,14 @@ def config_error(error: ValidationError, model: type[Settings], *, within: str =
     within
         Name of the enclosing setting, if any.
     """
-    finding = error.errors(include_url=False)[0]
+    finding, others = _first(error)
     cause = finding.get("ctx", {}).get("error")
     if isinstance(cause, ConfigError) and not within:  # an error in a file named by a setting
         return cause
     keys = [within] if within else []
     holders: list[type[BaseModel]] = []
     models: list[type[BaseModel]] = [model]
+    fields: list[FieldInfo] = []
     for part in finding["loc"]:
         fields = [group.model_fields[part] for group in models if part in group.model_fields]
         if fields:
@@ -78,9 +85,11 @@ def config_error(error: ValidationError, model: type[Settings], *, within: str =
         if fields or isinstance(part, int):
             keys.append(str(part))
     if finding["type"] == "extra_forbidden":
-        known = dict.fromkeys(key for group in models for key in group.model_fields)
-        place = ".".join([*keys, str(finding["loc"][-1])])
-        return ConfigError(place, finding["input"], f"one of the keys {', '.join(known)}")
+        known = list(dict.fromkeys(key for group in models for key in group.model_fields))
+        key = str(finding["loc"][-1])
+        return ConfigError(
+            ".".join([*keys, key]), finding["input"], f"one of the keys {', '.join(known)}{nearest(key, known)}"
+        )
     if finding["type"] in {"union_tag_invalid", "union_tag_not_found"}:
         kinds = dict.fromkeys(tag for group in models for tag in _kinds(group))
         given = finding["input"].get("kind", "nothing") if isinstance(finding["input"], dict) else finding["input"]
@@ -94,17 +103,29 @@ def config_error(error: ValidationError, model: type[Settings], *, within: str =
         return ConfigError(
             place, "nothing", f"a value; {'.'.join(keys[:-1])} needs {', '.join(needed)}" if is_key else "a value"
         )
-    return ConfigError(place, finding["input"], _allowed(finding["msg"]))
+    is_branch = bool(finding["loc"]) and not fields and not isinstance(finding["loc"][-1], int)
+    return ConfigError(place, finding["input"], _allowed_by_all(finding, others if is_branch else [], models))
+
+
+def _first(error: ValidationError) -> "tuple[ErrorDetails, list[ErrorDetails]]":
+    """Return the first error and the others; one of a key that is missing yields to one of a misspelt key beside it."""
+    finding, *others = error.errors(include_url=False)
+    if finding["type"] == "missing":
+        unknown = (other for other in others if other["type"] == "extra_forbidden")
+        finding = next((other for other in unknown if other["loc"][:-1] == finding["loc"][:-1]), finding)
+    return finding, others
 
 
 def first_fault(error: ValidationError) -> str:
     """Describe the first error in a file: the key and, if it has one, its value and the allowed values."""
     fault = error.errors(include_url=False)[0]
     place = ".".join(map(str, fault["loc"]))
-    said = _allowed(fault["msg"])
+    cause = fault.get("ctx", {}).get("error")
+    said = cause.allowed if isinstance(cause, ConfigError) else _allowed(fault)
     if not place:
         return said
-    return f"{place}: {said}" if fault["type"] == "missing" else str(ConfigError(place, fault["input"], said))
+    value = cause.value if isinstance(cause, ConfigError) else fault["input"]
+    return f"{place}: {said}" if fault["type"] == "missing" else str(ConfigError(place, value, said))
 
 
 def _models(annotation: Any) -> Iterator[type[BaseModel]]:  # noqa: ANN401 - any type
@@ -120,5 +141,44 @@ def _kinds(model: type[BaseModel]) -> tuple[Any, ...]:
     return get_args(model.model_fields["kind"].annotation) if "kind" in model.model_fields else ()
 
 
-def _allowed(message: str) -> str:
-    return message.removeprefix("Value error, ").removeprefix("Input should be ")
+def _allowed_by_all(
+    finding: "ErrorDetails", others: "Sequence[ErrorDetails]", models: Sequence[type[BaseModel]]
+) -> str:
+    """Describe the allowed values of all branches of a union, each in an error of its own."""
+    same = (other for other in others if other["loc"][:-1] == finding["loc"][:-1])
+    return " or ".join(dict.fromkeys(_allowed(each, models) for each in (finding, *same)))
+
+
+_MOST_NAMED = 20
+_IN_WORDS = {
+    "bool_parsing": "true or false",
+    "bool_type": "true or false",
+    "dataclass_type": "a table",
+    "dict_type": "a table",
+    "float_parsing": "a number",
+    "float_type": "a number",
+    "frozen_set_type": "a list",
+    "int_from_float": "a whole number",
+    "int_parsing": "a whole number",
+    "int_type": "a whole number",
+    "is_instance_of": "another kind of value",
+    "list_type": "a list",
+    "mapping_type": "a table",
+    "model_attributes_type": "a table",
+    "model_type": "a table",
+    "path_type": "a path as text",
+    "set_type": "a list",
+    "string_type": "text",
+    "tuple_type": "a list",
+}
+"""Allowed values by pydantic's name of the error, for messages of pydantic that name classes of Python."""
+_COUNT = re.compile(r"\w+ should have (at (?:least|most) \d+ \w+).*")
+
+
+def _allowed(finding: "ErrorDetails", models: Sequence[type[BaseModel]] = ()) -> str:
+    """Describe the allowed values at the place of an error; `models` are the ones that may stand there."""
+    said = _IN_WORDS.get(finding["type"])
+    if said is None or finding["msg"].endswith((" an object", " array")):  # of JSON
+        return _COUNT.sub(r"\1", finding["msg"].removeprefix("Value error, ").removeprefix("Input should be "))
+    keys = dict.fromkeys(key for group in models for key in group.model_fields) if said == "a table" else {}
+    return f"{said} with the keys {', '.join(keys)}" if 0 < len(keys) <= _MOST_NAMED else said

@@ -1,10 +1,11 @@
 """Lookup of names as users spell them."""
 
+import difflib
 import re
 from collections.abc import Collection, Iterable, Mapping
 from typing import TypeVar
 
-__all__ = ["find_named", "spans_in_words"]
+__all__ = ["find_named", "nearest", "spans_in_words"]
 
 _SPANS = 12
 _COUNTED = re.compile(r"(.*?)(\d{1,9})", re.DOTALL)
@@ -25,6 +26,12 @@ def find_named(query: str, names: Mapping[_Key, Collection[str]]) -> list[_Key]:
     exactly = [key for key, own in names.items() if query in own]
     folded = query.casefold()
     return exactly or [key for key, own in names.items() if folded in {name.casefold() for name in own}]
+
+
+def nearest(given: str, known: Iterable[str]) -> str:
+    """Return the end of a message that names the known word nearest to a misspelt one; empty if none is similar."""
+    found = difflib.get_close_matches(given.lower(), known, n=1)
+    return f"; the nearest is {found[0]}" if found else ""
 
 
 def spans_in_words(names: Iterable[str]) -> str:

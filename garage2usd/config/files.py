@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from garage2usd.common.documents import ARRAY_SUFFIXES, read_arrays, read_text
 from garage2usd.common.errors import ConfigError
 
-__all__ = ["is_array_file", "matrices_of", "with_files", "with_textures", "without_files"]
+__all__ = ["absolute_in", "is_array_file", "matrices_of", "with_files", "with_textures", "without_files"]
 
 
 class _Given(NamedTuple):
@@ -81,9 +81,16 @@ def with_textures(settings: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     result = dict(settings)
     for section, key in (("look", "textures"), ("vehicles", "models")):
         match result.get(section):
-            case {**given} if isinstance(named := given.get(key), str) and named:
-                result[section] = {**given, key: str((folder / named).absolute())}
+            case {**given} if key in given:
+                result[section] = {**given, key: absolute_in(folder, given[key])}
     return result
+
+
+def absolute_in(folder: Path, named: Any) -> Any:  # noqa: ANN401 - whatever the setting holds
+    """Make a path, or each path of a list, absolute; anything else is returned unchanged, valid or not."""
+    if isinstance(named, list):
+        return [absolute_in(folder, each) for each in named]
+    return str((folder / named).absolute()) if isinstance(named, str) and named else named
 
 
 def _put(matrix: Any, given: _Given, settings: dict[str, Any], path: Path) -> None:  # noqa: ANN401

@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
+from itertools import islice
 from pathlib import Path
 from typing import Annotated, NamedTuple
 
@@ -17,9 +18,10 @@ from garage2usd.common.documents import read_toml
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.foreign_models import MODEL_SUFFIXES, ForeignPart, model_digest, read_model
 from garage2usd.common.settings import Settings, validated
+from garage2usd.common.spelling import nearest
 from garage2usd.config.vehicles import CAR_BODIES, CarBody, VehicleClass
 
-__all__ = ["ModelFolder", "OwnCar", "VehiclesConfig", "cars_by_name", "placed_parts", "read_own_cars"]
+__all__ = ["ModelFolder", "OwnCar", "VehiclesConfig", "cars_by_name", "folder_of", "placed_parts", "read_own_cars"]
 
 FIELD = "vehicles.models"
 FACTS_FILE = "models.toml"
@@ -30,6 +32,8 @@ _RADIUS_M, _ON_FLOOR_M, _ROUND, _WIDEST_WHEEL_M = (0.2, 0.55), 0.08, 0.12, 0.6
 _PLATE_HALF_M = (0.26, 0.055)
 _PLATE_HEIGHTS_M = (0.5, 0.45, 0.55, 0.6, 0.4, 0.7, 0.8, 0.9)
 _PLATE_LIFT_M = 0.004
+_THIN_M = 0.005
+"""Extent of parts that are flat as seen from above, such as the glass of a mirror."""
 _FRONT_WORDS = re.compile(r"(?i)front|head_?(lamp|light)|bonnet|hood|windscreen|windshield|grill|steering")
 _REAR_WORDS = re.compile(r"(?i)rear|back|tail|trunk|boot|exhaust|brake_?(lamp|light)|tow")
 _MIRROR_WORDS = re.compile(r"(?i)(wing|side|door|outer|outside|_|^|/)_?mirror")
@@ -38,13 +42,32 @@ _MIRRORS_SHARE = 0.35
 _AXES = {"+X": (1, 0, 0), "-X": (-1, 0, 0), "+Y": (0, 1, 0), "-Y": (0, -1, 0), "+Z": (0, 0, 1), "-Z": (0, 0, -1)}
 
 
-class ModelFolder(Settings):
-    """Folder of the user's car models."""
+Named = Annotated[str, Field(min_length=1)]
 
-    folder: str = Field(min_length=1)
-    """A folder with files of USD or GLB, one car each. A relative path starts at the configuration file."""
+
+class ModelFolder(Settings):
+    """The user's car models: a folder of files, or files."""
+
+    folder: Named | Annotated[tuple[Named, ...], Field(min_length=1)]
+    """A folder with files of USD or GLB, one car each; one such file, or a list of files. A relative path starts at the
+    configuration file."""
     sha256: str = Field("", pattern=r"^([0-9a-f]{64})?$")
     """Digest of all files used from the folder; computed when the folder is read."""
+
+
+def folder_of(models: object) -> object:
+    """Return the table of a setting that may also be a folder, a file or a list of files.
+
+    Raises
+    ------
+    ValueError
+        For values of another type.
+    """
+    if isinstance(models, str | list | tuple):
+        return {"folder": models}
+    if models is None or isinstance(models, Mapping | ModelFolder):
+        return models
+    raise ValueError(f"a folder, or a file that ends in {', '.join(MODEL_SUFFIXES)}, or a list of files")
 
 
 class _Facts(Settings):
@@ -94,14 +117,14 @@ class VehiclesConfig(Settings):
     """Settings of the user's car models."""
 
     models: ModelFolder | None = None
-    """A folder of models as USD or GLB (see the guide on own cars)."""
+    """A folder of models as USD or GLB, a file, or a list of files (see the guide on own cars)."""
     share: float = Field(0.5, ge=0, le=1)
     """Share of the parked cars that are models of the user, where one fits."""
 
     @field_validator("models", mode="before")
     @classmethod
     def _folder(cls, models: object) -> object:
-        return {"folder": models} if isinstance(models, str) else models
+        return folder_of(models)
 
     @field_validator("models")
     @classmethod
@@ -118,23 +141,33 @@ def read_own_cars(folder: ModelFolder) -> tuple[ModelFolder, tuple[OwnCar, ...]]
     ConfigError
         If a file cannot be read or is not a car, or the files do not match the folder's digest.
     """
-    place = Path(folder.folder)
-    try:
-        files = sorted(path for path in place.iterdir() if path.is_file())
-        stamps = tuple(
-            (str(path), path.stat().st_size, path.stat().st_mtime_ns) for path in sorted(place.rglob("*"))[:20_000]
-        )
-    except (OSError, ValueError) as error:
-        raise ConfigError(FIELD, folder.folder, f"a folder that can be read ({error})") from None
-    models = tuple(str(path) for path in files if path.suffix.lower() in MODEL_SUFFIXES)
+    given = (folder.folder,) if isinstance(folder.folder, str) else folder.folder
+    title = ", ".join(given)
+    models: list[str] = []
+    stamps: list[tuple[str, int, int]] = []
+    for place in map(Path, given):
+        is_folder = place.is_dir()
+        try:
+            files = sorted(place.iterdir()) if is_folder else [place]
+            beside = sorted(islice((place if is_folder else place.parent).rglob("*"), 20_000))
+            stamps += [(str(path), path.stat().st_size, path.stat().st_mtime_ns) for path in beside]
+            if not is_folder:
+                place.stat()
+        except (OSError, ValueError) as error:
+            reason = (error.strerror if isinstance(error, OSError) else None) or error
+            raise ConfigError(
+                FIELD, str(place), f"a folder that can be read, or a file of a model ({reason})"
+            ) from None
+        # programs of other systems leave hidden files beside the visible ones
+        models += [str(path) for path in files if _is_model(path) and not (is_folder and path.name.startswith("."))]
     if not 0 < len(models) <= _MOST_MODELS:
         allowed = f"1 to {_MOST_MODELS} files that end in {', '.join(MODEL_SUFFIXES)}"
-        raise ConfigError(FIELD, f"{folder.folder} with {len(models)}", allowed)
-    cars = _read(folder.folder, models, stamps)
+        raise ConfigError(FIELD, f"{title} with {len(models)}", allowed)
+    cars = _read(tuple(models), tuple(stamps))
     told = [replace(car, path="") for car in cars]
     digest = hashlib.sha256(repr(told).encode()).hexdigest()
     if folder.sha256 not in {"", digest}:
-        raise ConfigError(FIELD, folder.folder, f"the models that it was given with, of SHA-256 {folder.sha256[:16]}")
+        raise ConfigError(FIELD, title, f"the models that it was given with, of SHA-256 {folder.sha256[:16]}")
     return ModelFolder(folder=folder.folder, sha256=digest), cars
 
 
@@ -152,25 +185,37 @@ def cars_by_name(folder: ModelFolder | None) -> dict[str, CarBody]:
     return {body.name: body for body in CAR_BODIES} | {Path(car.path).stem: car for car in own}
 
 
+def _is_model(path: Path) -> bool:
+    return path.suffix.lower() in MODEL_SUFFIXES and path.is_file()
+
+
 @lru_cache(maxsize=16)
-def _read(folder: str, models: tuple[str, ...], stamps: tuple[tuple[str, int, int], ...]) -> tuple[OwnCar, ...]:
-    """Read the cars of a folder, cached until one of its files changes."""
+def _read(models: tuple[str, ...], stamps: tuple[tuple[str, int, int], ...]) -> tuple[OwnCar, ...]:
+    """Read the cars of some files, cached until one of the files beside them changes."""
     del stamps
-    facts = _facts(Path(folder), [Path(model).stem for model in models])
-    return tuple(_car(Path(model), facts.get(Path(model).stem, _Facts())) for model in models)
-
-
-def _facts(folder: Path, names: Sequence[str]) -> dict[str, _Facts]:
+    paths = [Path(model) for model in models]
+    names = [path.stem for path in paths]
     for name in names:
         if names.count(name) > 1:
             raise ConfigError(FIELD, name, "one file of each name")
+    facts = {
+        folder: _facts(folder, [path.stem for path in paths if path.parent == folder])
+        for folder in dict.fromkeys(path.parent for path in paths)
+    }
+    return tuple(_car(path, facts[path.parent].get(path.stem, _Facts())) for path in paths)
+
+
+def _facts(folder: Path, names: Sequence[str]) -> dict[str, _Facts]:
+    """Read the facts on the models of a folder; those on models that are not used are left out."""
     path = folder / FACTS_FILE
     if not path.is_file():
         return {}
     facts = {}
     for name, given in read_toml(path, field=FIELD).items():
-        if name not in names or not isinstance(given, Mapping):
-            raise ConfigError(f"{FIELD}.{name}", str(path), f"tables named as the models are: {', '.join(names)}")
+        others = [each.stem for each in folder.iterdir() if _is_model(each)]
+        if name not in [*names, *others] or not isinstance(given, Mapping):
+            allowed = f"tables named as the models are: {', '.join(names)}{nearest(name, names)}"
+            raise ConfigError(f"{FIELD}.{name}", str(path), allowed)
         facts[name] = validated(_Facts, given, within=f"{FIELD}.{name}")
     return facts
 
@@ -201,6 +246,8 @@ def _car(path: Path, facts: _Facts) -> OwnCar:
     every = np.concatenate(turned)
     shell = np.concatenate([points for points, mirror in zip(turned, is_mirror, strict=True) if not mirror] or turned)
     low, high = shell.min(axis=0), shell.max(axis=0)
+    if facts.length_m and not (high - low)[2] > 0:
+        raise ConfigError(FIELD, f"{path} of 0 m", "cars with a length")
     scale = facts.length_m / (high - low)[2] if facts.length_m else 1.0
     middle = (low + high) / 2
     offset = -scale * np.array([middle[0], every[:, 1].min(), middle[2]])
@@ -376,5 +423,7 @@ def _hull(points: NDArray[np.float64]) -> tuple[tuple[float, float], ...]:
     from scipy.spatial import ConvexHull  # noqa: PLC0415 - as above
 
     flat = points[:, [0, 2]]
+    if not np.ptp(flat, axis=0).all() or np.linalg.matrix_rank(flat - flat[0], tol=_THIN_M) < 2:  # noqa: PLR2004
+        flat = np.concatenate([flat + np.array([x, z]) for x in (-_THIN_M, _THIN_M) for z in (-_THIN_M, _THIN_M)])
     corners = np.round(flat[ConvexHull(flat).vertices][::-1], 4)
     return tuple((float(x), float(z)) for x, z in corners)

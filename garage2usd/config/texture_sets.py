@@ -13,6 +13,7 @@ from pydantic import Field
 from garage2usd.common.documents import read_bytes, read_toml
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.settings import Settings, validated
+from garage2usd.common.spelling import nearest
 from garage2usd.config.map_names import Channel, channels_of
 
 __all__ = ["REPEAT_M", "MapFile", "Role", "TextureFolder", "TextureSet", "read_texture_sets"]
@@ -132,7 +133,8 @@ def _sets(folder: str) -> dict[Role, TextureSet]:
         files = sorted(_files(place))
         stamps = tuple((str(path), path.stat().st_size, path.stat().st_mtime_ns) for path in files)
     except (OSError, ValueError) as error:
-        raise ConfigError(FIELD, folder, f"a folder that can be read ({error})") from None
+        reason = (error.strerror if isinstance(error, OSError) else None) or error
+        raise ConfigError(FIELD, folder, f"a folder that can be read ({reason})") from None
     return _read(folder, stamps)
 
 
@@ -174,7 +176,9 @@ def _sizes(folder: Path) -> dict[Role, _RoleSizes]:
     sizes = {}
     for role, given in read_toml(path, field=FIELD).items():
         if role not in set(Role):
-            raise ConfigError(f"{FIELD}.{role}", str(path), f"tables of the roles {', '.join(Role)}")
+            raise ConfigError(
+                f"{FIELD}.{role}", str(path), f"tables of the roles {', '.join(Role)}{nearest(role, Role)}"
+            )
         if not isinstance(given, Mapping):
             raise ConfigError(f"{FIELD}.{role}", given, f"a table with {', '.join(_RoleSizes.model_fields)}")
         sizes[Role(role)] = validated(_RoleSizes, given, within=f"{FIELD}.{role}")

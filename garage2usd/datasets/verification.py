@@ -82,7 +82,8 @@ def verify_dataset(
         rows = _rows(folder)
         plans = plans_of(pq.read_table(folder / PLAN_FILE))
     except (OSError, ValueError, KeyError, pa.ArrowException, Garage2UsdError) as error:
-        return sorted({*faults, Fault("manifest", f"cannot be read, so that garages were not looked at ({error})")})
+        unread = Fault("manifest", "cannot be read, so that garages were not looked at")
+        return sorted({*faults, unread, Fault("manifest", " ".join(str(error).split()))})
     faults += _of_rows(folder, rows)
     faults += _of_plans(recipe, rows, plans)
     made = [row for row in rows if not row.error]
@@ -202,7 +203,7 @@ def _of_stage(stage: Path, key: str, config: GarageConfig) -> Iterator[Fault]:
         garage, _ = read_stage(stage, profile=profile)
         findings = check_levels(garage, profile, RULES) if isinstance(garage, BuiltLevels) else check(garage, profile)
     except Garage2UsdError as error:
-        yield Fault(key, f"its stage does not open ({error})")
+        yield Fault(key, f"its stage does not open: {getattr(error, 'reason', error)}")
         return
     for finding in findings:
         if finding.severity is Severity.ERROR and not (finding.rule in excused and DEAD_LAMPS in finding.message):

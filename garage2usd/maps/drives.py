@@ -1,5 +1,6 @@
 """Planning of a drive through a garage: from stall, entrance and exit to the car's motion."""
 
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -112,14 +113,14 @@ class DrivePlanner:
         """
         if not (entrances and exits):
             raise ConfigError("stall", stall, "a stall that lanes and ramps join with the street")
-        lack = "a garage with a stall that a drive is found for"
+        lacks: Counter[str] = Counter()
         for candidate in self._in_order() if stall is None else [self._stall(stall)]:
             route = self.router.route(candidate, entrances=entrances, exits=exits)
             if isinstance(route, Route):
                 return route
-            if stall is not None:
-                lack = _lack(route)
-        raise ConfigError("stall", stall, lack)
+            lacks[_lack(route)] += 1
+        lack = lacks.most_common(1)[0][0] if lacks else "a garage with a stall that takes a car"
+        raise ConfigError("stall", f"any of {lacks.total()}" if stall is None else stall, lack)
 
     def drive(
         self,

@@ -5,10 +5,11 @@ from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
 
+import numpy as np
 import shapely
 
-from garage2usd.assets.flat import GRID_M, flat_part
-from garage2usd.assets.mesh import Asset, pascal_case
+from garage2usd.assets.flat import GRID_M, flat_part, level_triangles
+from garage2usd.assets.mesh import MIN_AREA_M2, WELD_DECIMALS, Asset, pascal_case
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Polygon
 
@@ -124,13 +125,13 @@ class PanelSpec(Spec):
         painted = []
         for (paint, surface), shapes in groups.items():
             area = _level(shapely.intersection(shapely.union_all(shapes, grid_size=GRID_M), base, grid_size=GRID_M))
-            if area.area > 0:
+            if _is_sheet(area):
                 colour = surface.removeprefix("paint_")
                 name = pascal_case(f"{paint}_{colour}" if paint else surface)
                 painted.append(flat_part(name, area, _MATERIALS[surface], piece=paint or ""))
                 base = _level(shapely.difference(base, area, grid_size=GRID_M))
         material = _MATERIALS[self.surface]
-        coating = [flat_part(pascal_case(material), base, material)] if base.area > 0 else []
+        coating = [flat_part(pascal_case(material), base, material)] if _is_sheet(base) else []
         return Asset((*coating, *painted))
 
 
@@ -142,5 +143,15 @@ def _level(shape: shapely.Geometry) -> shapely.Geometry:
     return shapely.multipolygons(parts[shapely.get_dimensions(parts) == _AREA])
 
 
+def _is_sheet(shape: shapely.Geometry) -> bool:
+    """True if a face of a shape is left, which corners of adjacent stalls that differ by micrometres may take."""
+    if shape.area > _SURE_M2:
+        return True
+    corners = np.round(level_triangles(shape), WELD_DECIMALS) if shape.area > 0 else np.empty((0, 3, 2))
+    ab, ac = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return bool((np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]) > MIN_AREA_M2).any())
+
+
+_SURE_M2 = 1e-3
 _AREA = 2
 """Dimension of a polygon in shapely."""

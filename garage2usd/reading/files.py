@@ -12,6 +12,7 @@ from garage2usd.common.documents import is_file
 from garage2usd.common.errors import StageError
 from garage2usd.common.limits import allow_seconds
 from garage2usd.common.output import can_say
+from garage2usd.common.usd_messages import collect_usd_messages
 
 __all__ = ["STAGE_SUFFIXES", "open_stage", "usd_reason", "usd_text"]
 
@@ -34,6 +35,7 @@ def open_stage(path: Path) -> Usd.Stage:
         If it is not a regular file of a known kind and size, a package that USD would not read (compressed or encrypted
         entries, entries outside of it, an entry that occurs twice), or it or a layer that it names is damaged.
     """
+    collect_usd_messages()
     _check_file(path)
     if path.suffix.lower() == ".usdz":
         _check_package(path)
@@ -115,7 +117,8 @@ def _check_package(path: Path) -> None:
         with zipfile.ZipFile(path) as package:
             entries = package.infolist()
     except (OSError, ValueError, NotImplementedError, zipfile.BadZipFile) as error:
-        raise StageError(path, f"not a package ({error})") from None
+        reason = (error.strerror if isinstance(error, OSError) else None) or error
+        raise StageError(path, f"not a package ({reason})") from None
     if not 0 < len(entries) <= _MAX_PACKAGE_FILES:
         raise StageError(path, f"a package of {len(entries)} files; it may have 1 to {_MAX_PACKAGE_FILES}")
     names = set()

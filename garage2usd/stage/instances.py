@@ -149,10 +149,11 @@ def _stall_text(stall: Stall, access_square: tuple[int, int], *, is_taken: bool)
     """
     corners = ",".join(f"({x:.10g},{z:.10g})" for x, z in stall.corners)
     facts, (access_row, access_column) = dict(stall.facts), access_square
+    number = str(stall.number or "").replace("\\", "\\\\").replace('"', '\\"')
     kind, row, column, edge = (facts[name] for name in ("type", "row", "column", "entryEdge"))
     return (
         f'custom string garage:stall:id = "{stall.name}"\n'
-        f'custom string garage:stall:number = "{stall.number or ""}"\n'
+        f'custom string garage:stall:number = "{number}"\n'
         f'custom token garage:stall:type = "{kind}"\n'
         f'custom token garage:stall:use = "{stall.use.value}"\n'
         f"custom int2 garage:stall:square = ({row}, {column})\n"

@@ -3,10 +3,12 @@
 import csv
 import io
 import math
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
 from garage2usd.common.documents import read_text
+from garage2usd.common.spelling import nearest
 from garage2usd.config.stalls import SizeClass
 from garage2usd.garage import Point, StallUse
 from garage2usd.native import elementary
@@ -20,6 +22,10 @@ _RECTANGLE = ("x", "y", "width_m", "length_m", "heading_deg")
 _CORNERS = tuple(f"{axis}{corner}" for corner in range(1, 5) for axis in "xy")
 _OPTIONAL = ("id", "use", "size", "number")
 _MOST_DEG = 36000.0
+_SEPARATORS = (",", ";", "\t", "|")
+_SEPARATOR_LINE = re.compile(r'"?sep=(.)"?\r?\n', re.IGNORECASE)
+"""First line by which spreadsheets are told the separator."""
+_DECIMAL_COMMA = re.compile(r"^([-+]?\d*),(\d+)$")
 
 
 def read_csv_survey(path: Path) -> Survey:
@@ -28,7 +34,8 @@ def read_csv_survey(path: Path) -> Survey:
     Parameters
     ----------
     path
-        A text with a header and a line for each stall, its fields separated by commas or semicolons. The header has
+        A text with a header and a line for each stall, its fields separated by commas, semicolons, tabs or bars; with
+        another separator than the comma, numbers may have decimal commas. The header has
         ``x, y, width_m, length_m, heading_deg``, where (x, y) is the middle and the heading is that of a car parked
         nose in, in degrees counter-clockwise from x; or ``x1, y1, ..., x4, y4`` in order around the stall. Both may
         have ``id, use, size, number``. If it has both, the rectangle is read. Coordinates are in metres, y upwards.
@@ -38,9 +45,14 @@ def read_csv_survey(path: Path) -> Survey:
     ConfigError
         For a header or a field that is wrong, with its line.
     """
-    text = read_text(path, field="SOURCE")
-    head = text.split("\n", 1)[0]
-    rows = csv.reader(io.StringIO(text, newline=""), delimiter=";" if head.count(";") > head.count(",") else ",")
+    text = read_text(path, field="SOURCE", otherwise="cp1252")
+    told = _SEPARATOR_LINE.match(text)
+    text = text[told.end() :] if told else text
+    lines = (line for line in text.splitlines() if line.strip())
+    head = next(lines, "")
+    separator = told[1] if told else max(_SEPARATORS, key=head.count)
+    rows = csv.reader(io.StringIO(text, newline=""), delimiter=separator)
+    skipped = 1 if told else 0
     parts = SurveyParts()
     columns: list[str] = []
     try:
@@ -49,17 +61,26 @@ def read_csv_survey(path: Path) -> Survey:
             if not any(fields):
                 continue
             if not columns:
-                columns = _checked([field.lower() for field in fields], path)
+                names = [field.lower() for field in fields]
+                columns = _checked(names[: len(names) - _empty_ends(names)], path)
                 continue
-            place = f"{path.name}: line {rows.line_num}"
+            place = f"{path.name}: line {rows.line_num + skipped}"
+            fields = fields[: max(len(columns), len(fields) - _empty_ends(fields))]  # spreadsheets add empty ones
+            if separator != ",":
+                fields = [_DECIMAL_COMMA.sub(r"\1.\2", field) for field in fields]
             if len(fields) != len(columns):
                 refuse(place, f"{len(fields)} fields", f"{len(columns)} fields, as in the header")
             _add(parts, dict(zip(columns, fields, strict=True)), place, len(parts.stalls) + len(parts.unread) + 1)
     except csv.Error as error:
-        refuse(f"{path.name}: line {rows.line_num}", str(error), "a line of CSV")
+        refuse(f"{path.name}: line {rows.line_num + skipped}", str(error), "a line of CSV")
     if not columns:
         refuse("SOURCE", str(path), f"a header with {', '.join(_RECTANGLE)} or {', '.join(_CORNERS)}")
     return parts.survey()
+
+
+def _empty_ends(fields: list[str]) -> int:
+    """Count the empty fields at the end of a line."""
+    return next((count for count, field in enumerate(reversed(fields)) if field), len(fields))
 
 
 def _checked(columns: list[str], path: Path) -> list[str]:
@@ -68,7 +89,7 @@ def _checked(columns: list[str], path: Path) -> list[str]:
     known = (*_RECTANGLE, *_CORNERS, *_OPTIONAL)
     for number, column in enumerate(columns):
         if column not in known:
-            refuse(place, column, f"one of the columns {', '.join(known)}")
+            refuse(place, column, f"one of the columns {', '.join(known)}{nearest(column, known)}")
         if column in columns[:number]:
             refuse(place, column, "each column once")
     if not any(set(needed) <= set(columns) for needed in (_RECTANGLE, _CORNERS)):

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from garage2usd.common.documents import MAX_REPORT_BYTES, read_json
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import PortalKind, Survey, Unplaced
-from garage2usd.survey.words import number_of, portal_kind_of, positive_of, refuse, size_of, use_of
+from garage2usd.survey.words import length_of, number_of, portal_kind_of, refuse, size_of, unread_length, use_of
 
 __all__ = ["read_geojson_survey"]
 
@@ -78,7 +78,7 @@ def read_geojson_survey(path: Path) -> Survey:
     parts = SurveyParts()
     shapes = list(_shapes_of(document, path, parts))
     form = document.get("coordinates", "degrees")
-    if form not in {"metres", "degrees"}:
+    if form not in ("metres", "degrees"):
         refuse(f"{path.name}: coordinates", form, "'metres', or 'degrees' for longitude and latitude")
     origin_deg = None
     positions = np.array([position for shape in shapes for position in shape.positions]).reshape(-1, 2)
@@ -99,7 +99,7 @@ def read_geojson_survey(path: Path) -> Survey:
 
 def _shapes_of(document: object, path: Path, parts: SurveyParts) -> Iterator[_Shape]:
     """Yield the shapes of all features that stand for something."""
-    if not isinstance(document, dict) or document.get("type") not in {"FeatureCollection", "Feature"}:
+    if not isinstance(document, dict) or document.get("type") not in ("FeatureCollection", "Feature"):
         found = document.get("type", "nothing") if isinstance(document, dict) else document
         refuse(f"{path.name}: type", found, "a GeoJSON object of the type FeatureCollection or Feature")
     features = document.get("features", "nothing") if document["type"] == "FeatureCollection" else [document]
@@ -198,7 +198,9 @@ def _add(parts: SurveyParts, shape: _Shape, points: Sequence[tuple[float, float]
         parts.add_stall(shape.name, points, use=use_of(said), size=size, number=str(number))
     elif shape.kind == "lane":
         key = next((key for key in ("width_m", "width") if properties.get(key) is not None), None)
-        width_m = None if key is None else positive_of(properties[key], f"{shape.place}.properties.{key}")
+        width_m = None if key is None else length_of(properties[key])
+        if key is not None and width_m is None:
+            parts.unread.append(Unplaced(shape.name, unread_length(key, properties[key])))
         direction = str(properties.get("oneway", properties.get("one_way", "no"))).lower()
         line = points[::-1] if direction in {"-1", "reverse"} else points
         parts.add_lane(shape.name, line, width_m, one_way=direction in _TRUE)
@@ -209,8 +211,10 @@ def _add(parts: SurveyParts, shape: _Shape, points: Sequence[tuple[float, float]
     elif shape.is_area:
         parts.add_column(shape.name, points)
     else:
-        size_m = positive_of(properties.get("size_m", _COLUMN_M), f"{shape.place}.properties.size_m")
-        parts.add_square_column(points[0], size_m)
+        size_m = length_of(properties.get("size_m", _COLUMN_M))
+        if size_m is None:
+            parts.unread.append(Unplaced(shape.name, unread_length("size_m", properties["size_m"])))
+        parts.add_square_column(points[0], size_m or _COLUMN_M)
 
 
 def _is_true(value: object) -> bool:

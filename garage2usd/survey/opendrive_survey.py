@@ -26,6 +26,7 @@ Floats = NDArray[np.float64]
 
 _MOST_REPEATS = 10_000
 _ANGLE = 1e6
+_BEYOND_M = 1.0
 _WHOLE = 1e-6
 _DEGREES = re.compile(r"\+(proj|lat_0|lon_0|x_0|y_0)=(\S+)")
 _STALL_TYPES = {"parkingSpace", "parking"}
@@ -113,7 +114,10 @@ def _add_object(parts: SurveyParts, element: ET.Element, line: RoadLine, road: s
     poses = list(_poses(element, line, place))
     for pose, name in zip(poses, _names(title, len(poses)), strict=True):
         corners, mouth = _outline(element, line, pose, place)
-        if corners is None:
+        if not -_BEYOND_M <= pose.s_m <= line.length_m + _BEYOND_M:
+            reason = f"s = {pose.s_m:g} is beyond the ends of its road of {line.length_m:g} m"
+            parts.unread.append(Unplaced(name, reason))
+        elif corners is None:
             parts.unread.append(Unplaced(name, "an object without outline, width and length"))
         elif is_column:
             parts.add_column(name, _ground(corners))

@@ -8,10 +8,10 @@ import shapely
 
 from garage2usd.garage import Point, StallUse
 from garage2usd.survey.lanelets import lanes_of_lanelets
-from garage2usd.survey.osm_elements import OsmElements, read_osm, ring_of
+from garage2usd.survey.osm_elements import OsmElements, OsmWay, read_osm, ring_of
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import PortalKind, Survey, Unplaced
-from garage2usd.survey.words import positive_of, refuse, size_of, use_of
+from garage2usd.survey.words import length_of, levels_of, size_of, unread_length, use_of
 
 __all__ = ["read_osm_survey"]
 
@@ -42,7 +42,8 @@ def read_osm_survey(path: Path) -> Survey:
         OSM XML. Stalls are closed ways and multipolygons with ``amenity=parking_space`` or one of the subtypes
         ``parking``, ``parking_spot`` and ``parking_space``, and Autoware's ways ``type=parking_space`` of two points
         with a ``width``. With a ``capacity`` above 1, an area is a row of as many stalls. Lanes are lanelets for
-        vehicles, and ways ``service=parking_aisle``, and within the outline any ``highway=service``. The outline is
+        vehicles, and ways ``service=parking_aisle``, and within the outline any ``highway=service``; areas of these are
+        ground. The outline is
         the one of ``amenity=parking`` with the most stalls. Columns are areas of the subtype ``Columns``. Entrances
         are nodes ``amenity=parking_entrance`` or gates, and service roads that cross the outline. If the stalls have
         tags ``level``, the level with the most stalls is read.
@@ -57,7 +58,7 @@ def read_osm_survey(path: Path) -> Survey:
     osm = read_osm(path)
     parts = SurveyParts()
     level = _level(osm)
-    _add_stalls(parts, osm, level, path)
+    _add_stalls(parts, osm, level)
     _add_lanelets(parts, osm, level)
     for name, tags, ring in _areas(osm):
         if ring is None or not _is_on(tags, level):
@@ -68,7 +69,7 @@ def read_osm_survey(path: Path) -> Survey:
         elif tags.get("amenity") == "parking" or tags.get("building") == "parking":
             parts.add_outline(name, points)
     outline = parts.outline()
-    _add_ways(parts, osm, outline, path)
+    _add_ways(parts, osm, level, outline)
     _add_portals(parts, osm, level, outline)
     return parts.survey(origin_deg=osm.origin_deg)
 
@@ -108,21 +109,23 @@ def _areas(osm: OsmElements) -> Iterator[tuple[str, Mapping[str, str], tuple[int
 
 def _level(osm: OsmElements) -> str | None:
     """Return the level with the most stalls, the first in the file of equal ones; None if no stall has one."""
-    levels = Counter(tags["level"] for _, tags, _ in _areas(osm) if _is_stall(tags) and "level" in tags)
+    stalls = (tags for _, tags, _ in _areas(osm) if _is_stall(tags))
+    levels = Counter(level for tags in stalls for level in sorted(levels_of(tags)))
     return levels.most_common(1)[0][0] if levels else None
 
 
 def _is_on(tags: Mapping[str, str], level: str | None) -> bool:
-    return level is None or tags.get("level", level) == level
+    levels = levels_of(tags) if level is not None else set()
+    return not levels or level in levels
 
 
-def _add_stalls(parts: SurveyParts, osm: OsmElements, level: str | None, path: Path) -> None:
+def _add_stalls(parts: SurveyParts, osm: OsmElements, level: str | None) -> None:
     for name, tags, ring in _areas(osm):
         if not _is_stall(tags):
             continue
         title = tags.get("name") or name
         if not _is_on(tags, level):
-            parts.unread.append(Unplaced(title, f"a stall on level {tags['level']} instead of {level}"))
+            parts.unread.append(Unplaced(title, f"a stall on level {_told_level(tags)} instead of {level}"))
         elif ring is None:
             parts.unread.append(Unplaced(title, "a stall whose ways do not close a ring"))
         else:
@@ -136,13 +139,13 @@ def _add_stalls(parts: SurveyParts, osm: OsmElements, level: str | None, path: P
     for node in osm.nodes.values():
         if node.tags.get("amenity") in _STALL_AMENITIES:
             parts.unread.append(Unplaced(node.tags.get("name") or node.name, "a stall as a point, without an outline"))
-    _add_spaces(parts, osm, path)
+    _add_spaces(parts, osm)
 
 
-def _add_spaces(parts: SurveyParts, osm: OsmElements, path: Path) -> None:
+def _add_spaces(parts: SurveyParts, osm: OsmElements) -> None:
     """Add Autoware's parking spaces, lines along the middle of a stall, except those of stalls that are known."""
     known = shapely.STRtree(parts.stall_polygons())
-    for number, way in osm.ways.items():
+    for way in osm.ways.values():
         if way.tags.get("type") != "parking_space":
             continue
         name = way.tags.get("name") or way.name
@@ -154,9 +157,12 @@ def _add_spaces(parts: SurveyParts, osm: OsmElements, path: Path) -> None:
         around = known.query(middle, predicate="within")
         if len(around) and _lies_in(line, known.geometries[int(around[0])]):
             continue
-        if "width" not in way.tags:
-            refuse(f"{path.name}: way {number}, width", "nothing", "the width of a parking space in metres")
-        half = positive_of(_metres(way.tags["width"]), f"{path.name}: way {number}, width") / 2
+        width_m = _width(parts, name, way.tags)
+        if width_m is None:
+            if "width" not in way.tags:
+                parts.unread.append(Unplaced(name, f"a parking space without a width among {', '.join(way.tags)}"))
+            continue
+        half = width_m / 2
         (x, z), (end_x, end_z) = line
         length_m = ((end_x - x) ** 2 + (end_z - z) ** 2) ** 0.5
         off_x, off_z = -(end_z - z) / length_m * half, (end_x - x) / length_m * half
@@ -209,7 +215,7 @@ def _add_lanelets(parts: SurveyParts, osm: OsmElements, level: str | None) -> No
         elif _is_on(lane.tags, level):
             parts.add_lane(lane.name, lane.points, lane.width_m, one_way=lane.one_way)
         else:
-            parts.unread.append(Unplaced(lane.name, f"a lane on level {lane.tags['level']} instead of {level}"))
+            parts.unread.append(Unplaced(lane.name, f"a lane on level {_told_level(lane.tags)} instead of {level}"))
 
 
 def _add_portals(parts: SurveyParts, osm: OsmElements, level: str | None, outline: tuple[Point, ...] | None) -> None:
@@ -220,19 +226,19 @@ def _add_portals(parts: SurveyParts, osm: OsmElements, level: str | None, outlin
             parts.add_portal(node.position)
 
 
-def _add_ways(parts: SurveyParts, osm: OsmElements, outline: tuple[Point, ...] | None, path: Path) -> None:
+def _add_ways(parts: SurveyParts, osm: OsmElements, level: str | None, outline: tuple[Point, ...] | None) -> None:
     """Add parking aisles, and the parts of other service roads that lie within the outline, with portals on it."""
     ground = None if outline is None else shapely.Polygon(outline)
-    for number, way in osm.ways.items():
+    for way in osm.ways.values():
         if way.tags.get("highway") != "service":
             continue
-        place = f"{path.name}: way {number}"
-        width_m = positive_of(_metres(way.tags["width"]), f"{place}, width") if "width" in way.tags else None
+        reason = _reason_against_lane(way, level)
+        if reason:
+            parts.unread.append(Unplaced(way.name, reason))
+            continue
+        width_m = _width(parts, way.name, way.tags)
         direction = _ONE_WAY.get(way.tags.get("oneway", "no").lower(), 0)
         line = osm.line(way.nodes)[:: -1 if direction < 0 else 1]
-        if len(line) < 2:  # noqa: PLR2004 - a line
-            parts.unread.append(Unplaced(way.name, "a lane without length"))
-            continue
         is_aisle = way.tags.get("service") == "parking_aisle"
         if ground is None or not ground.crosses(shapely.LineString(line)):
             if is_aisle or (ground is not None and ground.covers(shapely.LineString(line))):
@@ -252,12 +258,30 @@ def _add_ways(parts: SurveyParts, osm: OsmElements, outline: tuple[Point, ...] |
                     parts.add_portal(points[end], kind if direction else PortalKind.BOTH)
 
 
+def _reason_against_lane(way: OsmWay, level: str | None) -> str:
+    """Return the reason for which a service way is no lane of a level; empty if it is one."""
+    if not _is_on(way.tags, level):
+        return f"a lane on level {_told_level(way.tags)} instead of {level}"
+    if way.tags.get("area") == "yes":
+        return "a service area, which is ground and no lane"
+    return "a lane without length" if len(way.nodes) < 2 else ""  # noqa: PLR2004 - a line
+
+
 def _is_near(position: Point, outline: tuple[Point, ...] | None) -> bool:
     if outline is None:
         return False
     return bool(shapely.Polygon(outline).exterior.distance(shapely.Point(position)) < 1.0)
 
 
-def _metres(text: str) -> str:
-    """Return the number of a width like `5.5 m`."""
-    return text.strip().removesuffix("m").strip()
+def _width(parts: SurveyParts, name: str, tags: Mapping[str, str]) -> float | None:
+    """Return the width of an element in metres; None if it has none, or one that is noted as unread."""
+    if "width" not in tags:
+        return None
+    width_m = length_of(tags["width"])
+    if width_m is None:
+        parts.unread.append(Unplaced(name, unread_length("width", tags["width"])))
+    return width_m
+
+
+def _told_level(tags: Mapping[str, str]) -> str:
+    return tags.get("level") or tags.get("repeat_on", "")

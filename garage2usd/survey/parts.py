@@ -31,8 +31,10 @@ STRAIGHT_M = 0.15
 _CORNERS = 4
 _LEAST_STALL_M = 1.0
 """Width below which stalls of a row are an error of the source: motorcycles need as much."""
+_MOST_CROSSED = 0.01
 _DIGITS = 6
 _COLUMN_DIGITS = 2
+_MOST_OF_NUMBER = 40
 _LEAST_HALF_M = 1.25
 """Half the width of the narrowest lane; stalls that are nearer to its centre line lie on it."""
 
@@ -88,7 +90,7 @@ class SurveyParts:
             return
         a, b, c, d = corners
         mouth = None if mouth_at is None else side_at(corners, mouth_at)
-        self.stalls.append(SurveyedStall(name, (a, b, c, d), mouth, use, size, number))
+        self.stalls.append(SurveyedStall(name, (a, b, c, d), mouth, use, size, self._readable(name, number)))
 
     def add_row(
         self,
@@ -144,10 +146,22 @@ class SurveyParts:
         """Add an outline. If there are several, the survey has the one with the most stalls."""
         points = _without_repeats(ring)
         polygon = _polygon(points)
-        if polygon is None or not polygon.is_valid:
+        if polygon is not None and not polygon.is_valid:
+            polygon = _mended(polygon)
+            if polygon is not None:
+                points = _without_repeats(polygon.exterior.coords)
+                self.unread.append(Unplaced(name, "spikes or small crossings of this outline; they become straight"))
+        if polygon is None:
             self.unread.append(Unplaced(name, "an outline without area, or one that crosses itself"))
         else:
             self._outlines.append((name, points))
+
+    def _readable(self, name: str, number: str) -> str:
+        """Return a number without control characters, cut where it is longer than people read."""
+        shown = "".join(sign for sign in " ".join(number.split()) if sign.isprintable())
+        if len(shown) > _MOST_OF_NUMBER:
+            self.unread.append(Unplaced(name, f"a number of {len(shown)} characters, cut to {_MOST_OF_NUMBER}"))
+        return shown[:_MOST_OF_NUMBER]
 
     def stall_polygons(self) -> list[shapely.Polygon]:
         """Return the ground of each stall so far."""
@@ -268,6 +282,15 @@ def _polygon(points: Sequence[Point]) -> shapely.Polygon | None:
     """Return the polygon around points, or None if it has no area."""
     polygon = shapely.Polygon(points) if len(points) > 2 else None  # noqa: PLR2004 - a triangle
     return polygon if polygon is not None and polygon.area > 0 else None
+
+
+def _mended(polygon: shapely.Polygon) -> shapely.Polygon | None:
+    """Return a polygon without spikes and small crossings; None if these take more than a hundredth of its area."""
+    parts = [part for part in shapely.get_parts(shapely.make_valid(polygon)) if part.geom_type == "Polygon"]
+    parts.sort(key=lambda part: -part.area)
+    if not parts or sum(part.area for part in parts[1:]) > _MOST_CROSSED * parts[0].area or parts[0].interiors:
+        return None
+    return parts[0]
 
 
 def _point(place: Sequence[float]) -> Point:

@@ -1,7 +1,8 @@
 """Words of survey files: numbers, and what other programs call uses, sizes, portals and directions."""
 
 import math
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Mapping
 from typing import NoReturn
 
 from garage2usd.common.errors import ConfigError
@@ -9,7 +10,18 @@ from garage2usd.config.stalls import SizeClass
 from garage2usd.garage import StallUse
 from garage2usd.survey.survey import PortalKind
 
-__all__ = ["MOST_M", "number_of", "portal_kind_of", "positive_of", "refuse", "size_of", "use_of"]
+__all__ = [
+    "MOST_M",
+    "length_of",
+    "levels_of",
+    "number_of",
+    "portal_kind_of",
+    "positive_of",
+    "refuse",
+    "size_of",
+    "unread_length",
+    "use_of",
+]
 
 MOST_M = 1e8
 """Greatest coordinate: projections of the whole earth have lower ones."""
@@ -31,6 +43,52 @@ _PORTAL_WORDS = {
     "portal": PortalKind.BOTH,
     "parking_entrance": PortalKind.BOTH,
 }
+_LENGTH = re.compile(
+    r"""\+?(?P<number>\d+(?:[.,]\d*)?|[.,]\d+)(?:e(?P<power>[-+]?\d{1,2}))?\s*(?P<unit>m|cm|ft|feet|'|in|")?\s*"""
+    r"""((?<=['t])\s*(?P<inches>\d+(?:\.\d+)?)\s*(?:in|"))?"""
+)
+_UNITS_M = {"m": 1.0, "cm": 0.01, "ft": 0.3048, "feet": 0.3048, "'": 0.3048, "in": 0.0254, '"': 0.0254}
+_LONGEST_M = 1000.0
+
+
+def length_of(text: object) -> float | None:
+    """Return a length above 0, up to 1000 m, as people write it, such as ``5.5``, ``5,5 m`` or ``8'6"``; else None."""
+    if isinstance(text, bool) or not isinstance(text, int | float | str):
+        return None
+    found = _LENGTH.fullmatch(str(text).strip().lower())
+    if found is None:
+        return None
+    number = float(found["number"].replace(",", ".")) * 10.0 ** int(found["power"] or 0)
+    length_m = number * _UNITS_M[found["unit"] or "m"] + float(found["inches"] or 0) * _UNITS_M['"']
+    return length_m if 0 < length_m <= _LONGEST_M else None
+
+
+def unread_length(name: str, text: object) -> str:
+    """Return the reason for which a length of a part is not read."""
+    return f"the {name} {str(text)!r}, which is no length above 0 m, up to {_LONGEST_M:g} m"
+
+
+_RUN_OF_LEVELS = re.compile(r"(-?\d{1,4})-(-?\d{1,4})")
+_NUMBER, _MOST_LEVELS = re.compile(r"-?\d{1,6}(\.\d*)?"), 50
+
+
+def levels_of(tags: Mapping[str, str]) -> set[str]:
+    """Return the levels of an element as numbers without trailing zeros.
+
+    For example ``-1.0`` is -1, and ``-1;0`` and ``-1-0`` are both -1 and 0. A level that is no number is its own name;
+    without any, the set is empty.
+    """
+    levels: set[str] = set()
+    for part in f"{tags.get('level', '')};{tags.get('repeat_on', '')}".split(";"):
+        word = part.strip().replace(",", ".")
+        run = _RUN_OF_LEVELS.fullmatch(word)
+        if run and 0 <= int(run[2]) - int(run[1]) <= _MOST_LEVELS:
+            levels.update(str(number) for number in range(int(run[1]), int(run[2]) + 1))
+        elif _NUMBER.fullmatch(word):
+            levels.add(f"{float(word) + 0.0:g}")
+        elif word:
+            levels.add(word)
+    return levels
 
 
 def refuse(place: str, value: object, allowed: str) -> NoReturn:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from garage2usd.assets.glyphs import GLYPH_PITCH, GLYPH_WIDTH
+from garage2usd.assets.glyphs import GLYPH_PITCH, GLYPH_WIDTH, drawn_form, undrawn
 from garage2usd.config import FittingsConfig, LookConfig
 from garage2usd.config.look import BandForm, MarkingsLook, NumberForm, NumberPlace
 from garage2usd.garage import StallKind
@@ -43,10 +43,12 @@ def stall_numbers(
         return []
     placements: list[Placement] = []
     for stall in stalls:
-        if not stall.number:
+        if not stall.number or undrawn(stall.number):
             continue
-        texts = _split(stall.number, numbers.form)
+        texts = _split(drawn_form(stall.number), numbers.form)
         count = sum(map(len, texts))
+        if not count:
+            continue
         height_m = _fitting_height_m(numbers.height_m, count, stall.width_m)
         wall_m = _wall_behind_m(stall, grid) if grid is not None and numbers.place is NumberPlace.WALL else None
         if wall_m is not None:
@@ -95,7 +97,7 @@ def _split(number: str, form: NumberForm) -> list[str]:
 def _fitting_height_m(height_m: float, count: int, stall_width_m: float) -> float:
     """Return the character height, reduced if the number is wider than the stall between its lines."""
     most = (stall_width_m - 2 * _FROM_SIDES_M) / (GLYPH_WIDTH + GLYPH_PITCH * (count - 1))
-    return height_m if height_m <= most else int(most / _HEIGHT_STEP_M) * _HEIGHT_STEP_M
+    return height_m if height_m <= most else max(1, int(most / _HEIGHT_STEP_M)) * _HEIGHT_STEP_M
 
 
 def _on_floor_m(stall: PlacedStall, place: NumberPlace, height_m: float, markings: MarkingsLook) -> tuple[float, float]:

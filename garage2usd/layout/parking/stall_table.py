@@ -44,7 +44,7 @@ class StallTable(Table[PlacedStall]):
     size
         Index of the size class in `STALL_SIZES`; uint8, shape (n,).
     number
-        Painted number, as ASCII; shape (n,).
+        Painted number as text; shape (n,).
     """
 
     def __init__(self, stalls: Iterable[PlacedStall]) -> None:
@@ -60,7 +60,7 @@ class StallTable(Table[PlacedStall]):
         self.angle_deg = np.array([stall.angle_deg for stall in stalls], dtype=np.float64)
         self.turn = np.array([stall.turn for stall in stalls], dtype=np.int8)
         self.size = np.array([_SIZE_NUMBERS[stall.size] for stall in stalls], dtype=np.uint8)
-        self.number = np.array([stall.number for stall in stalls], dtype=np.bytes_)
+        self.number = np.array([stall.number for stall in stalls], dtype=np.str_)
 
     def __len__(self) -> int:
         """Number of stalls."""
@@ -109,7 +109,7 @@ class StallTable(Table[PlacedStall]):
                 length_m=length,
                 yaw_rad=yaw,
                 use=STALL_USES[use],
-                number=number.decode("ascii"),
+                number=str(number),
                 angle_deg=angle_deg,
                 turn=turn,
                 size=STALL_SIZES[size],

@@ -2,7 +2,9 @@
 
 from collections import Counter
 from collections.abc import Iterable
+from dataclasses import replace
 
+from garage2usd.assets.glyphs import undrawn
 from garage2usd.layout.placement import PlacedStall
 from garage2usd.layout.surveyed.ground import SurveyedGround
 from garage2usd.structure.lane_graph import StallType
@@ -46,7 +48,16 @@ def placed_stalls(
                 size=stall.source.size.value,
             )
         )
-    return tuple(stalls), tuple(fitted[index] for index in order)
+    return tuple(stalls), tuple(_noted(fitted[index], numbers[index]) for index in order)
+
+
+def _noted(stall: FittedStall, number: str) -> FittedStall:
+    """Return a stall with a note if its number cannot be painted."""
+    lacking = "".join(undrawn(number))
+    if not lacking:
+        return stall
+    note = f"its number '{number}' is not painted, as the lettering has no {lacking}"
+    return replace(stall, note=f"{stall.note}; {note}" if stall.note else note)
 
 
 def _numbers(fitted: Iterable[FittedStall]) -> list[str]:

@@ -12,7 +12,8 @@ from pydantic import Field, ValidationInfo, field_validator
 from garage2usd.common.documents import read_toml
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.settings import Settings, validated
-from garage2usd.config.own_cars import ModelFolder, cars_by_name, read_own_cars
+from garage2usd.config.files import absolute_in
+from garage2usd.config.own_cars import ModelFolder, cars_by_name, folder_of, read_own_cars
 from garage2usd.config.vehicles import CarBody
 from garage2usd.sensors.rig.around_view_camera import AroundViewCamera
 from garage2usd.sensors.rig.camera import Camera, KannalaBrandtCamera, PinholeCamera, WoodScapeCamera
@@ -52,7 +53,7 @@ class Rig(Settings):
     title: str = Field("", max_length=500)
     """Title of the rig, for example the product it is modelled on."""
     models: ModelFolder | None = None
-    """Folder of own car models in USD or GLB, which `car` may name (see the guide of own cars)."""
+    """Own car models in USD or GLB, a folder or files, which `car` may name (see the guide of own cars)."""
     car: str = "hatchback"
     """The ego car, which masks show: a body of garage2usd's catalogue, such as `"saloon"`, `"suv"` or `"van"`, or a
     model in `models` by its file name without the extension. The trajectory is that of the design car."""
@@ -66,7 +67,7 @@ class Rig(Settings):
     @field_validator("models", mode="before")
     @classmethod
     def _folder(cls, models: object) -> object:
-        return {"folder": models} if isinstance(models, str) else models
+        return folder_of(models)
 
     @field_validator("models")
     @classmethod
@@ -164,8 +165,8 @@ def read_rig(name_or_path: str | Path) -> Rig:
     if not name.lower().endswith(".toml"):
         raise ConfigError("rig", name, f"one of {', '.join(RIG_NAMES)}, or a path that ends in .toml")
     settings = read_toml(Path(name), field="rig")
-    if isinstance(models := settings.get("models"), str) and models:
-        settings = {**settings, "models": str((Path(name).parent / models).absolute())}
+    if "models" in settings:
+        settings = {**settings, "models": absolute_in(Path(name).parent, settings["models"])}
     return rig_from_mapping(settings)
 
 

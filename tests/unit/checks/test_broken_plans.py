@@ -10,7 +10,7 @@ from support.soak import soak_but
 from garage2usd import GarageConfig, build
 from garage2usd.as_built.layout_reader import garage_of_layout
 from garage2usd.checks import Severity, check, check_file
-from garage2usd.common.errors import ConfigError, StageError
+from garage2usd.common.errors import ConfigError, ReportError, StageError
 from garage2usd.layout import lay_out
 from garage2usd.planning import given_plan, with_stall_kinds
 from garage2usd.profiles import load_profile, read_profile
@@ -295,6 +295,6 @@ def test_the_same_plan_in_every_form_is_judged_alike(tmp_path):
 )
 def test_what_is_no_plan_is_refused_in_one_line(name, text, said, tmp_path):
     (tmp_path / name).write_text(text)
-    with pytest.raises((ConfigError, StageError)) as caught:
+    with pytest.raises((ConfigError, ReportError, StageError)) as caught:
         check_file(tmp_path / name)
     assert said in str(caught.value)

@@ -102,7 +102,7 @@ def test_a_profile_of_ones_own_is_read_from_a_file(tmp_path):
             "profile.stall_width needs source, confidence, value, unit",
         ),
         ({"name": "a", "stall_width": {**STALL, "confidence": "sure"}}, "profile.stall_width.confidence", "'high'"),
-        ({"name": "a", "stall_width": 2.5}, "profile.stall_width", "dictionary"),
+        ({"name": "a", "stall_width": 2.5}, "profile.stall_width", "a table with the keys"),
         ({"name": "../a"}, "profile.name", "match pattern"),
         (
             {"name": "a", "portals": {**STALL, "unit": "count", "steps": [[9, 1], [5, 2]], "above": 3}},

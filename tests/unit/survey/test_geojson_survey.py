@@ -151,11 +151,6 @@ def polygon(*ring):
             {"coordinates": "degrees"},
             "lot.geojson: latitude and longitude: got (0.0, 2.5); allowed: points within 100 km of the others",
         ),
-        (
-            [feature(shapely.LineString([(0, 0), (1, 0)]), kind="lane", width=-3)],
-            {},
-            "features.0.properties.width: got -3; allowed: a number of metres above 0",
-        ),
     ],
 )
 def test_malformed_files_are_refused_by_feature(tmp_path, features, members, message):

@@ -261,18 +261,6 @@ def test_malformed_files_are_refused(tmp_path, text, message):
     assert message in str(raised.value)
 
 
-def test_widths_that_are_none_are_refused(tmp_path):
-    lot = stalls_of_a_lanelet_map()
-    lot.way([(20, 0), (20, 5)], type="parking_space")
-    with pytest.raises(
-        ConfigError, match="way 4, width: got 'nothing'; allowed: the width of a parking space in metres"
-    ):
-        lot.read(tmp_path)
-    lot.ways[-1][1]["width"] = "wide"
-    with pytest.raises(ConfigError, match="way 4, width: got 'wide'; allowed: a number of metres"):
-        lot.read(tmp_path)
-
-
 @pytest.mark.parametrize("name", ["lot.dxf", "lot", "lot.xodr.gz"])
 def test_other_suffixes_are_refused(tmp_path, name):
     with pytest.raises(ConfigError) as raised:

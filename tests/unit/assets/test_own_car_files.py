@@ -1,0 +1,221 @@
+"""Files of cars of one's own: named in settings, with others beside them, and damaged ones refused in one line."""
+
+import io
+import json
+import logging
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
+from support.foreign_cars import boxes, plain, write_glb, write_z_up
+
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.foreign_models import read_model
+from garage2usd.config import config_from_mapping
+from garage2usd.config.files import with_textures
+from garage2usd.config.own_cars import ModelFolder, read_own_cars
+
+_HEADER = struct.Struct("<4sIIII")
+
+
+@pytest.fixture(scope="module")
+def glb(tmp_path_factory):
+    """A GLB as JSON and binary chunk."""
+    path = tmp_path_factory.mktemp("glb") / "c.glb"
+    write_glb(path)
+    data = path.read_bytes()
+    length = _HEADER.unpack_from(data)[3]
+    return json.loads(data[20 : 20 + length]), data[20 + length :]
+
+
+def packed(document, binary):
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    return _HEADER.pack(b"glTF", 2, 20 + len(text) + len(binary), len(text), 0x4E4F534A) + text + binary
+
+
+def written(tmp_path, glb, change):
+    document, binary = json.loads(json.dumps(glb[0])), glb[1]
+    change(document)
+    (tmp_path / "c.glb").write_bytes(packed(document, binary))
+    return tmp_path / "c.glb"
+
+
+def refused(path):
+    with pytest.raises(ConfigError) as error:
+        read_own_cars(ModelFolder(folder=str(path)))
+    said = str(error.value)
+    assert "\n" not in said
+    assert "0x" not in said
+    assert "Error" not in said
+    return said.replace(str(path), "c")
+
+
+FAULTS = {
+    "c, compressed by KHR_draco_mesh_compression": lambda d: d.update(
+        extensionsRequired=["KHR_draco_mesh_compression"]
+    ),
+    "c, which requires ACME_clay": lambda d: d.update(extensionsRequired=["ACME_clay"]),
+    "c without nope.png": lambda d: d["images"].__setitem__(0, {"uri": "nope.png"}),
+    "a GLB whose files lie beside it": lambda d: d["images"].__setitem__(0, {"uri": "https://example.org/a.png"}),
+    "c, image paint'; allowed: a picture of a known format": lambda d: d["images"].__setitem__(
+        0, {"name": "paint", "uri": "data:image/png;base64,AAAA"}
+    ),
+    "c, node 1'; allowed: a tree of nodes": lambda d: (
+        d["nodes"][1].update(children=[2]),
+        d["nodes"][2].update(children=[1]),
+    ),
+    "c, node 1 in two nodes": lambda d: (d["nodes"][2].update(children=[1]), d["nodes"][3].update(children=[1])),
+    "c, node 1 with child 999": lambda d: d["nodes"][1].update(children=[999]),
+    "a GLB whose tables are those of glTF 2.0": lambda d: d.update(nodes={"a": 5}),
+    "a GLB whose tables are whole": lambda d: d["accessors"][0].update(bufferView=10**6),
+}
+
+
+@pytest.mark.parametrize("said", FAULTS)
+def test_damaged_glbs_are_refused_in_one_line(tmp_path, glb, said, capfd):
+    assert said in refused(written(tmp_path, glb, FAULTS[said]))
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("length", [0, 11, 19, 500, -40])
+def test_cut_off_glbs_are_refused(tmp_path, glb, length):
+    (tmp_path / "c.glb").write_bytes(packed(*glb)[:length])
+    assert "a GLB" in refused(tmp_path / "c.glb") or "a whole GLB" in refused(tmp_path / "c.glb")
+
+
+def test_warnings_of_libraries_are_no_lines_of_a_command(tmp_path, glb, capfd):
+    path = written(tmp_path, glb, lambda d: d.update(extensionsUsed=["KHR_draco_mesh_compression"]))
+    logging.getLogger("trimesh").warning("before")
+    read_model(path, field="models")
+    logging.getLogger("trimesh").warning("values are placeholder zeros")
+    assert "placeholder" not in capfd.readouterr().err
+
+
+def test_pictures_beside_a_glb_are_read_and_count_in_its_digest(tmp_path, glb):
+    (tmp_path / "my pictures").mkdir()
+    picture = tmp_path / "my pictures" / "paint.png"
+    plain((10, 160, 40)).save(picture)
+    path = written(tmp_path, glb, lambda d: d["images"].__setitem__(0, {"uri": "my%20pictures/paint.png"}))
+    (part,) = [part for part in read_model(path, field="models") if part.surface.picture]
+    assert Image.open(io.BytesIO(part.surface.picture)).getpixel((0, 0)) == (10, 160, 40)
+    first, _ = read_own_cars(ModelFolder(folder=str(path)))
+    plain((10, 160, 41)).save(picture)
+    second, _ = read_own_cars(ModelFolder(folder=str(path)))
+    assert first.sha256 != second.sha256
+
+
+def test_models_are_a_folder_a_file_or_a_list_of_files(tmp_path):
+    write_glb(tmp_path / "box.glb")
+    (tmp_path / "._box.glb").write_bytes(b"\0\5\26\7Mac OS X")
+    digests = set()
+    for named in (".", "box.glb", ["box.glb"]):
+        given = with_textures({"vehicles": {"models": named}}, tmp_path)
+        models = config_from_mapping(given).vehicles.models
+        assert len(read_own_cars(models)[1]) == 1
+        digests.add(models.sha256)
+    assert len(digests) == 1
+    for wrong, allowed in (
+        (5, "or a list of files"),
+        ([], "at least 1 item"),
+        ({"foldr": "a"}, "the nearest is folder"),
+    ):
+        with pytest.raises(ConfigError, match=allowed) as error:
+            config_from_mapping({"vehicles": {"models": wrong}})
+        assert "ModelFolder" not in str(error.value)
+
+
+def usd_car(path, *, metres=1.0):
+    """A car in one mesh with coordinates, whose left half is that of its texture."""
+    stage = Usd.Stage.CreateNew(str(path))
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
+    UsdGeom.SetStageMetersPerUnit(stage, metres)
+    stage.SetDefaultPrim(UsdGeom.Xform.Define(stage, "/Car").GetPrim())
+    for name, given in boxes().items():
+        mesh = UsdGeom.Mesh.Define(stage, f"/Car/{name}")
+        mesh.CreatePointsAttr(given.vertices.astype(np.float32))
+        mesh.CreateFaceVertexCountsAttr([3] * len(given.faces))
+        mesh.CreateFaceVertexIndicesAttr(given.faces.ravel().astype(np.int32))
+    return stage
+
+
+def test_texture_coordinates_of_usd_cars_are_read(tmp_path):
+    stage = usd_car(tmp_path / "c.usda")
+    body = UsdGeom.PrimvarsAPI(stage.GetPrimAtPath("/Car/body"))
+    points = UsdGeom.Mesh(body.GetPrim()).GetPointsAttr().Get()
+    other = body.CreatePrimvar("aaa", Sdf.ValueTypeNames.TexCoord2fArray, UsdGeom.Tokens.vertex)
+    other.Set([Gf.Vec2f(7, 7)] * len(points))
+    st = body.CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, UsdGeom.Tokens.vertex)
+    st.Set([Gf.Vec2f(0.25 if x < 0 else 0.75, 0.5) for x, _, _ in points])
+    ground = UsdGeom.Mesh.Define(stage, "/Ground")
+    ground.CreatePointsAttr([(-9, 0, -9), (9, 0, -9), (9, 0, 9)])
+    ground.CreateFaceVertexCountsAttr([3])
+    ground.CreateFaceVertexIndicesAttr([0, 1, 2])
+    stage.Save()
+    parts = {part.name: part for part in read_model(tmp_path / "c.usda", field="models")}
+    part = parts["/Car/body"]
+    assert (part.st[..., 0] == np.where(part.triangles_m[..., 0] < 0, 0.25, 0.75)).all()
+    assert "/Ground" not in parts
+
+
+def test_files_that_no_reading_needs_may_be_missing_and_others_are_named(tmp_path, capfd):
+    write_z_up(tmp_path / "c.usda")
+    stage = Usd.Stage.Open(str(tmp_path / "c.usda"))
+    mdl = UsdShade.Shader.Define(stage, "/Van/Red/Mdl")
+    mdl.SetSourceAsset("OmniPBR.mdl", "mdl")
+    UsdShade.Material(stage.GetPrimAtPath("/Van/Red")).CreateSurfaceOutput("mdl").ConnectToSource(
+        mdl.ConnectableAPI(), "out"
+    )
+    stage.Save()
+    _, (car,) = read_own_cars(ModelFolder(folder=str(tmp_path)))
+    (part,) = read_model(Path(car.path), field="models")
+    assert part.surface.colour_rgb == pytest.approx((0.6, 0.02, 0.02))
+    assert capfd.readouterr().err == ""
+    reader = UsdShade.Shader.Define(stage, "/Van/Red/Paint")
+    reader.CreateIdAttr("UsdUVTexture")
+    reader.CreateInput("file", Sdf.ValueTypeNames.Asset).Set("nope.png")
+    shader = UsdShade.Shader(stage.GetPrimAtPath("/Van/Red/Surface"))
+    shader.GetInput("diffuseColor").ConnectToSource(reader.ConnectableAPI(), "rgb")
+    stage.Save()
+    assert "c without nope.png" in refused(tmp_path / "c.usda")
+    (tmp_path / "nope.png").write_bytes(b"no picture")
+    assert "c, nope.png'; allowed: a picture of a known format" in refused(tmp_path / "c.usda")
+
+
+@pytest.mark.parametrize("metres", [0.0, -1.0, float("inf")])
+def test_units_of_no_length_are_named(tmp_path, metres):
+    usd_car(tmp_path / "c.usda", metres=metres).Save()
+    assert "with metersPerUnit" in refused(tmp_path / "c.usda")
+
+
+@pytest.mark.parametrize("face", [-1, 12, 999])
+def test_faces_of_subsets_that_there_are_not_are_named(tmp_path, face):
+    stage = usd_car(tmp_path / "c.usda")
+    binding = UsdShade.MaterialBindingAPI.Apply(stage.GetPrimAtPath("/Car/body"))
+    binding.CreateMaterialBindSubset("x", [0, face])
+    stage.Save()
+    assert f"/Car/body/x with face {face}'; allowed: faces 0 to 11" in refused(tmp_path / "c.usda")
+
+
+def test_flat_glass_of_a_mirror_has_an_outline(tmp_path):
+    stage = usd_car(tmp_path / "c.usda")
+    glass = UsdGeom.Mesh(stage.GetPrimAtPath("/Car/door_mirror_left"))
+    glass.GetPointsAttr().Set([(-0.9, 0.9, -0.7), (-0.9, 1.0, -0.7), (-0.9, 1.0, -0.6), (-0.9, 0.9, -0.6)])
+    glass.GetFaceVertexCountsAttr().Set([4])
+    glass.GetFaceVertexIndicesAttr().Set([0, 1, 2, 3])
+    stage.RemovePrim("/Car/door_mirror_right")
+    stage.Save()
+    _, (car,) = read_own_cars(ModelFolder(folder=str(tmp_path)))
+    assert len(car.outlines) == 2
+
+
+def test_pictures_of_sixteen_bits_keep_their_grey(tmp_path, glb):
+    stream = io.BytesIO()
+    Image.fromarray(np.full((4, 4), 76 * 257, np.uint16)).save(stream, format="PNG")
+    (tmp_path / "grey.png").write_bytes(stream.getvalue())
+    path = written(tmp_path, glb, lambda d: d["images"].__setitem__(0, {"uri": "grey.png"}))
+    (part,) = [part for part in read_model(path, field="models") if part.surface.picture]
+    assert Image.open(io.BytesIO(part.surface.picture)).getpixel((0, 0)) == (76, 76, 76)
