@@ -76,7 +76,11 @@ def car(body: CarBody) -> Asset:
         parts.append(make_part("RearGlass", planar_faces(regions["rear_glass"]), "glass_dark", crease_deg=38))
     if shape.spoiler:
         parts.append(make_part("Spoiler", planar_faces(_spoiler(shell)), "car_paint", crease_deg=50))
-    coarse = [_with_coarse_normals(part, _BODYWORK_STEPS if part.name in _BODYWORK else _STEPS) for part in parts]
+    # wheels share their normals, in their own axes
+    coarse = [
+        _with_coarse_normals(part, _BODYWORK_STEPS if part.name in _BODYWORK else _STEPS) if part.pose is None else part
+        for part in parts
+    ]
     return Asset(tuple(coarse), paints={paint: f"car_paint_{paint}" for paint in PAINTS})
 
 
