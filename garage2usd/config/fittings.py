@@ -128,6 +128,9 @@ class ParkingConfig(Settings):
     bodies: SegmentShares | None = None
     """Shares of the body classes, such as ``{suv = 0.4, hatchback = 0.6}``, normalised by their sum; if left out, the
     market's. A class that is not named has none. A car is drawn among the bodies that fit its stall."""
+    more_models: int = Field(4, ge=0, le=100)
+    """A garage has one model of each body class, drawn by its seed, and as many more as the share of the class times
+    this number; 100 for all of the catalogue. Each model adds an asset of about 130 KB."""
     paints: PaintShares | None = None
     """Shares of the paints, such as ``{white = 0.5, black = 0.5}``, normalised by their sum; by default the
     market's."""

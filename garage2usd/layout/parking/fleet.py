@@ -10,9 +10,6 @@ from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody
 
 __all__ = ["Fleet"]
 
-_MORE_MODELS = 4
-"""A garage has one model of a segment, and as many more as its share times this number."""
-
 
 class Fleet:
     """Market shares of car bodies and paints, overridden by the configuration, and the models of one garage.
@@ -45,6 +42,7 @@ class Fleet:
         self.paints = dict(parking.paints or market.paints.shares)
         self.reversed_share = market.reversed.share if parking.reversed_share is None else parking.reversed_share
 
+        self._more_models = parking.more_models
         self._rank = dict(zip(CAR_BODIES, ranks, strict=True))
         self._paint_sums = _cumulative_sums([self.paints.get(paint, 0.0) for paint in PAINTS])
         self._models: dict[tuple[CarBody, ...], tuple[list[CarBody], list[float]]] = {}
@@ -64,7 +62,7 @@ class Fleet:
         models: list[CarBody] = []
         for body in sorted(bodies, key=lambda body: self._rank[body]):
             share = self.segments.get(body.segment, 0.0) / total if total else 1.0
-            if chosen[body.segment] <= round(_MORE_MODELS * share):
+            if chosen[body.segment] <= round(self._more_models * share):
                 chosen[body.segment] += 1
                 models.append(body)
         return models

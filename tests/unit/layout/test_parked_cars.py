@@ -336,4 +336,7 @@ def test_a_garage_has_a_few_models_of_each_segment_and_garages_differ_in_them():
         assert {segment: counts[segment] / 1000 for segment in counts} == pytest.approx(shares, abs=0.01)
         assert Counter(body.segment for body in set(drawn)) == {"suv": 3, "saloon": 2, "city": 2}
         models.append(frozenset(drawn))
+        every = Fleet(ParkingConfig(bodies=shares, more_models=100), "", ranks)
+        drawn = {every.body_of(CAR_BODIES, share) for share in np.linspace(0, 0.9999, 1000)}
+        assert drawn == {body for body in CAR_BODIES if body.segment in shares}
     assert len(set(models)) == len(models)
