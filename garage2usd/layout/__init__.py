@@ -381,7 +381,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         storey_m = well.building.storey_m if well and not well.is_top else None
         yield (ceiling_panel(tile, fittings, storey_m) for tile in grid)
         yield lamps
-        yield beams(structure, bay, ceiling, levels.beam_depth_m, pillars)
+        yield (girders := beams(structure, bay, ceiling, levels.beam_depth_m, pillars))
         yield ducts(grid, ceiling, levels, look.ceiling)
         yield cable_trays(grid, ceiling, levels)
         yield sprinklers(grid, ceiling, levels)
@@ -390,7 +390,8 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield level_signs(grid, graph, fittings, levels, well) if well else ()
         yield mirrors(grid, pillars, fittings, levels)
 
-        walls, gates = with_barriers(with_ramps(shell, ground_inside(structure), fittings, look.walls), fittings)
+        inner = with_ramps(shell, ground_inside(structure), fittings, look.walls)
+        walls, gates = with_barriers(inner, fittings, girders)
         yield from (walls, gates)
         tubes = ramp_lights(walls, fittings)
         if well:

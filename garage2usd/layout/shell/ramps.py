@@ -8,11 +8,13 @@ import shapely
 
 from garage2usd.config import FittingsConfig
 from garage2usd.config.look import WallsLook
+from garage2usd.garage import Point
 from garage2usd.layout.ceiling.lamps import TUBE
 from garage2usd.layout.fittings import TUBE_DEPTH_M
 from garage2usd.layout.placement import Placement, of_spec, placed
 from garage2usd.layout.shell.building import DOOR_FRAME_M
 from garage2usd.objects.barrier import ARM_HALF_M, PIVOT_M, BarrierSpec
+from garage2usd.objects.beam import BeamSpec
 from garage2usd.objects.lit_sign import LEAST_SIGN_M
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.ramp import RampSpec
@@ -129,11 +131,14 @@ def ramp_lights(walls: Iterable[Placement], fittings: FittingsConfig) -> list[Pl
     return lights
 
 
-def with_barriers(walls: list[Placement], fittings: FittingsConfig) -> tuple[list[Placement], list[Placement]]:
+def with_barriers(
+    walls: list[Placement], fittings: FittingsConfig, beams: Iterable[Placement] = ()
+) -> tuple[list[Placement], list[Placement]]:
     """Place a barrier gate inside each open vehicle door, on the driver's left; every other gate is raised.
 
-    A raised arm folds under the lights, above the clear height and above the sign over the door, so that nobody's view
-    of the sign passes through it. The gate is lowered instead where that leaves no legible sign.
+    A raised arm folds under the lights and the beams beside the door, above the clear height and above the sign over
+    the door, so that nobody's view of the sign passes through it. The gate is lowered instead where that leaves no
+    legible sign.
 
     Returns
     -------
@@ -151,19 +156,32 @@ def with_barriers(walls: list[Placement], fittings: FittingsConfig) -> tuple[lis
             continue
         half = portal.door_width_m / 2 - DOOR_FRAME_M
         arm_m = round(2 * half + _BARRIER_GAP_M, 3)
-        under_lights_m, upright_m = portal.height_m - TUBE_DEPTH_M - _ARM_GAP_M - ARM_HALF_M, PIVOT_M + 2 * half
-        elbow_m, below = min(under_lights_m, upright_m), portal
-        if under_lights_m < upright_m:  # else all of the arm is beside the opening
+        left, along, turn = (1, _BARRIER_FAR_M, 0.0) if portal.is_entrance else (-1, _BARRIER_NEAR_M, np.pi)
+        place = wall.to_world((left * (half + _BARRIER_GAP_M), along))
+        top_m = min(portal.height_m - TUBE_DEPTH_M, _underside_m(beams, place)) - _ARM_GAP_M - ARM_HALF_M
+        upright_m = PIVOT_M + 2 * half
+        elbow_m, below = min(top_m, upright_m), portal
+        if top_m < upright_m:  # else all of the arm is beside the opening
             below = replace(portal, raised_arm_m=round(elbow_m - ARM_HALF_M - _ARM_GAP_M, 3))
         has_room = elbow_m - ARM_HALF_M >= fittings.clear_height_m + _ARM_GAP_M
         is_raised = has_room and len(gates) % 2 == 0 and (_is_legible(below) or not _has_sign(portal))
         seen.append(replace(wall, spec=below) if is_raised else wall)
         spec = BarrierSpec(arm_m, is_raised=is_raised, elbow_m=round(elbow_m, 3))
-        left, along, turn = (1, _BARRIER_FAR_M, 0.0) if portal.is_entrance else (-1, _BARRIER_NEAR_M, np.pi)
-        place = wall.to_world((left * (half + _BARRIER_GAP_M), along))
         yaw = round(float(np.remainder(wall.yaw_rad + turn + np.pi, 2 * np.pi) - np.pi), 6)
         gates.append(placed(wall.name.replace("Portal", "Barrier"), spec, place, yaw_rad=yaw))
     return seen, gates
+
+
+def _underside_m(beams: Iterable[Placement], place: Point) -> float:
+    """Return the height of the lowest beam over the housing of a gate, infinite without one."""
+    lowest_m = np.inf
+    for beam, spec in of_spec(beams, BeamSpec):
+        x, z = (beam.position_m[k] - there for k, there in zip((0, 2), place, strict=True))
+        cos, sin = np.cos(beam.yaw_rad), np.sin(beam.yaw_rad)
+        across_m, along_m = abs(cos * x - sin * z), abs(sin * x + cos * z)
+        if across_m < spec.width_m / 2 + _BARRIER_GAP_M and along_m < spec.length_m / 2 + _BARRIER_GAP_M:
+            lowest_m = min(lowest_m, beam.position_m[1] - spec.depth_m)
+    return float(lowest_m)
 
 
 def _has_sign(portal: PortalSpec) -> bool:

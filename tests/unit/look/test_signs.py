@@ -55,7 +55,7 @@ def test_signs_are_those_of_the_profile_and_stay_in_their_places(profile, countr
 
 @pytest.mark.parametrize("country", ["", "SE"])
 def test_a_profile_of_no_country_or_another_has_international_signs(country):
-    layout = laid_out({"name": "own", "country": country}, "profile")
+    layout = laid_out({"name": "none", "country": country}, "profile")
     assert {place.spec.country for kind in SIGNED for place in layout.of_kind(kind)} == {Country.NONE}
 
 
