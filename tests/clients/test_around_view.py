@@ -151,6 +151,7 @@ def recorded(rig, builds, tmp_path_factory):
     return made.stage, folder, json.loads((folder / "frames.json").read_text())
 
 
+@pytest.mark.soak
 def test_corners_of_slots_are_where_opencv_shows_them(rig, recorded):
     stage_path, folder, table = recorded
     stage = Usd.Stage.Open(str(stage_path))
@@ -184,6 +185,7 @@ def test_corners_of_slots_are_where_opencv_shows_them(rig, recorded):
     assert {0, 1, 2} == set(visibilities)
 
 
+@pytest.mark.soak
 def test_labels_of_detectors_have_its_slots(recorded):
     _, folder, table = recorded
     names = [frame["name"] for frame in table["frames"]]
@@ -199,6 +201,7 @@ def test_labels_of_detectors_have_its_slots(recorded):
         assert np.hypot(*(labelled - place).T).min() < TENTH_PX
 
 
+@pytest.mark.soak
 def test_the_car_is_black_in_colour_and_empty_in_the_others(rig, recorded):
     _, folder, table = recorded
     with Image.open(folder / "ego" / "around.png") as picture:

@@ -120,6 +120,7 @@ def arithmetic(points, pose):
     )
 
 
+@pytest.mark.soak
 def test_corners_lie_where_arithmetic_has_them(drawn):
     views = drawn.views[:2]
     files = SlotLabels(drawn.stage, drawn.labels, views, drawn.folder).write([SlotFormat.COCO, SlotFormat.DMPR_PS])
@@ -141,6 +142,7 @@ def test_corners_lie_where_arithmetic_has_them(drawn):
     assert seen > 20
 
 
+@pytest.mark.soak
 def test_the_middle_of_a_pixel_shows_what_lies_below_it(drawn):
     """Stall lines lie on the borders of stalls: what is painted there is within their width of an outline."""
     for number, pose in enumerate(drawn.poses):
@@ -155,6 +157,7 @@ def test_the_middle_of_a_pixel_shows_what_lies_below_it(drawn):
         assert nearest.max() * METRES_PER_PX < LINE_M + CENTIMETRE
 
 
+@pytest.mark.soak
 def test_cars_and_what_hangs_overhead_are_looked_through(drawn):
     with_cars, without = (set(names_of(drawn, f"above_{number}").ravel().tolist()) for number in (0, 1))
     overhead = {"ceiling", "light", "duct", "beam", "sprinkler", "cable_tray"}
@@ -164,6 +167,7 @@ def test_cars_and_what_hangs_overhead_are_looked_through(drawn):
     assert {"floor", "stall_line", "column"} <= with_cars & without
 
 
+@pytest.mark.soak
 def test_fisheyes_that_opencv_warps_onto_the_ground_agree(drawn):
     width, height = SIZE
     columns, rows = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)
@@ -326,9 +330,9 @@ def test_corners_that_are_seen_show_the_floor_or_its_paint_from_above(above):
     judge_corners(above.folder, above.table)
 
 
-def test_recordings_that_cannot_have_views_from_above_are_refused(drawn, tmp_path):
-    stage, above = drawn.stage.GetRootLayer().realPath, BirdsEye()
-    asked = {"rig": "avp_surround", "along": "1:A1-01", "birds_eye": above}
+def test_recordings_that_cannot_have_views_from_above_are_refused(above, tmp_path):
+    stage = above.made.stage
+    asked = {"rig": "avp_surround", "along": "1:A1-01", "birds_eye": BirdsEye()}
     with pytest.raises(ConfigError, match="semantic or instance among them"):
         record(stage, tmp_path, **asked, pictures=[Picture.DEPTH])
     lidar = {"kind": "spinning_lidar", "name": "top", "position_m": [1, 0, 2], "range_m": [0.5, 50]}

@@ -8,7 +8,7 @@ import shapely
 from scipy.spatial.distance import cdist
 from support.footprints import footprint
 from support.overlaps import assert_solid_objects_keep_apart, carriageways
-from support.sample_files import SAMPLES, SMALL_SAMPLES
+from support.sample_files import SAMPLES, USUAL_SAMPLES
 from support.small_garage import PLAN as SMALL
 from support.soak import soak_but
 
@@ -133,7 +133,7 @@ def test_each_kind_has_a_switch_and_moves_nothing_else():
         assert [place for place in without.placements if place.kind not in names] == others
 
 
-@pytest.mark.parametrize("sample", soak_but(SMALL_SAMPLES, SAMPLES), ids=lambda path: path.stem)
+@pytest.mark.parametrize("sample", soak_but(USUAL_SAMPLES, SAMPLES), ids=lambda path: path.stem)
 def test_nothing_that_hangs_reaches_into_a_stall_and_two_of_a_kind_hang_apart(sample, builds):
     layout = builds(sample, "usdc").garage.layout
     assert_hung_beside_stalls(layout)
