@@ -1,4 +1,4 @@
-"""Processor seconds of test files, and of each wide test of `make soak`, as ``--write-durations`` last wrote them.
+"""Processor seconds of test files in `make test` and in `make soak`, as ``--write-durations`` last wrote them.
 
 Processor time, of tests and of the programs that they start, hardly depends on what else a machine does.
 """
@@ -11,7 +11,7 @@ from statistics import median
 
 FILE = Path(__file__).parents[1] / "durations.json"
 UNKNOWN_S = 5.0
-"""What a file or a wide test without an entry is taken for."""
+"""What a file without an entry is taken for."""
 
 _TICKS_IN_S = os.sysconf("SC_CLK_TCK")
 _USER_TO_CHILDREN_SYSTEM = slice(11, 15)  # of /proc/PID/stat after the name: proc(5) counts them 14 to 17
@@ -24,12 +24,12 @@ def processor_time_s():
 
 
 def read_durations():
-    """Seconds by file relative to the repository, and of soak tests by ``file::function``."""
+    """Seconds by file relative to the repository, and of its wide tests by ``file::soak``."""
     return json.loads(FILE.read_text())
 
 
 def write_durations(reports, *, soak):
-    """Replace the seconds of the files or wide tests of which there are reports."""
+    """Replace the seconds of the files of which there are reports."""
     durations = read_durations() | {key: round(seconds, 1) for key, seconds in _measured(reports, soak=soak).items()}
     FILE.write_text(json.dumps(dict(sorted(durations.items())), indent=1) + "\n")
 
@@ -47,8 +47,8 @@ def outdated(reports, *, soak):
 
 
 def soak_key(nodeid):
-    """The entry of a wide test: all cases of a function in one."""
-    return nodeid.partition("[")[0]
+    """The entry of a wide test: those of a file are one, as they share what its fixtures make."""
+    return f"{nodeid.partition('::')[0]}::soak"
 
 
 def _measured(reports, *, soak):

@@ -19,24 +19,24 @@ def item(nodeid, *, wide):
 
 
 ITEMS = [
-    *(item(f"tests/a.py::test_{k}[{case}]", wide=True) for k in range(20) for case in "xy"),
-    *(item(f"tests/a.py::narrow_{k}", wide=False) for k in range(5)),
+    *(item(f"tests/{k}.py::test_{case}", wide=True) for k in range(20) for case in "xy"),
+    *(item(f"tests/{k}.py::narrow", wide=False) for k in range(5)),
 ]
 
 
 def test_each_test_runs_in_one_of_the_two_and_each_wide_one_in_one_part():
     narrow, left = chosen(ITEMS, soak=False, part=None, durations={})
-    assert [one.nodeid for one in narrow] == [f"tests/a.py::narrow_{k}" for k in range(5)]
+    assert [one.nodeid for one in narrow] == [f"tests/{k}.py::narrow" for k in range(5)]
     wide, rest = chosen(ITEMS, soak=True, part=None, durations={})
     assert (left, rest) == (wide, narrow)
     parts = [chosen(ITEMS, soak=True, part=part, durations={})[0] for part in range(PARTS)]
     assert Counter(one.nodeid for part in parts for one in part) == Counter(one.nodeid for one in wide)
     keys = [{soak_key(one.nodeid) for one in part} for part in parts]
-    assert sum(map(len, keys)) == len(set().union(*keys))  # cases of a function share what it makes
+    assert sum(map(len, keys)) == len(set().union(*keys))  # tests of a file share what its fixtures make
 
 
 def test_parts_take_about_the_same_time():
-    noted = {f"tests/a.py::test_{k}": 10.0 + 7 * k for k in range(20)}
+    noted = {f"tests/{k}.py::soak": 10.0 + 7 * k for k in range(20)}
     parts = [chosen(ITEMS, soak=True, part=part, durations=noted)[0] for part in range(PARTS)]
     seconds = [sum(noted[key] for key in {soak_key(one.nodeid) for one in part}) for part in parts]
     assert max(seconds) < 1.3 * min(seconds)
@@ -73,12 +73,12 @@ def report(nodeid, seconds):
     return SimpleNamespace(nodeid=nodeid, when="teardown", user_properties=[("processor_time_s", seconds)])
 
 
-def test_durations_are_noted_by_file_and_by_wide_test(tmp_path, monkeypatch):
+def test_durations_are_noted_by_file_and_by_its_wide_tests(tmp_path, monkeypatch):
     monkeypatch.setattr(durations, "FILE", tmp_path / "durations.json")
     durations.FILE.write_text('{"tests/b.py": 1.0}')
     write_durations([report("tests/a.py::one[x]", 1.0), report("tests/a.py::two", 2.5)], soak=False)
     write_durations([report("tests/a.py::wide[x]", 20.0), report("tests/a.py::wide[y]", 5.0)], soak=True)
-    assert json.loads(durations.FILE.read_text()) == {"tests/a.py": 3.5, "tests/a.py::wide": 25.0, "tests/b.py": 1.0}
+    assert json.loads(durations.FILE.read_text()) == {"tests/a.py": 3.5, "tests/a.py::soak": 25.0, "tests/b.py": 1.0}
 
 
 def test_entries_that_are_off_by_more_than_half_are_told_even_on_a_slower_machine(tmp_path, monkeypatch):
