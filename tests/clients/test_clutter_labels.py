@@ -155,6 +155,7 @@ def test_lidar_points_have_them_and_their_nuscenes_categories(made):
 
 
 @pytest.mark.skipif(bool(reader.missing()), reason=str(reader.missing()))
+@pytest.mark.soak
 def test_unity_imports_them_with_their_ids_and_classes(made, tmp_path):
     running = reader.Reader(layer.compile_prefab_dump(tmp_path))
     prefab = layer.Prefab(running.ask("prefab", made.built.stage))

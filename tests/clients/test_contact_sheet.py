@@ -78,6 +78,7 @@ def test_a_sheet_is_a_png_or_a_jpeg(tmp_path, name):
         draw_contact_sheet(garages(1), tmp_path / name)
 
 
+@pytest.mark.soak
 def test_each_level_is_seen_alone_from_above(tmp_path):
     config, size_px = GarageConfig(**TWO_LEVELS), (160, 90)
     garage = generate_levels(config)

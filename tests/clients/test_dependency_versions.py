@@ -1,6 +1,6 @@
 """Every command works with the lowest and the newest versions that `pyproject.toml` allows, on each Python it names.
 
-Environments are made anew by uv, one a test: `make test` makes that of the lowest versions on the oldest Python.
+Environments are made anew by uv, one a test, all in `make soak`.
 The digests of plans and all that is text are those of what the tests' own environment makes;
 pictures and binary stages differ by what Pillow and USD write.
 """
@@ -15,7 +15,6 @@ from pathlib import Path
 import pytest
 from support.fresh_environments import EXTRAS, NAMED, PROJECT, WITHOUT_WHEELS, compiled, make_environment, pythons, uv
 from support.sample_files import REPOSITORY
-from support.soak import soak_but
 
 import garage2usd
 from garage2usd.datasets import load_recipe
@@ -125,8 +124,9 @@ def fresh(version, resolution, wheel, folder):
     return runner(environment / "bin", folder / "work"), folder / "work"
 
 
+@pytest.mark.soak
 @pytest.mark.client
-@pytest.mark.parametrize(("version", "resolution"), soak_but(1, ENVIRONMENTS))
+@pytest.mark.parametrize(("version", "resolution"), ENVIRONMENTS)
 def test_all_commands_make_the_same_in_a_fresh_environment(version, resolution, wheel, expected, tmp_path):
     run, folder = fresh(version, resolution, wheel, tmp_path)
     for command in GARAGE:

@@ -29,6 +29,7 @@ def test_usd_validation_finds_nothing(exported):
 
 
 @needs_judges
+@pytest.mark.soak
 def test_asam_s_checker_has_no_issue(exported, tmp_path):
     assert asam_issues(exported[1], tmp_path) == []
 

@@ -29,6 +29,7 @@ def test_lanelet2_has_the_garage(sample, builds, tmp_path):
     assert list(Lanelet2Judge(stage, path, tmp_path).complaints()) == []
 
 
+@pytest.mark.soak
 def test_lanelet2_has_the_default_garage_anywhere_on_the_earth(tmp_path):
     stage = garage2usd.build(garage2usd.GarageConfig(), tmp_path / "garage.usdc").stage
     for latitude, longitude in ((49.0, 9.0), (-33.8568, 151.2153), (78.2232, 15.6267), (0.0, -180.0)):

@@ -238,6 +238,7 @@ def vehicles(table):
 
 
 @needs_blender
+@pytest.mark.soak
 def test_a_recording_is_made_on_the_floors_and_ramps_and_names_the_level(recorded, ground):
     _, table = recorded
     poses = vehicles(table)
@@ -253,6 +254,7 @@ def test_a_recording_is_made_on_the_floors_and_ramps_and_names_the_level(recorde
 
 
 @needs_blender
+@pytest.mark.soak
 def test_lidar_and_depth_on_a_ramp_are_those_of_rays_of_trimesh(recorded, built, judge):
     folder, table = recorded
     ramps = judge.mesh("ramp")
@@ -287,6 +289,7 @@ def ids_of(path):
 
 
 @needs_blender
+@pytest.mark.soak
 def test_a_birds_eye_view_shows_the_vehicle_s_own_level_and_the_ramps_down_from_it(recorded, judge):
     folder, table = recorded
     slots = json.loads((folder / "slots.json").read_text())

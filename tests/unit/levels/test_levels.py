@@ -199,6 +199,7 @@ TIGHT = GarageConfig(
 """A garage before whose first ramps cars would have to turn back from one row of squares into the next."""
 
 
+@pytest.mark.soak
 def test_ramps_are_drawn_elsewhere_where_cars_cannot_turn_into_them():
     first = make_level_sites(TIGHT).ramps
     garage = garage2usd.generate_levels(TIGHT)

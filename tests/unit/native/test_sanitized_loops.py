@@ -51,6 +51,7 @@ def run_of(folder, runtimes, fault=None, flags=CHECKED):
     )
 
 
+@pytest.mark.soak
 def test_planning_and_driving_are_clean(tmp_path, runtimes):
     run = run_of(tmp_path, runtimes)
     assert (run.returncode, run.stdout) == (0, "clean\n"), run.stderr

@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 from support.inner_loops import FLIPPED, REFUSED, TALLIED, flip_within
 from support.planning_reference import BAY, random_site
+from support.soak import soak_but
 
 from garage2usd.config import PlanConfig
 from garage2usd.planning.board import NO_VALUE, connect, measure, new_board
 from garage2usd.planning.ground import ground_of
 
 
-@pytest.mark.parametrize("circulation", ["allow", "loops"])
+@pytest.mark.parametrize("circulation", soak_but(1, ["allow", "loops"]))
 def test_flips_are_refused_only_where_the_whole_is_worth_less(circulation):
     fates = Counter()
     for seed in range(12):

@@ -2,6 +2,7 @@
 
 import pytest
 from support.benchmarks import benchmark
+from support.soak import soak_but
 
 from garage2usd import ConfigError, GarageConfig, generate
 from garage2usd.profiles import PROFILE_NAMES, load_profile, read_profile
@@ -43,7 +44,7 @@ def angles_of(garage):
     return {stall.angle_deg for stall in garage.layout.stalls}
 
 
-@pytest.mark.parametrize("profile", PROFILE_NAMES)
+@pytest.mark.parametrize("profile", soak_but(["de-garvo"], PROFILE_NAMES))
 @pytest.mark.parametrize("aisles", ["two-way", "one-way"])
 def test_the_kind_is_that_of_the_module_with_the_least_floor(profile, aisles):
     garage = generate(
@@ -53,7 +54,7 @@ def test_the_kind_is_that_of_the_module_with_the_least_floor(profile, aisles):
     assert angles_of(garage) == {min(modules, key=modules.__getitem__).angle_deg}
 
 
-@pytest.mark.parametrize("settings", [SMALL, {"profile": with_aisle(12.0), "site": {"structure": LADDER}}])
+@pytest.mark.parametrize("settings", soak_but(1, [SMALL, {"profile": with_aisle(12.0), "site": {"structure": LADDER}}]))
 def test_no_kind_alone_needs_less_floor(settings):
     def floor_m2(stalls):
         plan = generate(GarageConfig(stalls=stalls, **settings)).plan

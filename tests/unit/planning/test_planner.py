@@ -20,6 +20,7 @@ from support.planning_reference import (
     random_site,
     score,
 )
+from support.soak import soak_but
 
 from garage2usd.common.errors import GenerationError
 from garage2usd.config import PlanConfig
@@ -46,7 +47,7 @@ def check(plan, site):
 
 
 @pytest.mark.parametrize("name", GATES)
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", soak_but(1, range(3)))
 def test_tuned_reaches_the_optimum_with_climb(name, seed):
     plan = plan_lanes(GATES[name], plan=PlanConfig(circulation="allow", dead_ends="allow"), bay=BAY, seed=seed)
     check(plan, GATES[name])
@@ -59,7 +60,7 @@ def test_tuned_reaches_the_optimum_with_climb(name, seed):
 
 
 @pytest.mark.parametrize("name", GATES)
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", soak_but(1, range(3)))
 def test_tuned_reaches_the_optimum_under_rules(name, seed):
     plan = plan_lanes(GATES[name], plan=PlanConfig(), bay=BAY, seed=seed)
     check(plan, GATES[name])

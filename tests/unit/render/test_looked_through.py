@@ -73,6 +73,7 @@ def test_portals_and_ramps_are_open_from_above_in_every_form(builds, form):
     assert not any(hangs for path, (hangs, _) in found.items() if "/Car" in path or "/Column" in path)
 
 
+@pytest.mark.soak
 def test_a_garage_that_stands_elsewhere_is_open_at_the_same_places(builds, tmp_path):
     stage = Usd.Stage.Open(str(builds(HAND_DRAWN, "usdc", "instanced").stage))
     over = held_aloft(stage, tmp_path)
