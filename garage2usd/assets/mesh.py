@@ -1,4 +1,5 @@
 """Meshes as arrays: parts with one material each, made of polygon faces in metres, Y up."""
+# Over 300 lines: the values of assets, and the making of parts from faces, which all objects share.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field

@@ -14,6 +14,7 @@ def keep_usd_messages() -> None:
     """Keep the messages of stages that this process opens from now on, for `usd_messages`."""
     global _is_kept  # noqa: PLW0603 - USD's messages are the process's own
     _is_kept = True
+    usd_messages()  # those of an earlier command of this process
 
 
 def collect_usd_messages() -> None:

@@ -64,11 +64,13 @@ def add_stops(osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds]) ->
     rules: dict[tuple[LaneBounds, str], int] = {}
     by_place = shapely.STRtree([shapely.Polygon(lane.ground) for lane in lanes])
     for thing in _things(garage):
-        for index in sorted(by_place.query(thing.outline, predicate="intersects").tolist()):
+        touched = sorted(by_place.query(thing.outline, predicate="intersects").tolist())
+        crossed = [(index, across) for index in touched if (across := _across(lanes[index], thing)) is not None]
+        if touched and not crossed:  # a raised arm, folded before the middle of the lane
+            index = max(touched, key=lambda index: by_place.geometries[index].intersection(thing.outline).area)
+            crossed = [(index, _beside(lanes[index], thing))]
+        for index, across in crossed:
             lane, (start, end) = lanes[index], ends[index]
-            across = _across(lane, thing)
-            if across is None:
-                continue
             left_m = _BEFORE_M - across[0]
             leading = before[end if lane.lane == LEFT else start] if left_m > 0 else []
             stops = [(other, other.road.line.length_m - left_m) for other in leading] or [(lane, -left_m)]
@@ -96,9 +98,21 @@ def _across(lane: LaneBounds, thing: _Thing) -> tuple[float, float] | None:
     road, length_m = lane.road, lane.road.line.length_m
     runs = np.linspace(0.0, length_m, math.ceil(length_m / _STEP_M) + 1)
     over = runs[shapely.contains_xy(thing.outline, road.middle_points(lane.lane, runs))]
-    if not len(over):
-        return None
-    start_m, end_m = float(over[0]), float(over[-1])
+    return _driven(lane, float(over[0]), float(over[-1])) if len(over) else None
+
+
+def _beside(lane: LaneBounds, thing: _Thing) -> tuple[float, float]:
+    """Find the place along a lane beside which the part of a gate over the lane lies."""
+    part = thing.outline.intersection(shapely.Polygon(lane.ground)).centroid
+    runs = np.linspace(0.0, lane.road.line.length_m, math.ceil(lane.road.line.length_m / _STEP_M) + 1)
+    points = lane.road.middle_points(lane.lane, runs)
+    run_m = float(runs[np.hypot(*(points - (part.x, part.y)).T).argmin()])
+    return _driven(lane, run_m, run_m)
+
+
+def _driven(lane: LaneBounds, start_m: float, end_m: float) -> tuple[float, float]:
+    """Turn an interval along a road into one along a lane, in the direction of its traffic."""
+    length_m = lane.road.line.length_m
     return (length_m - end_m, length_m - start_m) if lane.lane == LEFT else (start_m, end_m)
 
 

@@ -10,12 +10,14 @@ from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.objects.kind import Kind, Spec
 from garage2usd.objects.outline import Polygon, rectangle
 
-__all__ = ["ARM_HALF_M", "KIND", "PIVOT_M", "BarrierSpec"]
+__all__ = ["ARM_BEFORE_M", "ARM_HALF_M", "KIND", "PIVOT_M", "BarrierSpec"]
 
 KIND = Kind("barrier", number=19, label="barrier", cityscapes="guard rail", group="Ramps")
 
 ARM_HALF_M = 0.04
 """Half the height of the arm."""
+ARM_BEFORE_M = 0.22
+"""Distance of the middle of the arm from that of the housing, in the direction of the traffic."""
 _ARM_PITCH_M = 0.45
 _HOUSING_M = (0.3, 1.05, 0.3)
 PIVOT_M = 0.92
@@ -39,7 +41,7 @@ class BarrierSpec(Spec, kind=KIND):
         plinth = box_faces((-x - 0.05, 0.0, -z - 0.05), (x + 0.05, 0.1, z + 0.05))
         cap = box_faces((-x - 0.02, top, -z - 0.02), (x + 0.02, top + 0.04, z + 0.02))
         red, white = _arm(self.arm_m, self.elbow_m) if self.is_raised else _level(0.0, -self.arm_m, PIVOT_M)
-        arm_z = z + 0.07
+        arm_z = ARM_BEFORE_M
         hub = box_faces((-0.09, PIVOT_M - 0.09, z), (0.09, PIVOT_M + 0.09, arm_z - ARM_HALF_M / 2))
         return Asset(
             (

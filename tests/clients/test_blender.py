@@ -86,7 +86,10 @@ def test_blender_draws_every_mesh_of_tiles_that_share_prototypes(builds, importe
     expected, found = {}, {}
     for placement in build.garage.layout.placements:
         for part in asset_of(placement.spec).parts:
-            expected.setdefault(part.name, []).append(placement.position_m)
+            x_m, y_m, z_m, _ = part.pose or (0.0, 0.0, 0.0, 0.0)
+            ground = placement.to_world((x_m, z_m))
+            place = ground[0], placement.position_m[1] + y_m, ground[1]
+            expected.setdefault(part.name, []).append(place)
     for item in imported(build.stage)["drawn"]:
         if item["type"] == "MESH":
             found.setdefault(item["name"], []).append(item["place"])

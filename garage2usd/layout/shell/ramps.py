@@ -13,7 +13,7 @@ from garage2usd.layout.ceiling.lamps import TUBE
 from garage2usd.layout.fittings import TUBE_DEPTH_M
 from garage2usd.layout.placement import Placement, of_spec, placed
 from garage2usd.layout.shell.building import DOOR_FRAME_M
-from garage2usd.objects.barrier import ARM_HALF_M, PIVOT_M, BarrierSpec
+from garage2usd.objects.barrier import ARM_BEFORE_M, ARM_HALF_M, PIVOT_M, BarrierSpec
 from garage2usd.objects.beam import BeamSpec
 from garage2usd.objects.lit_sign import LEAST_SIGN_M
 from garage2usd.objects.portal import PortalSpec
@@ -158,7 +158,8 @@ def with_barriers(
         arm_m = round(2 * half + _BARRIER_GAP_M, 3)
         left, along, turn = (1, _BARRIER_FAR_M, 0.0) if portal.is_entrance else (-1, _BARRIER_NEAR_M, np.pi)
         place = wall.to_world((left * (half + _BARRIER_GAP_M), along))
-        top_m = min(portal.height_m - TUBE_DEPTH_M, _underside_m(beams, place)) - _ARM_GAP_M - ARM_HALF_M
+        upright = wall.to_world((left * (half + _BARRIER_GAP_M), along + left * ARM_BEFORE_M))
+        top_m = min(portal.height_m - TUBE_DEPTH_M, _underside_m(beams, upright)) - _ARM_GAP_M - ARM_HALF_M
         upright_m = PIVOT_M + 2 * half
         elbow_m, below = min(top_m, upright_m), portal
         if top_m < upright_m:  # else all of the arm is beside the opening
@@ -173,13 +174,13 @@ def with_barriers(
 
 
 def _underside_m(beams: Iterable[Placement], place: Point) -> float:
-    """Return the height of the lowest beam over the housing of a gate, infinite without one."""
+    """Return the height of the lowest beam over the upright arm of a gate, infinite without one."""
     lowest_m = np.inf
     for beam, spec in of_spec(beams, BeamSpec):
         x, z = (beam.position_m[k] - there for k, there in zip((0, 2), place, strict=True))
         cos, sin = np.cos(beam.yaw_rad), np.sin(beam.yaw_rad)
         across_m, along_m = abs(cos * x - sin * z), abs(sin * x + cos * z)
-        if across_m < spec.width_m / 2 + _BARRIER_GAP_M and along_m < spec.length_m / 2 + _BARRIER_GAP_M:
+        if across_m < spec.width_m / 2 + 2 * ARM_HALF_M and along_m < spec.length_m / 2 + 2 * ARM_HALF_M:
             lowest_m = min(lowest_m, beam.position_m[1] - spec.depth_m)
     return float(lowest_m)
 
