@@ -37,9 +37,9 @@ def colliders(layout):
 
 
 def expected_place(placement, part):
-    """A box lies around the middle of its points, everything else at the placement's origin."""
+    """A box lies around the middle of its points, everything else at its own origin, such as a wheel's hub."""
     low, high = part.points.min(axis=0), part.points.max(axis=0)
-    x, y, z = (low + high) / 2 if part.collider is Collider.BOX else np.zeros(3)
+    x, y, z = (low + high) / 2 if part.collider is Collider.BOX else (part.pose or (0.0, 0.0, 0.0))[:3]
     origin = placement.position_m
     world_x, world_z = to_world((x, z), (origin[0], origin[2]), placement.yaw_rad)
     return world_x, origin[1] + y, world_z
@@ -62,6 +62,15 @@ def assert_same_kinds_and_places(shapes, expected):
         assert_same_places(found, places)
 
 
+def own_points(part):
+    """Points in the axes of the mesh, which those of a wheel are not the car's."""
+    if part.pose is None:
+        return part.points
+    angle = np.radians(part.pose.yaw_deg)
+    cos, sin = np.cos(angle), np.sin(angle)
+    return (part.points - np.array(part.pose[:3])) @ np.array([(cos, 0.0, sin), (0.0, 1.0, 0.0), (-sin, 0.0, cos)])
+
+
 def assert_same_sizes(shapes, expected):
     # what a thing is called without the number of its place: a column on a shared tile has none
     parts = {}
@@ -69,7 +78,8 @@ def assert_same_sizes(shapes, expected):
         parts.setdefault((placement.name.partition("_")[0], part.name), set()).add(part)
     for shape in shapes:
         owner, _, name = shape["path"].split("/")[-3:]
-        bounds = [(part.points.min(axis=0), part.points.max(axis=0)) for part in parts[owner.partition("_")[0], name]]
+        meshes = map(own_points, parts[owner.partition("_")[0], name])
+        bounds = [(points.min(axis=0), points.max(axis=0)) for points in meshes]
         if shape["type"] == "BOX":
             sizes = [np.sort(high - low) for low, high in bounds]
             assert any(np.allclose(np.sort(shape["size"]), size, atol=2 * BOX_TOLERANCE_M) for size in sizes), shape
