@@ -175,7 +175,7 @@ def test_files_of_text_begin_with_a_byte_order_mark_or_not(tmp_path, config, mar
         "r.csv": ",".join(map(str, report["R"])),
         "c.csv": "\n".join(map(str, report["C"])),
         "s.json": json.dumps(report["S"]),
-        "p.toml": 'name = "mine"\n',
+        "p.toml": 'name = "mine"\nbased_on = "cn-jgj100"\n',
         "g_report.json": made.report.read_text(),
         "g_labels.json": made.labels.read_text(),
     }
