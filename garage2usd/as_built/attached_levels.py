@@ -7,7 +7,6 @@ from typing import NamedTuple
 import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.garage import Fault, LaneEdge, LaneGraph, LaneKind, LaneNode, Stall
@@ -143,6 +142,8 @@ def _moved_m(nodes: Sequence[LaneNode], number: int, level: FoundLevel) -> float
     told = [(node.position[0], node.height_m, node.position[1]) for node in nodes if node.level == number]
     if not own:
         return 0.0
+    from scipy.spatial import cKDTree  # noqa: PLC0415 - half a second that all other commands would wait
+
     placed = np.array(own) @ level.matrix[:3, :3] + level.matrix[3, :3]
     return float(cKDTree(np.array(told)).query(placed)[0].max())
 

@@ -98,7 +98,8 @@ def _brackets() -> list[Face]:
     for x in (0.01, 0.26):
         left, right = x - _BRACKET_HALF_M, x + _BRACKET_HALF_M
         faces += box_faces((left, _FOOT_M - 0.008, 0.0), (right, _FOOT_M, _BRACKET_M))
-        faces += box_faces((left, _FOOT_M - _BRACKET_M, 0.0), (right, _FOOT_M - 0.008, 0.008))
+        # its ends lie within the upper leg and off the wall, as an edge of both legs would be one of four faces
+        faces += box_faces((left, _FOOT_M - _BRACKET_M, 0.0005), (right, _FOOT_M - 0.004, 0.008))
         web = [(0.008, -0.008), (_BRACKET_M, -0.008), (0.008, -_BRACKET_M)]
         for side in (-0.004, 0.004):
             face = np.array([(x + side, _FOOT_M + up, out) for out, up in web])
