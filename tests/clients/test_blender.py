@@ -13,7 +13,7 @@ from pxr import Usd
 from scipy.spatial import KDTree
 from support.finishes import lamp_of
 from support.pictures import difference, read_png, store, stored
-from support.places import assert_same_places
+from support.places import assert_same_places, place_of_part
 from support.sample_files import REPOSITORY, each_build
 from support.small_garage import SETTINGS
 from support.stage_textures import texture_names
@@ -86,10 +86,7 @@ def test_blender_draws_every_mesh_of_tiles_that_share_prototypes(builds, importe
     expected, found = {}, {}
     for placement in build.garage.layout.placements:
         for part in asset_of(placement.spec).parts:
-            x_m, y_m, z_m, _ = part.pose or (0.0, 0.0, 0.0, 0.0)
-            ground = placement.to_world((x_m, z_m))
-            place = ground[0], placement.position_m[1] + y_m, ground[1]
-            expected.setdefault(part.name, []).append(place)
+            expected.setdefault(part.name, []).append(place_of_part(placement, part))
     for item in imported(build.stage)["drawn"]:
         if item["type"] == "MESH":
             found.setdefault(item["name"], []).append(item["place"])

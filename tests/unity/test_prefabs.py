@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from pxr import Usd, UsdGeom, UsdPhysics, UsdShade
 from support.label_tables import labelled_objects
-from support.places import assert_same_places
+from support.places import assert_same_places, place_of_part
 from support.sample_files import OBJECT_SAMPLES, SAMPLES
 from support.unity.layer import axes_of, from_usd, place_of, world_vertices
 
@@ -104,7 +104,7 @@ def test_every_part_of_every_asset_is_drawn_and_collides_as_it_should(imported, 
     expected = {}
     for placement in build.garage.layout.placements:
         for part in asset_of(placement.spec).parts:
-            expected.setdefault((part.name, COLLIDERS.get(part.collider)), []).append(placement.position_m)
+            expected.setdefault((part.name, COLLIDERS.get(part.collider)), []).append(place_of_part(placement, part))
     found = {}
     for item in prefab.objects:
         collider = item.get("collider")

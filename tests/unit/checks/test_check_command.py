@@ -30,9 +30,10 @@ def test_stage_and_report_of_a_build_say_the_same(made):
         assert result.exit_code == 0, result.output
         tables.append(result.output)
     assert tables[0] == tables[1]
-    header, finding, summary = tables[0].splitlines()
+    header, finding, clauses, summary = tables[0].splitlines()
     assert header.split()[:3] == ["severity", "rule", "place"]
     assert finding.split()[:2] == ["warning", "personnel-exits"]
+    assert clauses == "35 clauses of cn-jgj100 checked"
     assert summary == "checked against cn-jgj100: 0 error, 1 warning, 0 info"
     assert "certified" not in tables[0]
 

@@ -156,7 +156,7 @@ TOLD = {"source": "the client", "confidence": "high"}
 def profile_of(**metres):
     counts = {"stalls_per_van_stall"}
     return {
-        "name": "client",
+        "name": "client" if metres else "none",
         **{
             name: {"value": value, "unit": "count" if name in counts else "m", **TOLD} for name, value in metres.items()
         },
