@@ -210,8 +210,8 @@ def test_garages_that_share_assets_are_small(tmp_path, seeds):
         assert len(files) == 6
         assert sum(path.stat().st_size for path in files) <= 250_000
         sizes.append(sum(map(len, contents(tmp_path / "assets").values())))
-    # the second and third add what is theirs alone: outlines of stalls, stains, numbers
-    assert sizes[2] < 1.3 * sizes[0] < 6_500_000
+    # the second and third add what is theirs alone: outlines of stalls, stains, numbers, and some models of cars
+    assert sizes[2] < 1.65 * sizes[0] < 4_600_000
     assert_named_by_content(tmp_path / "assets")
 
 
