@@ -26,7 +26,7 @@ from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.labels import label_table
 from garage2usd.stage.looks import TEXTURE_FOLDER
 from garage2usd.stage.own_assets import OWN_ASSETS, own_shapes, write_own_assets
-from garage2usd.stage.prototypes import Prototype, asset_of, name_prototypes
+from garage2usd.stage.prototypes import asset_of, name_prototypes
 from garage2usd.stage.texture_files import NamedFile, textures_of
 from garage2usd.stage.usdz import write_usdz
 from garage2usd.structure.grid import Cell
@@ -162,8 +162,6 @@ def write_stage(
     assets = _asset_files(of_store, finishes, config, progress)
     prototypes = name_prototypes(layout, {shape: made.layer.name for shape, made in assets.items()})
     contents = _contents(assets.values())
-    if packed:
-        prototypes, contents = _with_short_names(prototypes, contents)
     materials = {key for shape in grounds for key in asset_of(shape).materials}
     contents |= _textures(textures_of(materials, finishes, config.texture_quality))
     is_flat = config.form is StageForm.FLAT
@@ -233,17 +231,6 @@ def _contents(assets: Iterable[AssetFile]) -> dict[str, bytes]:
         contents[asset.layer.name] = asset.layer.data
         contents |= _textures(asset.textures)
     return contents
-
-
-def _with_short_names(
-    prototypes: Mapping[Spec, Prototype], contents: Mapping[str, bytes]
-) -> tuple[dict[Spec, Prototype], dict[str, bytes]]:
-    """Name the layers of assets by their prototypes, as a package shares them with no other garage."""
-    short: dict[str, str] = {}
-    for prototype in prototypes.values():
-        short.setdefault(prototype.file, f"{prototype.name}{StageFormat.USDC}")
-    renamed = {spec: prototype._replace(file=short[prototype.file]) for spec, prototype in prototypes.items()}
-    return renamed, {short.get(name, name): data for name, data in contents.items()}
 
 
 def _textures(textures: Iterable[NamedFile]) -> dict[str, bytes]:
