@@ -33,7 +33,7 @@ values = st.recursive(
 SECTIONS = GarageConfig().model_dump()
 PLACES = [(name,) for name in SECTIONS]
 PLACES += [(name, key) for name, section in SECTIONS.items() if isinstance(section, dict) for key in section]
-PROFILE = load_profile(DEFAULT_PROFILE).model_dump(mode="json")
+PROFILE = load_profile(DEFAULT_PROFILE).model_dump(mode="json") | {"name": "own"}
 DRAWING = "#E###\n.=...\n.===.\n...=.\n###X#"
 
 
