@@ -66,9 +66,10 @@ class ShownText:
             raise AttributeError(name)
         return getattr(self.below, name)
 
-    def write(self, text: str) -> int:
-        """Write text."""
-        self.below.write(_CONTROL.sub(lambda found: ascii(found[0])[1:-1], text))
+    def write(self, text: str | bytes) -> int:
+        """Write text, or bytes of UTF-8, in which click writes completions for shells."""
+        told = text.decode() if isinstance(text, bytes) else text
+        self.below.write(_CONTROL.sub(lambda found: ascii(found[0])[1:-1], told))
         return len(text)
 
 
