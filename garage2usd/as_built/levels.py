@@ -29,7 +29,6 @@ from garage2usd.stage.levels import LevelLayout
 __all__ = ["BuiltLevel", "BuiltLevels", "built_levels", "laid_out_levels"]
 
 _SAME_PLACE_DIGITS = 2
-_RISE_M = 0.01
 _ONTO_RAMP_M = 4.0
 """Length in metres of a straight ramp on which a car that drives onto it, or comes up, may still be turning."""
 

@@ -7,8 +7,6 @@ from contextlib import contextmanager
 from importlib.metadata import distribution
 from importlib.util import find_spec
 from pathlib import Path
-from urllib.parse import urlsplit
-from urllib.request import url2pathname
 
 from garage2usd.common.errors import MissingExtraError
 from garage2usd.common.system import HAS_EMBREE
@@ -100,6 +98,9 @@ def _missing(purpose: str, modules: list[str], without: str = "") -> MissingExtr
 
 def installation_of(extras: str) -> str:
     """Return the command that installs extras for garage2usd as it is installed: in a checkout or from an index."""
+    from urllib.parse import urlsplit  # noqa: PLC0415 - only where an extra is missing
+    from urllib.request import url2pathname  # noqa: PLC0415
+
     origin = json.loads(distribution("garage2usd").read_text("direct_url.json") or "{}")
     place = Path(url2pathname(urlsplit(origin.get("url", "")).path))
     if "url" not in origin or (
