@@ -67,7 +67,15 @@ class ShownText:
         return getattr(self.below, name)
 
     def write(self, text: str | bytes) -> int:
-        """Write text, or bytes of UTF-8, in which click writes completions for shells."""
+        """Write text, or bytes of UTF-8, in which click writes completions for shells.
+
+        Raises
+        ------
+        TypeError
+            For no bytes at all, with which click finds out whether a stream takes bytes in place of text.
+        """
+        if text == b"":
+            raise TypeError("a stream of text takes bytes as completions only")
         told = text.decode() if isinstance(text, bytes) else text
         self.below.write(_CONTROL.sub(lambda found: ascii(found[0])[1:-1], told))
         return len(text)

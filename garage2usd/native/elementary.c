@@ -164,10 +164,10 @@ double same_atan2(double y, double x)
     if (isnan(x) || isnan(y))
         return NAN;
     double rise = fabs(y), run = fabs(x), angle;
+    if (run == 0.0 && rise > 0.0)
+        return y < 0.0 ? -HALF_PI_HIGH : HALF_PI_HIGH; /* to the last bit, for zeros of either sign */
     if (rise == 0.0)
         angle = 0.0;
-    else if (run == 0.0)
-        angle = HALF_PI_HIGH;
     else if (isinf(rise) && isinf(run))
         angle = HALF_PI_HIGH / 2;
     else
