@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Usd, UsdGeom, UsdPhysics, Vt
 
-from garage2usd.as_built.shapes import Array, Body, MeshShape, Thing, box_shape
+from garage2usd.as_built.shapes import Array, Body, MeshShape, Model, Thing, box_shape
 from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
 from garage2usd.common.errors import StageError
 from garage2usd.objects import PIECE_LABELS
@@ -80,8 +80,8 @@ def read_contents(stage: Usd.Stage, objects: Iterable[PlacedObject] | None = Non
     for placed in placed_objects(stage, metres_y_up(stage)) if objects is None else objects:
         look = look_of(placed)
         lights += [_light(light, matrix @ placed.matrix, units) for light, matrix in look.lights]
-        if look.bodies:
-            bodies = look.placed(placed.matrix)
+        if look.model.bodies:
+            bodies = look.model.placed(placed.matrix)
             whole = _whole(placed, things)
             if whole is None:
                 things[placed.path] = Thing(placed.path, placed.label, bodies)
@@ -102,16 +102,10 @@ def _whole(placed: PlacedObject, things: Mapping[str, Thing]) -> Thing | None:
 
 
 class _Look(NamedTuple):
-    """Meshes of an object in its own space."""
+    """Meshes and lights of an object in its own space."""
 
-    bodies: list[Body]
+    model: Model
     lights: list[tuple[Usd.Prim, Array]]
-    matrices: Array
-
-    def placed(self, matrix: Array) -> tuple[Body, ...]:
-        """Return the object's meshes transformed by a matrix."""
-        matrices = self.matrices @ matrix
-        return tuple(Body(body.shape, place, body.touches) for body, place in zip(self.bodies, matrices, strict=True))
 
 
 def _look(placed: PlacedObject, shapes: "_Shapes") -> _Look:
@@ -124,7 +118,7 @@ def _look(placed: PlacedObject, shapes: "_Shapes") -> _Look:
             shape = shapes.of(prim)
             if shape is not None:
                 bodies.append(Body(shape, matrix, prim.HasAPI(UsdPhysics.CollisionAPI)))
-    return _Look(bodies, lights, np.array([body.matrix for body in bodies]).reshape(-1, 4, 4))
+    return _Look(Model(tuple(bodies)), lights)
 
 
 class _Shapes:

@@ -5,7 +5,8 @@ from functools import lru_cache
 import numpy as np
 
 from garage2usd.as_built.garage import BuiltGarage
-from garage2usd.as_built.shapes import Body, MeshShape, Thing, turned_about_y
+from garage2usd.as_built.shapes import Body, MeshShape, Model, Thing, turned_about_y
+from garage2usd.assets import Part
 from garage2usd.garage import Fault, LaneGraph, Stall
 from garage2usd.layout import Layout
 from garage2usd.objects import KINDS, Spec
@@ -13,7 +14,9 @@ from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import Structure
 
-__all__ = ["garage_of_layout", "garage_without_layout", "shapes_of"]
+__all__ = ["garage_of_layout", "garage_without_layout", "model_of"]
+
+_IDENTITY = np.eye(4)
 
 
 def garage_of_layout(layout: Layout, *, source: str, kind: str, faults: tuple[Fault, ...] = ()) -> BuiltGarage:
@@ -64,20 +67,22 @@ def _things(layout: Layout) -> tuple[Thing, ...]:
     matrices = turned_about_y(objects.yaw_rad[rows], objects.position_m[rows])
     for row, number, matrix in zip(rows.tolist(), objects.spec[rows].tolist(), matrices, strict=True):
         spec = objects.specs[number]
-        bodies = tuple(Body(shape, matrix, touches) for shape, touches in shapes_of(spec.shape))
-        things.append(Thing(paths[row], spec.kind.label, bodies))
+        things.append(Thing(paths[row], spec.kind.label, model_of(spec.shape).placed(matrix)))
     return tuple(things)
 
 
 @lru_cache(maxsize=1024)
-def shapes_of(spec: Spec) -> tuple[tuple[MeshShape, bool], ...]:
-    """Return the meshes of a spec, each with a flag for its collider."""
-    return tuple(
-        (
-            MeshShape(
-                part.points.astype(np.float64), part.face_counts.astype(np.int64), part.face_indices.astype(np.int64)
-            ),
-            part.collider is not None,
-        )
-        for part in asset_of(spec).parts
+def model_of(spec: Spec) -> Model:
+    """Return the meshes of a spec, each where its layer has it in single precision, so that both are driven alike."""
+    return Model(tuple(map(_body, asset_of(spec).parts)))
+
+
+def _body(part: Part) -> Body:
+    shape = MeshShape(
+        part.own_points.astype(np.float64), part.face_counts.astype(np.int64), part.face_indices.astype(np.int64)
     )
+    matrix = _IDENTITY
+    if part.pose is not None:
+        place = part.pose.single
+        matrix = turned_about_y(np.radians(place.yaw_deg), place[:3])
+    return Body(shape, matrix, part.collider is not None)

@@ -20,6 +20,7 @@ __all__ = [
     "Face",
     "Facets",
     "MeshShape",
+    "Model",
     "Piece",
     "Thing",
     "are_upright",
@@ -30,6 +31,8 @@ __all__ = [
 Array = NDArray[np.float64]
 
 _LEVEL = 1e-6
+_DIGITS = 12
+"""Digits of a mesh's place in its object: what sines and cosines of half a turn have beyond is noise."""
 _ALL_IN_ONE = np.zeros(1, dtype=np.int64)
 """Start indices of a mesh's pieces if the mesh is a single piece."""
 
@@ -265,6 +268,28 @@ class Body(NamedTuple):
     def _is_upright(self) -> bool:
         """True if the placed mesh is rotated about the vertical only."""
         return bool(are_upright(self.matrix))
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """Meshes of an object in its own coordinates, of which there may be many in a garage.
+
+    Attributes
+    ----------
+    bodies
+        The meshes, placed in the object.
+    """
+
+    bodies: tuple[Body, ...]
+
+    @cached_property
+    def _matrices(self) -> Array:
+        return np.round([body.matrix for body in self.bodies], _DIGITS).reshape(-1, 4, 4)
+
+    def placed(self, matrix: Array) -> tuple[Body, ...]:
+        """Return the meshes of an object that a matrix places, for row vectors; float64, shape (4, 4)."""
+        matrices = self._matrices @ matrix
+        return tuple(body._replace(matrix=place) for body, place in zip(self.bodies, matrices, strict=True))
 
 
 def are_upright(matrices: Array) -> NDArray[np.bool_]:

@@ -14,7 +14,7 @@ from garage2usd.assets.materials import (
     Touch,
     finished,
 )
-from garage2usd.assets.mesh import WELD_DECIMALS, AreaLight, Asset, Collider, Part, Pose, pascal_case
+from garage2usd.assets.mesh import WELD_DECIMALS, AreaLight, Asset, Collider, Part, pascal_case
 from garage2usd.assets.non_visual import BASE_OF_TOUCH, NON_VISUAL, NonVisual
 
 __all__ = [

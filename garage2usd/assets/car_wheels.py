@@ -8,7 +8,8 @@ import numpy as np
 from garage2usd.assets.car_patches import Faces
 from garage2usd.assets.car_shapes import Rim
 from garage2usd.assets.faces import lathe_faces
-from garage2usd.assets.mesh import WELD_DECIMALS, Asset, Collider, Part, Pose, make_part
+from garage2usd.assets.mesh import WELD_DECIMALS, Asset, Collider, Part, make_part
+from garage2usd.assets.pose import Pose
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.vehicles import CarBody
 
@@ -82,15 +83,10 @@ def steered_box(body: CarBody, steer_deg: float) -> tuple[float, float, float]:
 
 def _turned(part: Part, pose: Pose, before: Pose = _ORIGIN) -> Part:
     """Move a part from a pose to another place, and turn it there by the yaw of that place."""
-    angle = np.radians(pose.yaw_deg)
-    cos, sin = np.round((np.cos(angle), np.sin(angle)), 12)
-    # about +Y; the nose of a car faces -Z
-    turn = np.array([(cos, 0.0, -sin), (0.0, 1.0, 0.0), (sin, 0.0, cos)])
-    points = (part.points.astype(np.float64) - before[:3]) @ turn + pose[:3]
     return replace(
         part,
-        points=points.astype(np.float32),
-        normals=(part.normals @ turn + 0.0).astype(np.float32),
+        points=pose.placed(part.points.astype(np.float64) - before[:3]).astype(np.float32),
+        normals=(part.normals @ pose.turn + 0.0).astype(np.float32),
         pose=pose._replace(yaw_deg=before.yaw_deg + pose.yaw_deg),
     )
 

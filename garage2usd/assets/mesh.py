@@ -4,13 +4,13 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
 from garage2usd.assets.materials import MATERIALS, Finish, Rgb
+from garage2usd.assets.pose import Pose
 
 __all__ = [
     "MIN_AREA_M2",
@@ -20,7 +20,6 @@ __all__ = [
     "Collider",
     "Face",
     "Part",
-    "Pose",
     "along_main_axis",
     "area_vectors",
     "distinct_normals",
@@ -49,15 +48,6 @@ class Collider(StrEnum):
     MESH = "none"
     BOX = "boundingCube"
     CONVEX_HULL = "convexHull"
-
-
-class Pose(NamedTuple):
-    """A pose in an asset: position in metres, and rotation about +Y in degrees."""
-
-    x_m: float
-    y_m: float
-    z_m: float
-    yaw_deg: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,6 +91,13 @@ class Part:
     collider: Collider | None = None
     piece: str = ""
     pose: Pose | None = None
+
+    @property
+    def own_points(self) -> NDArray[np.float32]:
+        """Points in the axes of the pose, welded, so that equal parts have equal arrays; shape (P, 3)."""
+        if self.pose is None:
+            return self.points
+        return (np.round(self.pose.taken_back(self.points), WELD_DECIMALS) + 0.0).astype(np.float32)
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import TypeAdapter
 
-from garage2usd.assets import Asset, Collider, Part, Pose
+from garage2usd.assets import Asset, Collider, Part
+from garage2usd.assets.pose import Pose
 from garage2usd.common.errors import StageError
 from garage2usd.objects import Spec
 

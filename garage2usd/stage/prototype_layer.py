@@ -15,7 +15,6 @@ from garage2usd.assets import (
     MATERIALS,
     NON_VISUAL,
     VARYING,
-    WELD_DECIMALS,
     AreaLight,
     Asset,
     Finish,
@@ -288,15 +287,15 @@ def define_mesh(
     finish = finish or MATERIALS[part.material]
     usual = MATERIALS.get(part.material, finish)
     mesh = define(layer, path, "Mesh")
-    own_points, own_normals = _in_pose(part)
-    points = Vt.Vec3fArray.FromNumpy(own_points)
+    points = Vt.Vec3fArray.FromNumpy(part.own_points)
     attribute(mesh, "points", _TYPES.Point3fArray, points)
     numbers(mesh, "faceVertexCounts", part.face_counts)
     numbers(mesh, "faceVertexIndices", part.face_indices)
     attribute(mesh, "subdivisionScheme", _TYPES.Token, UsdGeom.Tokens.none, uniform=True)
     attribute(mesh, "extent", _TYPES.Float3Array, UsdGeom.PointBased.ComputeExtent(points))
     # as a primvar, since the schema's attribute takes no indices, which halve the size of a car
-    _define_primvar(mesh, "normals", _TYPES.Normal3fArray, Vt.Vec3fArray.FromNumpy(own_normals), part.normal_indices)
+    normals = Vt.Vec3fArray.FromNumpy(_own_normals(part))
+    _define_primvar(mesh, "normals", _TYPES.Normal3fArray, normals, part.normal_indices)
     if part.pose is not None:
         x_m, y_m, z_m, yaw_deg = part.pose
         operation(mesh, "translate", _TYPES.Float3, Gf.Vec3f(x_m, y_m, z_m))
@@ -318,16 +317,12 @@ def define_mesh(
     relationship(mesh, "material:binding:physics", [_friction(looks, finish.touch)])
 
 
-def _in_pose(part: Part) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Points and normals of a part in the axes of its pose, rounded so that equal parts have equal arrays."""
+def _own_normals(part: Part) -> NDArray[np.float32]:
+    """Normals of a part in the axes of its pose, rounded so that equal parts have equal arrays."""
     if part.pose is None:
-        return part.points, part.normals
-    angle = np.radians(part.pose.yaw_deg)
-    cos, sin = np.cos(angle), np.sin(angle)
-    back = np.array([(cos, 0.0, sin), (0.0, 1.0, 0.0), (-sin, 0.0, cos)])
-    points = np.round((part.points.astype(np.float64) - part.pose[:3]) @ back, WELD_DECIMALS) + 0.0
-    normals = np.round(part.normals.astype(np.float64) @ back, _NORMAL_DECIMALS) + 0.0
-    return points.astype(np.float32), normals.astype(np.float32)
+        return part.normals
+    normals = np.round(part.normals.astype(np.float64) @ part.pose.turn.T, _NORMAL_DECIMALS) + 0.0
+    return np.asarray(normals, np.float32)
 
 
 def _as_points(part: Part) -> tuple[NDArray[np.float32], NDArray[np.int32]]:

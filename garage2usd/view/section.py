@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.as_built.layout_reader import shapes_of
+from garage2usd.as_built.layout_reader import model_of
 from garage2usd.as_built.openings import face_cuts
 from garage2usd.as_built.shapes import Body, turned_about_y
 from garage2usd.layout import Layout, Placement
@@ -158,11 +158,11 @@ def _reach_m(spec: Spec) -> float:
     )
 
 
-def _bodies(placement: Placement, floor_m: float) -> list[Body]:
+def _bodies(placement: Placement, floor_m: float) -> tuple[Body, ...]:
     """Return the meshes of a placement in the garage."""
     x, y, z = placement.position_m
     matrix = turned_about_y(placement.yaw_rad, (x, y + floor_m, z))
-    return [Body(shape, matrix, touches) for shape, touches in shapes_of(placement.spec.shape)]
+    return model_of(placement.spec.shape).placed(matrix)
 
 
 def _cut(placement: Placement, plane: _Plane, floor_m: float) -> Iterator[Region | Line]:

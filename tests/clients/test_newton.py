@@ -62,15 +62,6 @@ def assert_same_kinds_and_places(shapes, expected):
         assert_same_places(found, places)
 
 
-def own_points(part):
-    """Points in the axes of the mesh, which those of a wheel are not the car's."""
-    if part.pose is None:
-        return part.points
-    angle = np.radians(part.pose.yaw_deg)
-    cos, sin = np.cos(angle), np.sin(angle)
-    return (part.points - np.array(part.pose[:3])) @ np.array([(cos, 0.0, sin), (0.0, 1.0, 0.0), (-sin, 0.0, cos)])
-
-
 def assert_same_sizes(shapes, expected):
     # what a thing is called without the number of its place: a column on a shared tile has none
     parts = {}
@@ -78,7 +69,7 @@ def assert_same_sizes(shapes, expected):
         parts.setdefault((placement.name.partition("_")[0], part.name), set()).add(part)
     for shape in shapes:
         owner, _, name = shape["path"].split("/")[-3:]
-        meshes = map(own_points, parts[owner.partition("_")[0], name])
+        meshes = (part.own_points for part in parts[owner.partition("_")[0], name])
         bounds = [(points.min(axis=0), points.max(axis=0)) for points in meshes]
         if shape["type"] == "BOX":
             sizes = [np.sort(high - low) for low, high in bounds]

@@ -30,7 +30,7 @@ def test_a_stage_and_its_report_have_the_same_ways(made, tmp_path):
         ways.append(json.loads((tmp_path / f"{number}.json").read_text())["stalls"])
     clearances_m = [[stall[leg].pop("clearance_m") for stall in found for leg in ("in", "out")] for found in ways]
     assert ways[0] == ways[1]
-    # wheels stand in poses of their own in the stage, a micrometre from where the plan has them
+    # a lower bound by steps, of outlines that a stage has in single precision
     assert clearances_m[0] == pytest.approx(clearances_m[1], abs=1e-4)
 
 
