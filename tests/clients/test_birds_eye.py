@@ -274,6 +274,7 @@ def test_a_recording_has_views_from_above_with_masks(above):
     assert len(list((folder / "dmpr_ps").iterdir())) == len(frames)
 
 
+@pytest.mark.soak
 def test_free_is_where_a_car_finds_its_height_over_floors_and_ramps(above):
     """Rays through the meshes, to the floor and up from it, without what garage2usd knows of the heights of ramps."""
     labels = read_labels(above.stage, above.made.stage)

@@ -17,6 +17,7 @@ pytest.importorskip("bpy", reason="extra: blender")
 TRUTH = Picture.DEPTH, Picture.INSTANCE, Picture.SEMANTIC
 
 
+@pytest.mark.soak
 def test_effects_change_colour_alone_and_the_car_is_where_its_mask_says(tmp_path):
     built = build(GarageConfig(**SETTINGS), tmp_path / "small.usdc")
     front = read_rig("avp_surround").model_dump(mode="json")["sensors"][0]

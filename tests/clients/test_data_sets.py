@@ -71,6 +71,7 @@ def cluster(folder, count):
             process.wait(30)
 
 
+@pytest.mark.soak
 def test_two_workers_of_which_one_is_killed_give_the_same_bytes(recipe_file, whole, tmp_path):
     folder = tmp_path / "garages"
     with cluster(tmp_path, 2) as (address, processes):

@@ -14,6 +14,7 @@ pytest.importorskip("bpy", reason="extra: blender")
 TRUTH = Picture.DEPTH, Picture.INSTANCE, Picture.SEMANTIC
 
 
+@pytest.mark.soak
 def test_lamps_light_what_is_before_and_behind_the_car_and_change_no_truth(tmp_path):
     built = build(GarageConfig(**SETTINGS), tmp_path / "small.usdc")
     sensors = [

@@ -16,6 +16,7 @@ from garage2usd.sensors.formats.nuscenes import NUSCENES_VERSION
 from garage2usd.sensors.rig.rig import rig_from_mapping
 
 pytestmark = [
+    pytest.mark.soak,
     pytest.mark.client,
     pytest.mark.skipif(not HAS_SENSOR_JUDGES, reason="no environment with nuscenes-devkit"),
 ]

@@ -142,6 +142,7 @@ def page(built):
         assert opened.complaints == []
 
 
+@pytest.mark.soak
 @pytest.mark.skipif(find_browser() is None, reason="no Chromium on the path")
 def test_the_viewer_hides_the_levels_above_the_chosen_one(page, judge):
     assert [button.inner_text() for button in page.page.query_selector_all("#levels button")] == [*FLOORS_M]

@@ -8,6 +8,7 @@ import shapely
 from support.level_judge import LevelJudge
 from support.map_judges import HAS_JUDGES, run_sumo, sumo_network, sumo_parked
 from support.small_levels import FLOORS_M, SMALL_LEVELS
+from support.soak import soak_but
 
 import garage2usd
 
@@ -59,7 +60,7 @@ class LevelsSumo:
         return path
 
 
-@pytest.fixture(scope="module", params=["straight", "helix"])
+@pytest.fixture(scope="module", params=soak_but(["straight"], ["straight", "helix"]))
 def sumo(request, tmp_path_factory):
     changes = HELICES if request.param == "helix" else {}
     config = garage2usd.GarageConfig(**{**SMALL_LEVELS.model_dump(exclude_unset=True), **changes})

@@ -81,6 +81,7 @@ def test_the_lumen_method_lies_between_direct_and_all_light(garage, measured):
     assert 0.9 * maintained["direct"] < garage.garage.layout.illuminance.lumen_method_lux < maintained["total"]
 
 
+@pytest.mark.soak
 def test_the_sample_is_as_bright_as_estimated(builds, tmp_path):
     """With its cars and ducts: the lanes by the point-by-point method, the whole floor by the lumen method."""
     sample = next(sample for sample in SAMPLES if sample.stem == "paper_7x9")

@@ -46,6 +46,7 @@ def test_what_can_be_moved_has_a_mass_and_colliders_that_may_move():
             assert Collider.MESH not in touched
 
 
+@pytest.mark.soak
 @pytest.mark.client
 @needs_newton
 def test_newton_weighs_each_thing_that_is_made_a_body(built, tmp_path):

@@ -56,6 +56,7 @@ def test_slots_and_prims_of_stalls_are_taken_where_cars_stand_or_reach(made):
     assert {name for name, occupied in is_taken.items() if occupied} == taken
 
 
+@pytest.mark.soak
 def test_cells_under_cars_are_occupied_and_those_beside_them_free(made):
     """By the outlines of the cars where they stand, also past a line; what else stands is known from the labels."""
     built, folder, _ = made

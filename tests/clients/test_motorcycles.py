@@ -22,6 +22,7 @@ def stage(tmp_path_factory):
     return garage2usd.build(garage2usd.GarageConfig(**SETTINGS), folder / "g.usdc").stage
 
 
+@pytest.mark.soak
 @pytest.mark.skipif(not HAS_JUDGES, reason="no environment with asam-qc-opendrive, CARLA and SUMO")
 def test_opendrive_s_judges_have_nothing_against_them(stage, tmp_path):
     (path,) = garage2usd.export(stage, [tmp_path / "g.xodr"])

@@ -100,6 +100,7 @@ def test_checks_and_scenarios_take_each_class_for_parked_cars(own):
     assert not [finding for finding in findings if finding.rule in amiss]
 
 
+@pytest.mark.soak
 @needs_blender
 def test_one_drives_and_carries_cameras_that_see_it_where_their_mask_says(own):
     folder = own.folder / "driven"
@@ -240,6 +241,7 @@ def test_the_viewer_shows_each_with_its_class_id_and_paint(own):
         assert page.complaints == []
 
 
+@pytest.mark.soak
 @needs_blender
 def test_masks_along_a_drive_show_them_within_their_boxes(own):
     folder = own.folder / "pictures"

@@ -20,6 +20,7 @@ pytestmark = [
 NOISE_M = 0.02
 
 
+@pytest.mark.soak
 def test_points_fall_on_the_pixels_of_their_objects(tmp_path):
     import OpenEXR
 

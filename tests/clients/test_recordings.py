@@ -327,6 +327,7 @@ def test_shots_tell_what_was_recorded(recorded):
         assert shot.sensor.lens.parameters() == frame["lens"]
 
 
+@pytest.mark.soak
 def test_what_was_finished_before_a_kill_is_not_drawn_again_and_gives_the_same_bytes(tmp_path):
     stage = build(GarageConfig(**SETTINGS), tmp_path / "small" / "small.usdc").stage
     rig = rig_from_mapping({"name": "two", "sensors": [ROOF, COLUMN]})

@@ -145,7 +145,8 @@ def test_classes_are_those_of_the_table(data_set, form):
         assert (frame.preview == np.array(expected)).all()
 
 
-@pytest.mark.parametrize("name", soak_but(1, ["hand_drawn", "irregular", "paper_7x9"]))
+@pytest.mark.soak
+@pytest.mark.parametrize("name", ["hand_drawn", "irregular", "paper_7x9"])
 def test_what_is_painted_has_classes_of_its_own_and_no_pixel_is_lost(builds, name, tmp_path):
     built = builds(REPOSITORY / "samples" / f"{name}.toml", "usdc")
     kinds = Picture.INSTANCE, Picture.SEMANTIC
@@ -207,6 +208,7 @@ def test_frames_list_what_can_be_seen(data_set):
     assert sum(entry["class"] == "car" for entry in above.about["instances"]) == parked
 
 
+@pytest.mark.soak
 def test_rays_through_the_meshes_meet_the_same(data_set):
     """Depth to a tenth of a millimetre and 1e-5 of it, the instance, and of what is flat the normal."""
     made = data_set("instanced")
@@ -257,6 +259,7 @@ def test_colours_fit_the_masks_where_they_lie(data_set):
         assert here < min(moved)
 
 
+@pytest.mark.soak
 def test_ids_of_more_than_fifteen_bits_stay_exact_and_all_else_the_same_bytes(data_set, tmp_path):
     made = data_set("instanced")
     shutil.copytree(made.stage.parent, tmp_path / "stage")

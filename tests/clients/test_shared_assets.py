@@ -26,6 +26,7 @@ def both(request, tmp_path_factory):
     return one("own"), one("shared")
 
 
+@pytest.mark.soak
 @needs_newton
 def test_newton_finds_the_same_colliders(both):
     with running_newton() as load:

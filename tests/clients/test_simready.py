@@ -54,6 +54,7 @@ def assets(builds, tmp_path_factory):
     return found
 
 
+@pytest.mark.soak
 def test_simready_finds_what_is_documented(assets, tmp_path):
     listed, output = tmp_path / "assets.txt", tmp_path / "findings.json"
     listed.write_text("".join(f"{file}\n" for file in assets.values()))

@@ -79,6 +79,7 @@ def kinds_of(built):
     return {entry["class"] for entry in labelled_objects(built.labels)}
 
 
+@pytest.mark.soak
 def test_nvidia_validation_of_every_instance_finds_nothing(all_kinds, builds, tmp_path):
     assert kinds_of(all_kinds) >= kinds_of(builds(*PAPER, "usdc"))
     assert nvidia_findings(all_kinds.stage, tmp_path / "findings.csv", "--no-variants") == []
@@ -90,6 +91,7 @@ def test_validations_of_several_levels_find_nothing(tmp_path):
     assert nvidia_findings(stage, tmp_path / "findings.csv", "--no-variants", "--no-instance-prototypes") == []
 
 
+@pytest.mark.soak
 def test_nvidia_validation_of_every_variant_finds_nothing(tmp_path):
     stage = build(GarageConfig(**VARIED), tmp_path / "small.usdc").stage
     opened = Usd.Stage.Open(str(stage))
@@ -99,12 +101,14 @@ def test_nvidia_validation_of_every_variant_finds_nothing(tmp_path):
     assert nvidia_findings(stage, tmp_path / "findings.csv") == []
 
 
+@pytest.mark.soak
 def test_tiles_that_share_prototypes_pass_both(tmp_path):
     stage = build(GarageConfig(**ALL_KINDS, stage={"form": "nested"}), tmp_path / "small.usdc").stage
     assert usd_findings(stage) == []
     assert nvidia_findings(stage, tmp_path / "findings.csv", "--no-variants") == []
 
 
+@pytest.mark.soak
 def test_shared_assets_and_a_stage_that_refers_to_them_pass_both(tmp_path):
     config = GarageConfig(**{**SETTINGS, "stage": {**SETTINGS["stage"], "assets": "shared"}})
     made = build(config, tmp_path / "a" / "small.usdc")
@@ -113,9 +117,7 @@ def test_shared_assets_and_a_stage_that_refers_to_them_pass_both(tmp_path):
         assert nvidia_findings(path, tmp_path / f"{number}.csv", "--no-variants") == []
 
 
-@pytest.mark.parametrize(
-    "samples", [USUAL_SAMPLES, pytest.param(OBJECT_SAMPLES, marks=pytest.mark.soak)], ids=["usual", "all"]
-)
+@pytest.mark.parametrize("samples", [USUAL_SAMPLES, OBJECT_SAMPLES], ids=["usual", "all"])
 def test_nvidia_validation_of_prototypes_finds_nothing(samples, builds, tmp_path):
     """Those of samples that have all kinds of objects between them, at once, as many are of several."""
     for sample in samples:

@@ -107,6 +107,7 @@ def test_a_stall_is_found_by_its_painted_number(opened):
     page.eval("document.activeElement.blur(), viewer.select(-1)")
 
 
+@pytest.mark.soak
 def test_layers_take_away_what_they_name_and_bring_it_back(opened):
     _, page = opened
     page.page.click("#mode-orbit")
@@ -152,6 +153,7 @@ def test_labels_are_seen_in_the_colours_of_the_legend(opened):
     page.page.keyboard.press("3")
 
 
+@pytest.mark.soak
 def test_one_walks_at_eye_height_and_through_no_wall(opened):
     build, page = opened
     page.page.click("#mode-walk")

@@ -84,6 +84,7 @@ def picture(text):
     return np.frombuffer(base64.b64decode(text), np.uint8).reshape(HEIGHT_PX, WIDTH_PX, 4)[..., :3].astype(int)
 
 
+@pytest.mark.soak
 def test_where_a_level_begins_it_differs_from_the_shape_by_no_spot_that_one_sees(page):
     block = np.ones((WIDEST_PX, WIDEST_PX))
     compared, spots = Counter(), []

@@ -8,7 +8,6 @@ from support.drive_judge import cars_drive_to_each_level
 from support.level_judge import built_and_judged
 from support.ramp_judge import a_large_car_drives_over
 from support.sign_judge import signs_are_right
-from support.soak import soak_but
 
 from garage2usd import GarageConfig
 from garage2usd.as_built.contents import read_contents
@@ -34,7 +33,8 @@ def settings(number):
     )
 
 
-@pytest.mark.parametrize("number", soak_but([1], range(4)))  # dimensioned, with an obstacle
+@pytest.mark.soak
+@pytest.mark.parametrize("number", range(4))
 def test_helices_are_reached_and_a_large_car_drives_over_them(number, tmp_path):
     config = settings(number)
     made, judge = built_and_judged(config, tmp_path / "garage.usdc")

@@ -256,6 +256,7 @@ for seed in map(int, sys.argv[3:]):
 """
 
 
+@pytest.mark.soak
 def test_several_processes_share_a_folder(tmp_path):
     """Both write at once, most of it the same."""
     settings = json.dumps({**SETTINGS, "stage": {"texture_quality": "low", "assets": "shared"}})

@@ -165,7 +165,7 @@ def test_a_stall_without_a_route_is_drawn(tmp_path, config):
     assert "?===" in result.output
 
 
-@pytest.mark.parametrize("mark", ["\ufeff", ""])
+@pytest.mark.parametrize("mark", soak_but(["\ufeff"], ["\ufeff", ""]))
 def test_files_of_text_begin_with_a_byte_order_mark_or_not(tmp_path, config, mark):
     made = garage2usd.build(garage2usd.load_config(config(QUICK)), tmp_path / "g.usdz")
     report = json.loads(made.report.read_text())
@@ -313,6 +313,7 @@ def test_the_schema_command_prints_the_schema():
     assert json.loads(run("schema").output) == config_schema()
 
 
+@pytest.mark.soak
 def test_the_textures_are_baked_again_byte_for_byte(tmp_path):
     result = run("textures", tmp_path / "baked")
     assert result.exit_code == 0, result.output
@@ -323,6 +324,7 @@ def test_the_textures_are_baked_again_byte_for_byte(tmp_path):
     assert baked == kept
 
 
+@pytest.mark.soak
 def test_the_meshes_are_baked_again_byte_for_byte(tmp_path):
     result = run("meshes", tmp_path / "baked")
     assert result.exit_code == 0, result.output

@@ -3,6 +3,8 @@
 import subprocess
 import sys
 
+import pytest
+
 CRASH = """
 import os
 from garage2usd.datasets import cluster
@@ -21,6 +23,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.soak
 def test_a_task_that_crashes_every_worker_is_given_up(tmp_path):
     script = tmp_path / "crash.py"
     script.write_text(CRASH)

@@ -62,12 +62,14 @@ def test_each_drive_is_one_file_of_what_its_sensors_recorded(made):
         assert len(set(driven)) == len(driven)
 
 
+@pytest.mark.soak
 def test_drives_have_the_same_bytes_when_made_again(made, tmp_path):
     recipe, shard, folder, rows = made
     assert make_shard(recipe, tmp_path, shard) == rows
     assert tree_of(tmp_path) == tree_of(folder)
 
 
+@pytest.mark.soak
 def test_drives_lead_from_the_street_over_ramps_to_stalls_of_lower_levels(tmp_path):
     storey_m = 2.9
     garage = {

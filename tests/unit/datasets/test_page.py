@@ -90,6 +90,7 @@ def page(plans, tmp_path_factory):
     return path
 
 
+@pytest.mark.soak
 def test_the_same_plans_give_the_same_bytes_in_another_process(page, plans, tmp_path):
     write_page(tmp_path / "again.html", plans, title="Data set <of> & tests", facts={"Seed": "4"})
     assert (tmp_path / "again.html").read_bytes() == page.read_bytes()

@@ -87,6 +87,7 @@ def test_usual_amounts_fill_in_what_is_not_given():
         GarageConfig(clutter={"people": -1})
 
 
+@pytest.mark.soak
 def test_over_many_garages_clutter_stands_on_ground_that_is_nobodys():
     found = Counter()
     for seed in MANY_SEEDS:

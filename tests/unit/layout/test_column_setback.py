@@ -77,6 +77,7 @@ def test_no_column_stands_in_a_stall_and_check_finds_nothing_more(kinds, seeds):
         assert all(proof.is_full for proof in prove_stalls(made.layout, most_explained=0))
 
 
+@pytest.mark.soak
 def test_cars_get_into_as_many_stalls_with_fewer_moves():
     """Of narrow stalls beside a narrow aisle, as of a profile that asks for nothing."""
     figures = []

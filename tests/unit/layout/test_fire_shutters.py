@@ -5,13 +5,14 @@ import pytest
 from support.level_judge import LevelJudge, above, first_hits
 from support.overlaps import Solids
 from support.small_levels import SMALL_HELICES, SMALL_LEVELS
+from support.soak import soak_but
 
 from garage2usd import GarageConfig, build_levels, generate_levels
 
 GARAGES = {"straight": SMALL_LEVELS, "helix": SMALL_HELICES}
 
 
-@pytest.fixture(scope="module", params=GARAGES)
+@pytest.fixture(scope="module", params=soak_but(["straight"], GARAGES))
 def built(request, tmp_path_factory):
     made = build_levels(GARAGES[request.param], tmp_path_factory.mktemp("shutters") / "garage.usdc")
     return made.garage, LevelJudge(made.stage)

@@ -9,6 +9,7 @@ from support.overlaps import Solids
 from support.sight import EYE_M, part_named, share_hidden, spread_over, triangles, world
 from support.sign_judge import SignJudge
 from support.small_levels import SMALL_HELICES, SMALL_LEVELS
+from support.soak import soak_but
 
 from garage2usd import GarageConfig, build_levels, export, generate_levels
 from garage2usd.assets.countries import Country
@@ -21,7 +22,7 @@ GARAGES = {
 }
 
 
-@pytest.fixture(scope="module", params=GARAGES)
+@pytest.fixture(scope="module", params=soak_but(["straight"], GARAGES))
 def built(request, tmp_path_factory):
     made = build_levels(GARAGES[request.param], tmp_path_factory.mktemp("signs") / "garage.usdc")
     return made.garage, SignJudge(LevelJudge(made.stage))

@@ -60,11 +60,10 @@ def parked(config, garages=GARAGES):
     return found, {stall.name: stall for stall in stalls}
 
 
+@pytest.mark.soak
 @pytest.mark.parametrize(
     ("profile", "market", "stall"),
-    soak_but(
-        1, [("de-garvo", "germany", (2.5, 5.5)), ("us-ada", "usa", (2.75, 5.6)), ("cn-jgj100", "china", (2.5, 5.5))]
-    ),
+    [("de-garvo", "germany", (2.5, 5.5)), ("us-ada", "usa", (2.75, 5.6)), ("cn-jgj100", "china", (2.5, 5.5))],
 )
 def test_five_hundred_garages_have_the_shares_of_their_market(profile, market, stall):
     """Bodies, paints, cars nose out and over a line, each to a point of the table."""

@@ -67,6 +67,7 @@ def site(tmp_path):
     return tmp_path
 
 
+@pytest.mark.soak
 def test_commands_run_and_make_the_same_garage(system, site):
     made = run_as_on(None, site, "build", "small.toml", "-o", "here/garage.usdz")
     assert made.returncode == 0, made.stderr

@@ -107,6 +107,7 @@ def test_commands_run_where_there_is_no_checkout(installed, tmp_path):
     assert (tmp_path / "garage.usdz").stat().st_size > 100_000
 
 
+@pytest.mark.soak
 def test_the_readme_can_be_followed_with_the_wheel_alone(installed, tmp_path):
     run = installed(sys.executable, "-c", FOLLOW_THE_README, REPOSITORY / "tests" / "support", folder=tmp_path)
     assert run.returncode == 0, run.stderr

@@ -66,6 +66,7 @@ def test_no_rays_and_triangles_without_area():
     assert tree.first(*rays(5, np.full(3, -1.0), np.ones(3))).tolist() == [-1] * 5
 
 
+@pytest.mark.soak
 def test_a_garage_gives_the_same_hits_as_by_embree(builds, monkeypatch):
     made = builds(REPOSITORY / "samples" / "hand_drawn.toml", "usdc", "instanced")
     stage = Usd.Stage.Open(str(made.stage))

@@ -13,6 +13,7 @@ from support.level_judge import LevelJudge
 from support.places import MILLIMETRE
 from support.sample_files import REPOSITORY
 from support.small_levels import SMALL_LEVELS
+from support.soak import soak_but
 
 import garage2usd
 from garage2usd.cli import main
@@ -30,7 +31,7 @@ FINE_M, MOST_M = 0.01, 1.6
 """The latter is how high over the floor the lowest point of a cabin may lie."""
 
 
-@pytest.fixture(scope="module", params=[SMALL_LEVELS, HELICES], ids=["straight", "helix"])
+@pytest.fixture(scope="module", params=soak_but([SMALL_LEVELS], [SMALL_LEVELS, HELICES]), ids=["straight", "helix"])
 def drawn(request, tmp_path_factory):
     built = garage2usd.build_levels(request.param, tmp_path_factory.mktemp("section") / "garage.usdc")
     drawing = draw_section(built.garage.layouts, storey_m=built.garage.building.storey_m)
