@@ -14,6 +14,7 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 from garage2usd.checks import RULES
+from garage2usd.common.attribute_docstrings import attribute_docstrings
 from garage2usd.config import PlanConfig, config_schema
 from garage2usd.config.plan import SarsaParameters
 from garage2usd.objects import CLASSES, CLASSES_VERSION, PieceClass
@@ -187,10 +188,11 @@ class ProfileTables(MadeFromCode):
         yield from ("## All clauses", "")
         yield f"| clause | what it is | {' | '.join(PROFILE_NAMES)} |"
         yield "|---" * (2 + len(PROFILE_NAMES)) + "|"
-        for key, field in Profile.model_fields.items():
+        meanings = attribute_docstrings(Profile)
+        for key in Profile.model_fields:
             if key not in {"name", "title"}:
                 values = (_required(clauses[key]) if key in clauses else "" for clauses in profiles)
-                yield f"| `{key}` | {_cell(field.description or '')} | {' | '.join(values)} |"
+                yield f"| `{key}` | {_cell(meanings.get(key, ''))} | {' | '.join(values)} |"
         yield ""
         for name in PROFILE_NAMES:
             profile = load_profile(name)

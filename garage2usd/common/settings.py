@@ -4,8 +4,10 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, ValidationError
+from pydantic_core import CoreSchema
 
+from garage2usd.common.attribute_docstrings import attribute_docstrings
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.spelling import nearest
 
@@ -19,9 +21,17 @@ __all__ = ["Record", "Settings", "config_error", "first_fault", "validated"]
 class Settings(BaseModel):
     """Base class of settings written by users: frozen; unknown keys, NaN and infinity are rejected."""
 
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", allow_inf_nan=False, use_attribute_docstrings=True, validate_default=True
-    )
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, validate_default=True)
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler, /) -> dict[str, Any]:
+        """Describe each setting in the JSON schema by the docstring below it."""
+        schema = handler(core_schema)
+        properties = handler.resolve_ref_schema(schema).get("properties", {})
+        for name, text in attribute_docstrings(cls).items():
+            if name in properties:
+                properties[name].setdefault("description", text)
+        return schema
 
 
 Model = TypeVar("Model", bound=Settings)
