@@ -77,7 +77,9 @@ def read_contents(stage: Usd.Stage, objects: Iterable[PlacedObject] | None = Non
     lights: list[PlacedLight] = []
     units = metres_per_unit(stage)
     look_of = once_for_each_look(partial(_look, shapes=_Shapes()))
-    for placed in placed_objects(stage, metres_y_up(stage)) if objects is None else objects:
+    if objects is None:
+        objects = placed_objects(stage, metres_y_up(stage), with_looks=False)
+    for placed in objects:
         look = look_of(placed)
         lights += [_light(light, matrix @ placed.matrix, units) for light, matrix in look.lights]
         if look.model.bodies:

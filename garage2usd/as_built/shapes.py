@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import repeat
 from typing import NamedTuple
 
 import numpy as np
@@ -283,13 +284,17 @@ class Model:
     bodies: tuple[Body, ...]
 
     @cached_property
-    def _matrices(self) -> Array:
-        return np.round([body.matrix for body in self.bodies], _DIGITS).reshape(-1, 4, 4)
+    def _matrices(self) -> Array | None:
+        """Place of each mesh; None if all are in the axes of the object, as most are."""
+        matrices = np.round([body.matrix for body in self.bodies], _DIGITS).reshape(-1, 4, 4)
+        return None if (matrices == np.eye(4)).all() else matrices
 
     def placed(self, matrix: Array) -> tuple[Body, ...]:
         """Return the meshes of an object that a matrix places, for row vectors; float64, shape (4, 4)."""
-        matrices = self._matrices @ matrix
-        return tuple(body._replace(matrix=place) for body, place in zip(self.bodies, matrices, strict=True))
+        places = repeat(matrix) if self._matrices is None else self._matrices @ matrix
+        return tuple(
+            Body(shape, place, touches) for (shape, _, touches), place in zip(self.bodies, places, strict=False)
+        )
 
 
 def are_upright(matrices: Array) -> NDArray[np.bool_]:

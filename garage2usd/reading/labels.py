@@ -126,7 +126,9 @@ def owner_of(path: str, ids: Mapping[str, int]) -> int:
 
 def _labels_of(stage: Usd.Stage) -> Labels:
     """Number the labelled prims of a stage; known classes keep their ids, and others follow by name."""
-    found = [(placed.path, placed.label) for placed in placed_objects(stage, np.eye(4)) if placed.label]
+    found = [
+        (placed.path, placed.label) for placed in placed_objects(stage, np.eye(4), with_looks=False) if placed.label
+    ]
     others = sorted({name for _, name in found} - _NUMBERS.keys())
     number_of = {**_NUMBERS, **{name: number for number, name in enumerate(others, max(_NUMBERS.values()) + 1)}}
     if max(number_of.values()) > LARGEST_CLASS_ID or len(found) > LARGEST_ID:

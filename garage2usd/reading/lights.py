@@ -164,7 +164,7 @@ def _colour(light: UsdLux.LightAPI) -> tuple[float, float, float]:
 
 def _number(prim: Usd.Prim, name: str) -> float:
     value = number_of(prim.GetAttribute(name)) if prim.HasAttribute(name) else 0.0
-    return float(np.clip(np.nan_to_num(value), -_MOST, _MOST))
+    return 0.0 if math.isnan(value) else min(max(value, -_MOST), _MOST)
 
 
 def unsaid_of(prim: Usd.Prim) -> list[str]:

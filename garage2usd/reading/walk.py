@@ -25,7 +25,7 @@ _IDENTITY = np.eye(4)
 _IDENTITY.setflags(write=False)
 
 
-def placed_objects(stage: Usd.Stage, to_world: Matrix) -> list[PlacedObject]:
+def placed_objects(stage: Usd.Stage, to_world: Matrix, *, with_looks: bool = True) -> list[PlacedObject]:
     """Find every object that a stage draws, in the order of its prims.
 
     Parameters
@@ -34,6 +34,8 @@ def placed_objects(stage: Usd.Stage, to_world: Matrix) -> list[PlacedObject]:
         The stage in its current composition; instances and point instancers are followed.
     to_world
         From the stage's space to that of the results, for example `garage2usd.reading.values.metres_y_up`.
+    with_looks
+        False to leave out the appearance that parts inherit, where shapes alone are of interest.
 
     Raises
     ------
@@ -47,7 +49,7 @@ def placed_objects(stage: Usd.Stage, to_world: Matrix) -> list[PlacedObject]:
     purpose are computed by UsdGeom at `READ_AT`: invisible prims are omitted with their descendants, as are materials,
     guides and proxies. A transform that is not finite counts as the identity.
     """
-    walk = _Walk(stage)
+    walk = _Walk(stage, with_looks=with_looks)
     at = _At("", "", to_world, to_world)
     for prim in stage.GetPseudoRoot().GetChildren():
         walk.visit(prim, at)
@@ -101,8 +103,9 @@ class _Prototype(NamedTuple):
 class _Walk:
     """Traversal of prims that visits those of each prototype once."""
 
-    def __init__(self, stage: Usd.Stage) -> None:
+    def __init__(self, stage: Usd.Stage, *, with_looks: bool) -> None:
         self._stage = stage
+        self._with_looks = with_looks
         self._places = UsdGeom.XformCache(READ_AT)
         self._prototypes: dict[object, _Prototype] = {}
         self._types = PrimTypes()
@@ -133,7 +136,7 @@ class _Walk:
             above.stage_matrix,
             (label_of(prim, SQUARE_TAXONOMY) if _SQUARE in said else "") or above.square,
             purpose_of(prim, above.purpose) if _PURPOSE in said else above.purpose,
-            handed_down(prim, said, above.inherited) if _hands_down(prim, kind) else above.inherited,
+            handed_down(prim, said, above.inherited) if self._hands_down(prim, kind) else above.inherited,
             holder,
             within,
             above.predicate,
@@ -249,10 +252,9 @@ class _Walk:
             return not _has_labels(prim)
         return self._types.of(prim).draws(prim)
 
-
-def _hands_down(prim: Usd.Prim, kind: PrimType) -> bool:
-    """Return True if an instance is possible at or below a prim; most drawn prims have none."""
-    return not kind.is_drawn or prim.IsInstance() or bool(prim.GetAllChildrenNames())
+    def _hands_down(self, prim: Usd.Prim, kind: PrimType) -> bool:
+        """Return True if an instance that inherits is possible at or below a prim; most drawn prims have none."""
+        return self._with_looks and (not kind.is_drawn or prim.IsInstance() or bool(prim.GetAllChildrenNames()))
 
 
 def _inside(purpose: str, inherited: Inherited, *, is_held: bool) -> _At:
