@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Usd, UsdGeom, UsdPhysics, Vt
 
-from garage2usd.as_built.shapes import Array, Body, MeshShape, Model, Thing, box_shape
+from garage2usd.as_built.model import Model
+from garage2usd.as_built.shapes import Array, Body, MeshShape, Thing, box_shape
 from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
 from garage2usd.common.errors import StageError
 from garage2usd.objects import PIECE_LABELS

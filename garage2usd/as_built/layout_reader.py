@@ -5,7 +5,8 @@ from functools import lru_cache
 import numpy as np
 
 from garage2usd.as_built.garage import BuiltGarage
-from garage2usd.as_built.shapes import Body, MeshShape, Model, Thing, turned_about_y
+from garage2usd.as_built.model import Model
+from garage2usd.as_built.shapes import Body, MeshShape, Thing, turned_about_y
 from garage2usd.assets import Part
 from garage2usd.garage import Fault, LaneGraph, Stall
 from garage2usd.layout import Layout

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import repeat
 from typing import NamedTuple
 
 import numpy as np
@@ -21,7 +20,6 @@ __all__ = [
     "Face",
     "Facets",
     "MeshShape",
-    "Model",
     "Piece",
     "Thing",
     "are_upright",
@@ -32,8 +30,6 @@ __all__ = [
 Array = NDArray[np.float64]
 
 _LEVEL = 1e-6
-_DIGITS = 12
-"""Digits of a mesh's place in its object: what sines and cosines of half a turn have beyond is noise."""
 _ALL_IN_ONE = np.zeros(1, dtype=np.int64)
 """Start indices of a mesh's pieces if the mesh is a single piece."""
 
@@ -269,32 +265,6 @@ class Body(NamedTuple):
     def _is_upright(self) -> bool:
         """True if the placed mesh is rotated about the vertical only."""
         return bool(are_upright(self.matrix))
-
-
-@dataclass(frozen=True, eq=False)
-class Model:
-    """Meshes of an object in its own coordinates, of which there may be many in a garage.
-
-    Attributes
-    ----------
-    bodies
-        The meshes, placed in the object.
-    """
-
-    bodies: tuple[Body, ...]
-
-    @cached_property
-    def _matrices(self) -> Array | None:
-        """Place of each mesh; None if all are in the axes of the object, as most are."""
-        matrices = np.round([body.matrix for body in self.bodies], _DIGITS).reshape(-1, 4, 4)
-        return None if (matrices == np.eye(4)).all() else matrices
-
-    def placed(self, matrix: Array) -> tuple[Body, ...]:
-        """Return the meshes of an object that a matrix places, for row vectors; float64, shape (4, 4)."""
-        places = repeat(matrix) if self._matrices is None else self._matrices @ matrix
-        return tuple(
-            Body(shape, place, touches) for (shape, _, touches), place in zip(self.bodies, places, strict=False)
-        )
 
 
 def are_upright(matrices: Array) -> NDArray[np.bool_]:
