@@ -11,7 +11,7 @@ __all__ = ["attribute_docstrings"]
 def attribute_docstrings(cls: type) -> dict[str, str]:
     """Return the docstring below each annotated attribute that a class or one of its bases declares.
 
-    The source of all of them is parsed, which takes half of the time of loading the models.
+    Their source is parsed, which for all settings takes about a quarter of the time of loading the package.
     """
     found: dict[str, str] = {}
     for base in reversed(cls.__mro__):

@@ -108,7 +108,7 @@ def power(base: F, exponent: F) -> F:
 def _of(function: int, first: F, second: F | None = None) -> F:
     """Evaluate a function of `elementary.c`; arrays are broadcast."""
     if isinstance(first, int | float) and (second is None or isinstance(second, int | float)):
-        # the two zeros are equal keys, and their sines differ in the sign
+        # the two zeros are equal keys: of the first number their results differ in the sign, of the second in nothing
         return (_remembered if first else _elementary)(function, first, 0.0 if second is None else second)
     given = (first,) if second is None else np.broadcast_arrays(first, second)
     copies = [np.array(values, np.float64, order="C") for values in given]

@@ -119,7 +119,7 @@ def test_splits_that_are_too_small_for_a_garage_are_named(in_one_process, tmp_pa
 
 
 @pytest.mark.parametrize(
-    "look", soak_but([{"drawn": ["lights"]}], [{"lights": {"dead_share": 0.9}}, {"drawn": ["lights"]}])
+    "look", soak_but(1, [{"drawn": ["lights"]}, {"lights": {"dead_share": 0.9}}]), ids=["drawn", "given"]
 )
 def test_dead_lamps_of_a_look_are_no_fault(in_one_process, tmp_path, look):
     recipe = small_recipe(count=3, garage={**SMALL["garage"], "look": look}, shards={"garages": 3}, splits={"all": 1})
