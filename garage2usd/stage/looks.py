@@ -1,7 +1,5 @@
 """Materials as UsdPreviewSurface networks."""
 
-from functools import lru_cache
-
 from pxr import Gf, Sdf
 
 from garage2usd.assets import Material, NonVisual, Texture, pascal_case
@@ -20,7 +18,6 @@ _NON_VISUAL = "omni:simready:nonvisual"
 """Namespace of SimReady's attributes for LiDAR, radar and ultrasonic sensors."""
 _UNTINTED = (1.0, 1.0, 1.0)
 _TYPES = Sdf.ValueTypeNames
-_PLACE = Sdf.Path("/Material")
 
 
 def define_material(
@@ -50,14 +47,6 @@ def define_material(
     is_switched
         True if variants set its emission, by `set_glow`.
     """
-    made = _authored(material, non_visual, finish, varies=varies, is_switched=is_switched)
-    Sdf.CopySpec(made, _PLACE, layer, path)
-
-
-@lru_cache(maxsize=1024)
-def _authored(material: Material, non_visual: NonVisual, finish: str, *, varies: bool, is_switched: bool) -> Sdf.Layer:
-    """Author a material in a layer of its own: assets have many in common, and a copy takes a third of the time."""
-    layer, path = Sdf.Layer.CreateAnonymous(".usdc"), _PLACE
     look = define(layer, path, "Material")
     label_material(look, non_visual.base)
     if finish:
@@ -84,7 +73,6 @@ def _authored(material: Material, non_visual: NonVisual, finish: str, *, varies:
     if any(material.emissive_rgb):
         # local opinions are stronger than variants
         set_glow(surface, None if is_switched else material.emissive_rgb)
-    return layer
 
 
 def label_material(material: Sdf.PrimSpec, base: str, *schemas: str) -> None:

@@ -1,4 +1,4 @@
-"""The same configuration, seed and version give the same bytes, whatever the hash seed, time and time zone."""
+"""The same configuration, seed and version give the same bytes, whatever the hash seed, heap, time and time zone."""
 
 import json
 import os
@@ -12,8 +12,16 @@ from support.small_garage import PLAN
 from support.soak import soak_but
 
 SCRIPT = """
-import sys
+import ctypes, random, sys
 from pathlib import Path
+# a heap with holes, as USD orders some things by the addresses of their names
+libc = ctypes.CDLL(None)
+libc.malloc.restype, libc.free.argtypes = ctypes.c_void_p, [ctypes.c_void_p]
+random.seed(sys.argv[3])
+blocks = [libc.malloc(random.randint(16, 400)) for _ in range(100_000)]
+random.shuffle(blocks)
+for block in blocks[:70_000]:
+    libc.free(block)
 import garage2usd
 config = garage2usd.load_config(sys.argv[1])
 for extension in ("usda", "usdc", "usdz"):
@@ -40,7 +48,10 @@ def twice(request, tmp_path_factory):
         sample = small if request.param == "small" else REPOSITORY / "samples" / f"{request.param}.toml"
         environment = {**os.environ, "PYTHONHASHSEED": hash_seed, "TZ": zone}
         subprocess.run(
-            [sys.executable, "-c", SCRIPT, str(sample), str(folder)], check=True, env=environment, timeout=600
+            [sys.executable, "-c", SCRIPT, str(sample), str(folder), hash_seed],
+            check=True,
+            env=environment,
+            timeout=600,
         )
         folders.append(folder)
     return folders
