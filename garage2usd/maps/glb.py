@@ -24,13 +24,13 @@ from garage2usd.objects import CAR_LABELS, PIECE_LABELS
 from garage2usd.reading.labels import Labels, read_labels
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.levels import levels_of
-from garage2usd.reading.looks import MeshLooks
-from garage2usd.reading.meshes import DRAWN_TYPES, Triangles
-from garage2usd.reading.objects import DrawnPart, Matrix, PlacedObject, once_for_each_look
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.surfaces import SurfaceLook
-from garage2usd.reading.values import metres_per_unit, metres_y_up
-from garage2usd.reading.walk import placed_objects
+from garage2usd.scenes.looks import MeshLooks
+from garage2usd.scenes.meshes import DRAWN_TYPES, Triangles
+from garage2usd.scenes.objects import DrawnPart, Matrix, PlacedObject, once_for_each_look
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.surfaces import SurfaceLook
+from garage2usd.scenes.values import metres_per_unit, metres_y_up
+from garage2usd.scenes.walk import placed_objects
 
 __all__ = ["write_glb"]
 
@@ -60,7 +60,7 @@ def write_glb(
     labels
         Table of labels with instance ids; if left out, read by `garage2usd.reading.labels.read_labels`.
     objects
-        Objects from `garage2usd.reading.walk.placed_objects` in metres with Y up, if already known.
+        Objects from `garage2usd.scenes.walk.placed_objects` in metres with Y up, if already known.
     remarks
         Receives remarks on features that glTF lacks.
 

@@ -5,11 +5,11 @@ from dataclasses import replace
 from typing import Any
 
 from garage2usd.maps.glb_textures import Textures, shortest
-from garage2usd.reading.base_colours import base_colour_of
-from garage2usd.reading.pictures import Band, Bands, Pictures, factored
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.surfaces import SurfaceLook
-from garage2usd.reading.textures import Texture
+from garage2usd.scenes.base_colours import base_colour_of
+from garage2usd.scenes.pictures import Band, Bands, Pictures, factored
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.surfaces import SurfaceLook
+from garage2usd.scenes.textures import Texture
 
 __all__ = ["Materials"]
 

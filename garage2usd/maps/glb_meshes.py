@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.reading.meshes import Triangles, cross
-from garage2usd.reading.objects import Matrix
+from garage2usd.scenes.meshes import Triangles, cross
+from garage2usd.scenes.objects import Matrix
 
 __all__ = [
     "Primitive",

@@ -3,7 +3,7 @@
 from pxr import Gf, Sdf
 
 from garage2usd.assets import Material, NonVisual, Texture, pascal_case
-from garage2usd.reading.taxonomy import FINISH, LABELS_SCHEMA, labels_name
+from garage2usd.scenes.taxonomy import FINISH, LABELS_SCHEMA, labels_name
 from garage2usd.stage.authoring import apply_schemas, attribute, connect, define, words
 
 __all__ = ["PACKED_CHANNELS", "TEXTURE_FOLDER", "define_material", "label_material", "set_glow", "set_varying"]

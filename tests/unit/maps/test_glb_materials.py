@@ -22,7 +22,7 @@ from support.glb_reader import Glb
 from support.preview_surface import GltfMaterial, value_at
 
 from garage2usd.maps.glb import write_glb
-from garage2usd.reading.remarks import Remarks
+from garage2usd.scenes.remarks import Remarks
 
 BYTE = 1.5 / 255
 

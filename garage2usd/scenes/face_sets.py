@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom, UsdShade
 
-from garage2usd.reading.values import READ_AT, numbers_of
+from garage2usd.scenes.values import READ_AT, numbers_of
 
 __all__ = ["face_sets"]
 

@@ -3,7 +3,7 @@
 import pytest
 from pxr import Usd
 
-from garage2usd.reading.looks import MeshLooks
+from garage2usd.scenes.looks import MeshLooks
 
 ASSET = """#usda 1.0
 (

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
-from garage2usd.reading.polygons import triangulated
-from garage2usd.reading.solid_shapes import solid_faces
-from garage2usd.reading.textures import USUAL_COORDINATES, Coordinates
-from garage2usd.reading.values import READ_AT, numbers_of
+from garage2usd.scenes.polygons import triangulated
+from garage2usd.scenes.solid_shapes import solid_faces
+from garage2usd.scenes.textures import USUAL_COORDINATES, Coordinates
+from garage2usd.scenes.values import READ_AT, numbers_of
 
 __all__ = ["DRAWN_TYPES", "Triangles", "cross", "triangles_of"]
 
@@ -94,7 +94,7 @@ def triangles_of(
 
     Notes
     -----
-    Faces that are holes are omitted, and polygons are cut by `garage2usd.reading.polygons.triangulated`. Without
+    Faces that are holes are omitted, and polygons are cut by `garage2usd.scenes.polygons.triangulated`. Without
     authored normals, a mesh is faceted, or smooth if it has a subdivision scheme; it is not subdivided. Faces that
     refer to missing points are omitted, as in a renderer.
     """

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdGeom, UsdShade
 
-from garage2usd.reading.pictures import ALPHA, Pictures
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.taxonomy import finish_of
-from garage2usd.reading.textures import (
+from garage2usd.scenes.pictures import ALPHA, Pictures
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.taxonomy import finish_of
+from garage2usd.scenes.textures import (
     PRIMVAR_READER,
     USUAL_COORDINATES,
     UV_TEXTURE,
@@ -23,7 +23,7 @@ from garage2usd.reading.textures import (
     TextureReader,
     source_of,
 )
-from garage2usd.reading.values import READ_AT, vector_of
+from garage2usd.scenes.values import READ_AT, vector_of
 
 __all__ = ["PLAIN", "Rgb", "SurfaceLook", "SurfaceReader", "stands_alone"]
 

@@ -7,13 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdShade
 
-from garage2usd.reading.face_sets import face_sets
-from garage2usd.reading.inheritance import NOTHING, Inherited
-from garage2usd.reading.meshes import Triangles, triangles_of
-from garage2usd.reading.objects import DrawnPart, PlacedObject
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.surfaces import SurfaceLook, SurfaceReader, stands_alone
-from garage2usd.reading.values import opinions_of
+from garage2usd.scenes.face_sets import face_sets
+from garage2usd.scenes.inheritance import NOTHING, Inherited
+from garage2usd.scenes.meshes import Triangles, triangles_of
+from garage2usd.scenes.objects import DrawnPart, PlacedObject
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.surfaces import SurfaceLook, SurfaceReader, stands_alone
+from garage2usd.scenes.values import opinions_of
 
 __all__ = ["DrawnMesh", "MeshLooks", "Numbered"]
 
@@ -86,7 +86,7 @@ class MeshLooks:
         return self.of_prim(placed.twin_of(part), part.inherited)
 
     def of_prim(self, prim: Usd.Prim, inherited: Inherited = NOTHING) -> list[DrawnMesh]:
-        """Return the meshes of a prim of `garage2usd.reading.meshes.DRAWN_TYPES`; `inherited` is from outside it."""
+        """Return the meshes of a prim of `garage2usd.scenes.meshes.DRAWN_TYPES`; `inherited` is from outside it."""
         found, opinions = [], opinions_of(prim)
         for bound, faces in face_sets(prim):
             surface = self._surface(bound, prim)

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdShade
 
-from garage2usd.reading.pictures import Band, Pictures
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.values import READ_AT, vector_of
+from garage2usd.scenes.pictures import Band, Pictures
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.values import READ_AT, vector_of
 
 __all__ = [
     "PRIMVAR_READER",

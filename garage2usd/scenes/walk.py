@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 from pxr import Kind, Usd, UsdGeom
 
-from garage2usd.reading.inheritance import NOTHING, Inherited, handed_down
-from garage2usd.reading.objects import DrawnPart, Matrix, PlacedObject
-from garage2usd.reading.prim_types import PrimType, PrimTypes, is_imageable, is_visible, purpose_of
-from garage2usd.reading.taxonomy import OBJECT_TAXONOMY, SQUARE_TAXONOMY, label_of, labels_name
-from garage2usd.reading.values import READ_AT, numbers_of
+from garage2usd.scenes.inheritance import NOTHING, Inherited, handed_down
+from garage2usd.scenes.objects import DrawnPart, Matrix, PlacedObject
+from garage2usd.scenes.prim_types import PrimType, PrimTypes, is_imageable, is_visible, purpose_of
+from garage2usd.scenes.taxonomy import OBJECT_TAXONOMY, SQUARE_TAXONOMY, label_of, labels_name
+from garage2usd.scenes.values import READ_AT, numbers_of
 
 __all__ = ["placed_objects"]
 
@@ -33,7 +33,7 @@ def placed_objects(stage: Usd.Stage, to_world: Matrix, *, with_looks: bool = Tru
     stage
         The stage in its current composition; instances and point instancers are followed.
     to_world
-        From the stage's space to that of the results, for example `garage2usd.reading.values.metres_y_up`.
+        From the stage's space to that of the results, for example `garage2usd.scenes.values.metres_y_up`.
     with_looks
         False to leave out the appearance that parts inherit, where shapes alone are of interest.
 

@@ -2,10 +2,10 @@
 
 from typing import NamedTuple
 
-from garage2usd.reading.pictures import Bands, Pictures, factored
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.surfaces import Rgb, SurfaceLook
-from garage2usd.reading.textures import Texture
+from garage2usd.scenes.pictures import Bands, Pictures, factored
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.surfaces import Rgb, SurfaceLook
+from garage2usd.scenes.textures import Texture
 
 __all__ = ["BaseColour", "base_colour_of"]
 

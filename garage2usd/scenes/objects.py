@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.reading.inheritance import NOTHING, Inherited
+from garage2usd.scenes.inheritance import NOTHING, Inherited
 
 __all__ = ["DrawnPart", "Matrix", "PlacedObject", "once_for_each_look"]
 

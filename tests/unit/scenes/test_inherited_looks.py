@@ -6,10 +6,10 @@ from pxr import Usd, UsdGeom, UsdShade
 from support.glb_reader import Glb
 
 from garage2usd.maps.glb import write_glb
-from garage2usd.reading.looks import MeshLooks
-from garage2usd.reading.meshes import DRAWN_TYPES
-from garage2usd.reading.walk import placed_objects
 from garage2usd.render.drawn_prims import read_drawn_prims
+from garage2usd.scenes.looks import MeshLooks
+from garage2usd.scenes.meshes import DRAWN_TYPES
+from garage2usd.scenes.walk import placed_objects
 from garage2usd.view.viewer import read_scene
 
 COLOURS = {"Red": (1, 0, 0), "Green": (0, 1, 0), "Blue": (0, 0, 1), "Grey": (0.25, 0.25, 0.25)}
