@@ -25,7 +25,9 @@ _IDENTITY = np.eye(4)
 _IDENTITY.setflags(write=False)
 
 
-def placed_objects(stage: Usd.Stage, to_world: Matrix, *, with_looks: bool = True) -> list[PlacedObject]:
+def placed_objects(
+    stage: Usd.Stage, to_world: Matrix, *, with_looks: bool = True, within: Usd.Prim | None = None
+) -> list[PlacedObject]:
     """Find every object that a stage draws, in the order of its prims.
 
     Parameters
@@ -36,6 +38,8 @@ def placed_objects(stage: Usd.Stage, to_world: Matrix, *, with_looks: bool = Tru
         From the stage's space to that of the results, for example `garage2usd.scenes.values.metres_y_up`.
     with_looks
         False to leave out the appearance that parts inherit, where shapes alone are of interest.
+    within
+        A prim at the root of the stage, to find what is at and below it alone; all prims if left out.
 
     Raises
     ------
@@ -51,7 +55,7 @@ def placed_objects(stage: Usd.Stage, to_world: Matrix, *, with_looks: bool = Tru
     """
     walk = _Walk(stage, with_looks=with_looks)
     at = _At("", "", to_world, to_world)
-    for prim in stage.GetPseudoRoot().GetChildren():
+    for prim in [within] if within else stage.GetPseudoRoot().GetChildren():
         walk.visit(prim, at)
     return [found for found in at.found if found.parts]
 

@@ -276,7 +276,7 @@ def _pieces(placed: PlacedObject, part: DrawnPart, looks: MeshLooks) -> list[_Pi
     if part.prim.GetTypeName() not in DRAWN_TYPES:
         return []
     found = []
-    for mesh, surface in looks.of_part(placed, part):
+    for mesh, surface, _ in looks.of_part(placed, part):
         triangles, look = looks.meshes.values[mesh], looks.surfaces.values[surface]
         if _are_opaque(np.array(look.opacity), look):
             places = triangles.positions_m @ part.matrix[:3, :3] + part.matrix[3, :3]

@@ -168,7 +168,7 @@ def test_every_reader_shows_what_usd_computes(about, tmp_path):
     for placed in objects:
         for part in placed.parts:
             if part.prim.GetTypeName() in DRAWN_TYPES:
-                ((_, surface),) = looks.of_part(placed, part)
+                ((_, surface, _),) = looks.of_part(placed, part)
                 found[placed.twin + part.path] = looks.surfaces.values[surface].colour_rgb
     assert found.keys() == wanted.keys()
     assert all(found[name] == pytest.approx(wanted[name]) for name in wanted)
