@@ -140,12 +140,13 @@ def read_model(path: Path, *, field: str) -> ForeignModel:
     try:
         drawn = list((_of_gltf if is_gltf else _of_usd)(path, field, remarks, pictures))
         _check_pictures(path, field, remarks)
-        plain: dict[SurfaceLook, tuple[PlainSurface, Layout | None]] = {}
+        plain: dict[tuple[SurfaceLook, str], tuple[PlainSurface, Layout | None]] = {}
         parts: list[ForeignPart] = []
         for each in drawn:
-            if each.look not in plain:
-                plain[each.look] = plain_surface_of(each.look, pictures, remarks)
-            parts += _parts(each, *plain[each.look], remarks)
+            key = each.look, each.look.name  # looks of other names are equal
+            if key not in plain:
+                plain[key] = plain_surface_of(each.look, pictures, remarks)
+            parts += _parts(each, *plain[key], remarks)
     except StageError as error:
         raise ConfigError(field, f"{path}, {error.reason}", "values of the types of their schemas") from None
     except Garage2UsdError:

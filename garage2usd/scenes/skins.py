@@ -34,7 +34,11 @@ def _pose(target: UsdSkel.SkinningQuery, skeleton: Usd.Prim, joints: Vt.Matrix4d
     points = UsdGeom.Mesh(prim).GetPointsAttr().Get(READ_AT) if prim.IsA(UsdGeom.Mesh) else None
     if not points or not joints or prim.IsInstanceProxy():
         return
-    own = target.GetJointMapper().RemapTransforms(joints) if target.GetJointMapper() else joints
+    own, mapper = joints, target.GetJointMapper()
+    if mapper:
+        own = Vt.Matrix4dArray()
+        if not mapper.RemapTransforms(joints, own):
+            return
     posed = Vt.Vec3fArray(points)
     if not target.ComputeSkinnedPoints(own, posed, READ_AT):
         return

@@ -308,6 +308,8 @@ def _rows(primvar: UsdGeom.Primvar, width: int) -> NDArray[np.float64] | None:
         return None
     if not primvar.GetTypeName().isArray:
         values = values[None]
+    if not values.ndim:
+        return None
     rows = values.reshape(len(values), -1) if len(values) else values.reshape(0, 1)
     return rows[:, :width] if len(rows) and rows.shape[1] >= width else None
 

@@ -10,7 +10,7 @@ from pxr import Sdf, Usd, UsdShade
 
 from garage2usd.scenes.pictures import Band, Pictures
 from garage2usd.scenes.remarks import Remarks
-from garage2usd.scenes.values import READ_AT, vector_of
+from garage2usd.scenes.values import READ_AT, numbers_of, vector_of
 
 __all__ = [
     "LEFT_OUT",
@@ -301,4 +301,7 @@ def _numbers(node: UsdShade.Shader, name: str, otherwise: Four) -> Four:
 
 def _vector(node: UsdShade.Shader, name: str, otherwise: tuple[float, ...]) -> tuple[float, ...]:
     source = source_of(node, name)
-    return vector_of(source.attribute, len(otherwise)) if source is not None and source.shader is None else otherwise
+    if source is None or source.shader is not None:
+        return otherwise
+    given = len(numbers_of(source.attribute, np.float64))  # fewer than its schema asks for, as some programs write
+    return vector_of(source.attribute, max(1, min(given, len(otherwise)))) + otherwise[given:]

@@ -82,6 +82,8 @@ class _At:
         Predicate of the children to visit.
     found
         Objects found so far.
+    is_twin_whole
+        True if `twin` starts at the stage's root, as for the points of instancers, wherever the walk began.
     """
 
     path: str
@@ -95,6 +97,7 @@ class _At:
     within: Matrix = field(default_factory=lambda: _IDENTITY)
     predicate: "Usd._PrimFlagsPredicate" = Usd.PrimDefaultPredicate
     found: list[PlacedObject] = field(default_factory=list)
+    is_twin_whole: bool = False
 
 
 class _Prototype(NamedTuple):
@@ -145,13 +148,14 @@ class _Walk:
             within,
             above.predicate,
             above.found,
+            above.is_twin_whole,
         )
         label = label_of(prim) if _CLASS in said else ""
         if kind.is_instancer:
             self._visit_points(prim, at, label)
             return
         if label or (holder is None and self._is_whole(prim)):
-            at.holder = PlacedObject(at.path, at.twin, label, at.square, at.matrix)
+            at.holder = PlacedObject(at.path, at.twin, label, at.square, at.matrix, is_twin_whole=at.is_twin_whole)
             at.within = _IDENTITY
             at.found.append(at.holder)
         self._visit_contents(prim, kind, at)
@@ -186,9 +190,19 @@ class _Walk:
             if is_shown and 0 <= index < len(roots) and roots[index]:
                 root, path = roots[index], f"{at.path}[{point}]"
                 matrix = np.array(place) @ at.matrix
-                holder = PlacedObject(path, _twin(root), label_of(root) or label or above, at.square, matrix)
+                is_whole = at.is_twin_whole or not root.IsInPrototype()
+                named = label_of(root) or label or above
+                holder = PlacedObject(path, _twin(root), named, at.square, matrix, is_twin_whole=is_whole)
                 at.found.append(holder)
-                here = replace(at, path=path, twin=holder.twin, matrix=matrix, holder=holder, within=_IDENTITY)
+                here = replace(
+                    at,
+                    path=path,
+                    twin=holder.twin,
+                    matrix=matrix,
+                    holder=holder,
+                    within=_IDENTITY,
+                    is_twin_whole=is_whole,
+                )
                 self._take(self._point_prototype(root, at.inherited if root.IsInPrototype() else NOTHING), here)
 
     def _prototype(self, prototype: Usd.Prim, at: _At) -> _Prototype:
@@ -224,11 +238,12 @@ class _Walk:
             at.found.append(
                 PlacedObject(
                     at.path + inner.path,
-                    at.twin + inner.twin,
+                    inner.twin if inner.is_twin_whole else at.twin + inner.twin,
                     inner.label or above,
                     inner.square or at.square,
                     inner.matrix @ at.matrix,
                     inner.parts,
+                    at.is_twin_whole or inner.is_twin_whole,
                 )
             )
         if at.holder is None:
