@@ -72,14 +72,16 @@ class Gltf:
         self.json["textures"].append(entry)
         return {"index": len(self.json["textures"]) - 1}
 
-    def primitive(self, positions=SQUARE, indices=(0, 1, 2, 0, 2, 3), *, material=None, attributes=None, **more):
+    def primitive(
+        self, positions=SQUARE, indices=(0, 1, 2, 0, 2, 3), *, material=None, attributes=None, mesh=0, **more
+    ):
         given = {"POSITION": self.numbers(positions), **(attributes or {})}
         made = {"attributes": given, **more}
         if indices is not None:
             made["indices"] = self.numbers(np.array(indices, np.uint16))
         if material is not None:
             made["material"] = material
-        self.json["meshes"][0]["primitives"].append(made)
+        self.json["meshes"][mesh]["primitives"].append(made)
         return made
 
     def node(self, **properties):
