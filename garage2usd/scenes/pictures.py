@@ -13,7 +13,7 @@ from pxr import Ar
 
 from garage2usd.common.extras import installation_of
 
-__all__ = ["ALPHA", "Band", "Bands", "Picture", "Pictures", "factored", "has_sixteen_bits", "sampled"]
+__all__ = ["ALPHA", "Band", "Bands", "Picture", "Pictures", "factored", "has_sixteen_bits", "resized", "sampled"]
 
 _PLAIN_KINDS = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
 """Picture formats of browsers and glTF, by their first bytes."""
@@ -216,7 +216,7 @@ class Pictures:
         rows, columns = max((plane.shape for plane in planes if not isinstance(plane, float)), key=math.prod)
         size = columns, rows
         parts = [
-            _stored(_of_size(plane, size), is_srgb=is_srgb and number != ALPHA) for number, plane in enumerate(planes)
+            _stored(resized(plane, size), is_srgb=is_srgb and number != ALPHA) for number, plane in enumerate(planes)
         ]
         buffer = io.BytesIO()
         Image.fromarray(np.stack(parts, axis=2)).save(buffer, format="PNG", optimize=True)
@@ -270,7 +270,8 @@ def _stored(values: NDArray[np.float64], *, is_srgb: bool) -> NDArray[np.uint8]:
     return stored
 
 
-def _of_size(plane: NDArray[np.float64] | float, size: tuple[int, int]) -> NDArray[np.float64]:
+def resized(plane: NDArray[np.float64] | float, size: tuple[int, int]) -> NDArray[np.float64]:
+    """Return a plane of values in another size, as columns and rows."""
     if isinstance(plane, float):
         return np.full(size[::-1], plane)
     if plane.shape[::-1] == size:

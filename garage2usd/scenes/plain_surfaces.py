@@ -1,7 +1,7 @@
 """Surfaces reduced to three pictures that lie alike: colour with opacity, finish, and normals."""
 
 import io
-from collections.abc import Sequence
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from garage2usd.scenes.base_colours import normal_bands_of
-from garage2usd.scenes.pictures import Band, Bands, Pictures, factored, has_sixteen_bits
+from garage2usd.scenes.pictures import Band, Bands, Pictures, factored, has_sixteen_bits, resized
 from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.surfaces import Rgb, SurfaceLook
 from garage2usd.scenes.textures import Layout, Texture
@@ -229,8 +229,12 @@ def _metallic(look: SurfaceLook, pictures: Pictures, remarks: Remarks) -> Surfac
         specular_rgb = mean[0], mean[1], mean[2]
     colours = zip(given, (look.colour_rgb, specular_rgb), strict=True)
     planes = [_plane(texture, rgb, pictures) for texture, rgb in colours]
-    size = max((plane.shape[:2] for plane in planes), key=lambda sides: sides[0] * sides[1])
-    diffuse, specular = (_of_size(plane, size) for plane in planes)
+    rows, columns = max((plane.shape[:2] for plane in planes), key=math.prod)
+    share = min(1.0, _LARGEST_PX / max(rows, columns))
+    size = max(1, round(share * columns)), max(1, round(share * rows))
+    diffuse, specular = (
+        np.stack([resized(plane[..., channel], size) for channel in range(3)], axis=2) for plane in planes
+    )
     metallic, colour = _by_khronos(diffuse, specular)
     first = given[0] or given[1]
     if first is None:
@@ -255,12 +259,6 @@ def _plane(texture: Texture | None, rgb: Rgb, pictures: Pictures) -> NDArray[np.
     if texture is None:
         return np.array(rgb, dtype=np.float64)[None, None]
     return np.stack([pictures.plane(texture.band(channel)) for channel in range(3)], axis=2).clip(0, 1)
-
-
-def _of_size(plane: NDArray[np.float64], size: Sequence[int]) -> NDArray[np.float64]:
-    rows, columns = (np.arange(wanted) * here // wanted for wanted, here in zip(size, plane.shape[:2], strict=True))
-    resized: NDArray[np.float64] = plane[rows][:, columns]
-    return resized
 
 
 def _by_khronos(
