@@ -1,7 +1,7 @@
 """Choice among the files of a texture set: one map for each channel, and the reason for each file that is not used."""
 
 import warnings
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -57,7 +57,7 @@ class MapChoice(NamedTuple):
         """Say which file is used for what, and which files are not used."""
         uses: dict[str, list[str]] = {}
         for channel, chosen in self.maps.items():
-            turned = {Channel.NORMAL: ", green down", Channel.ROUGHNESS: " from gloss"}.get(channel, "")
+            turned = {Channel.NORMAL: " (green down)", Channel.ROUGHNESS: " (inverted)"}.get(channel, "")
             use = f"{_IN_WORDS.get(channel, channel)}{turned if chosen.is_turned else ''}"
             uses.setdefault(chosen.file.shown, []).append(use)
         used = ", ".join(f"{printable(name)} as {' and '.join(each)}" for name, each in uses.items())
@@ -82,25 +82,10 @@ def choose_maps(files: Sequence[NamedPicture], *, field: str, normals: str | Non
     ConfigError
         If no file is a colour, several materials are given, or a channel is given in a format that is not read only.
     """
-    colours = {named.of for file in files if Channel.COLOUR in _given(named := read_map_name(file.stem))}
-    names = [read_map_name(file.stem, colours) for file in files]
-    found: dict[Channel, list[ChosenMap]] = {channel: [] for channel in Channel}
-    others: dict[Channel, NamedPicture] = {}
-    lacking = set[str]()
-    for file, name in zip(files, names, strict=True):
-        for channel, band, is_turned in name.channels:
-            if file.path.suffix.lower() not in PICTURES:
-                others.setdefault(channel, file)
-            elif band == _ALPHA and not _facts(file.path)[1]:
-                lacking.add(file.shown)
-            else:
-                found[channel].append(ChosenMap(file, band, is_turned, name.order, name.of))
-    unnamed = [file for file, name in zip(files, names, strict=True) if not name.meaning and _is_read(file)]
-    if not found[Channel.COLOUR] and Channel.COLOUR not in others and len(unnamed) == 1:
-        found[Channel.COLOUR] = [ChosenMap(unnamed[0], None, False, (), ())]
-    for channel, file in others.items():
-        if not found[channel]:
-            raise ConfigError(field, str(file.path), f"a PNG or a JPEG of {channel}")
+    alone = [read_map_name(file.stem) for file in files]
+    colours = {name.of for name in alone if Channel.COLOUR in {channel for channel, *_ in name.channels}}
+    named = [(file, read_map_name(file.stem, colours)) for file in files]
+    found, lacking = _found(named, field=field)
     if not found[Channel.COLOUR]:
         given = ", ".join(file.path.name for file in files[:4])
         raise ConfigError(field, given, "a map whose name says color, albedo, basecolor or diffuse, as PNG or JPEG")
@@ -109,20 +94,49 @@ def choose_maps(files: Sequence[NamedPicture], *, field: str, normals: str | Non
     if normals and Channel.NORMAL in maps:
         maps[Channel.NORMAL] = maps[Channel.NORMAL]._replace(is_turned=normals == "dx")
     used = {chosen.file.shown for chosen in maps.values()}
-    unused = [
-        (file.shown, _reason(name, maps, lacks_alpha=file.shown in lacking))
-        for file, name in zip(files, names, strict=True)
-        if file.shown not in used
-    ]
+    unused = []
+    for file, name in named:
+        reasons = [] if file.shown in used else _reasons(name, maps)
+        reasons += ["without the transparency that holds roughness"] * (file.shown in lacking)
+        reasons += name.others
+        if reasons or file.shown not in used:
+            unused.append((file.shown, "; ".join(reasons)))
     return MapChoice(maps, unused)
 
 
-def _given(name: MapName) -> Collection[Channel]:
-    return {channel for channel, *_ in name.channels}
+def _found(
+    named: Sequence[tuple[NamedPicture, MapName]], *, field: str
+) -> tuple[dict[Channel, list[ChosenMap]], set[str]]:
+    """Find the files of each channel, and those that lack the transparency that their name tells of."""
+    found: dict[Channel, list[ChosenMap]] = {channel: [] for channel in Channel}
+    others: dict[Channel, NamedPicture] = {}
+    lacking = set[str]()
+    for file, name in named:
+        for channel, band, is_turned in name.channels:
+            if file.path.suffix.lower() not in PICTURES:
+                others.setdefault(channel, file)
+            elif band == _ALPHA and not _facts(file.path)[1]:
+                lacking.add(file.shown)
+            else:
+                found[channel].append(ChosenMap(file, band, is_turned, name.order, name.of))
+    if not found[Channel.COLOUR] and Channel.COLOUR not in others:
+        found[Channel.COLOUR] = _plain_colour(named)
+    for channel, file in others.items():
+        if not found[channel]:
+            raise ConfigError(field, str(file.path), f"a PNG or a JPEG of {channel}")
+    return found, lacking
 
 
-def _is_read(file: NamedPicture) -> bool:
-    return file.path.suffix.lower() in PICTURES
+def _plain_colour(named: Sequence[tuple[NamedPicture, MapName]]) -> list[ChosenMap]:
+    """Picture whose name tells no map, if it is the only one, or the only one named as the material of the maps."""
+    unnamed = [
+        ChosenMap(file, None, False, (), name.of)
+        for file, name in named
+        if not name.meaning and file.path.suffix.lower() in PICTURES
+    ]
+    of_maps = {name.of for _, name in named if name.meaning}
+    plain = unnamed if len(unnamed) == 1 else [each for each in unnamed if each.of in of_maps]
+    return plain if len(plain) == 1 else []
 
 
 def _best(found: Sequence[ChosenMap], channel: Channel, *, field: str, of: tuple[str, ...] | None = None) -> ChosenMap:
@@ -138,24 +152,23 @@ def _best(found: Sequence[ChosenMap], channel: Channel, *, field: str, of: tuple
     alike = [each for each in same if each.kind == first]
     if len(alike) == 1:
         return alike[0]
-    return min(
-        alike,
-        key=lambda each: (-_facts(each.file.path)[0], each.file.path.suffix.lower() != ".png", each.file.shown),
-    )
+
+    def by_contents(each: ChosenMap) -> tuple[int, bool, int, str]:
+        file = each.file
+        return -_facts(file.path)[0], file.path.suffix.lower() != ".png", len(file.shown), file.shown
+
+    return min(alike, key=by_contents)
 
 
-def _reason(name: MapName, maps: dict[Channel, ChosenMap], *, lacks_alpha: bool) -> str:
-    """Say why a picture is not used."""
+def _reasons(name: MapName, maps: dict[Channel, ChosenMap]) -> list[str]:
+    """Say why a picture is not used, beside quantities that none is used for."""
     if not name.meaning:
-        return "its name tells no map"
-    if not name.channels:
-        return name.meaning
-    taken = {
-        f"{_IN_WORDS.get(channel, channel)}: {printable(maps[channel].file.shown)} is taken": None
+        return ["its name tells no map"]
+    return [
+        f"{_IN_WORDS.get(channel, channel)}: {printable(maps[channel].file.shown)} is taken"
         for channel, *_ in name.channels
         if channel in maps
-    }
-    return "; ".join([*taken, *(["without the transparency that holds roughness"] if lacks_alpha else [])])
+    ]
 
 
 def _facts(path: Path) -> tuple[int, bool]:

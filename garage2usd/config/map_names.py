@@ -20,7 +20,7 @@ class Channel(StrEnum):
 
 _PACKED = (Channel.OCCLUSION, Channel.ROUGHNESS, Channel.METALLIC)
 """Red, green and blue of a packed map, in glTF's order."""
-_GLOSS, _SPECULAR, _OPACITY, _HEIGHT = "gloss", "specular", "opacity", "height"
+_GLOSS, _SPECULAR, _OPACITY, _HEIGHT, _MANY = "gloss", "specular", "opacity", "height", "a packed map"
 _NO_PAIRS = ([Channel.METALLIC, Channel.OCCLUSION], [Channel.ROUGHNESS, Channel.OCCLUSION])
 """Quantities that no map has in this order, with a third one before: metal_ao is the occlusion of a metal."""
 _ALPHA = 3
@@ -104,7 +104,9 @@ class MapName(NamedTuple):
     channels
         Each as (channel, band or None, whether it is inverted); empty for maps that no surface uses.
     meaning
-        The quantities in words, such as 'height'; empty if the name is not recognised.
+        The quantities in words; empty if the name is not recognised.
+    others
+        Those that no surface uses, such as height.
     of
         Words of the name before and after the map's, without resolution, format and version: the name of the material.
     order
@@ -114,6 +116,7 @@ class MapName(NamedTuple):
 
     channels: tuple[tuple[Channel, int | None, bool], ...]
     meaning: str
+    others: tuple[str, ...]
     of: tuple[str, ...]
     order: tuple[int, int, int, int]
 
@@ -146,7 +149,8 @@ def read_map_name(stem: str, materials: Collection[tuple[str, ...]] = ()) -> Map
         min(counted["lod"], default=0),
         min((number for number in numbers if number not in _SIZES_PX), default=0),
     )
-    return MapName(channels, " and ".join(map(str, kinds)), _material(rest), order)
+    others = tuple(kind for kind in kinds if kind not in {*Channel, _GLOSS, _MANY})
+    return MapName(channels, " and ".join(map(str, kinds)), others, _material(rest), order)
 
 
 def _words(stem: str) -> list[str]:
@@ -211,7 +215,7 @@ def _last(words: list[str]) -> tuple[str, str, int] | None:
             bare = joined
         for word in (joined, bare):
             if _OF_LETTERS.fullmatch(word) or word in _UNITY_MASKS:
-                return "packed map", word, count
+                return _MANY, word, count
             if meaning := _MEANING.get(word):
                 return meaning, word, count
     return None

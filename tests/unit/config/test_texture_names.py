@@ -148,7 +148,7 @@ SMALL, LARGE = (4, 4), (8, 8)
         ),
         pytest.param(
             ["a_Color.png", "a_NormalDX.png", "a_Gloss.png"],
-            "a_Color.png as colour, a_Gloss.png as roughness from gloss, a_NormalDX.png as normals, green down",
+            "a_Color.png as colour, a_Gloss.png as roughness (inverted), a_NormalDX.png as normals (green down)",
             id="inverted",
         ),
         pytest.param(
@@ -187,6 +187,19 @@ SMALL, LARGE = (4, 4), (8, 8)
         ),
         pytest.param(["Concrete 03.jpg"], "Concrete 03.jpg as colour", id="one picture"),
         pytest.param(
+            ["tiles.jpg", "tiles_n.jpg", "tiles_s.jpg", "tiles_AO copy.jpg", "tiles_AO.jpg"],
+            "tiles.jpg as colour, tiles_AO.jpg as occlusion, tiles_n.jpg as normals; not used: tiles_AO copy.jpg "
+            "(occlusion: tiles_AO.jpg is taken), tiles_s.jpg (its name tells no map)",
+            id="the picture of the maps",
+        ),
+        pytest.param(
+            ["x_AlbedoTransparency.png", "x_MetallicSmoothness.png"],
+            "x_AlbedoTransparency.png as colour, x_MetallicSmoothness.png as metallic; not used: "
+            "x_AlbedoTransparency.png (opacity), x_MetallicSmoothness.png (without the transparency that holds "
+            "roughness)",
+            id="files used in part",
+        ),
+        pytest.param(
             ["a_color.png", "._a_color.png", ".DS_Store", "Thumbs.db", "desktop.ini", "__MACOSX/._b_color.png"],
             "a_color.png as colour",
             id="hidden",
@@ -194,6 +207,7 @@ SMALL, LARGE = (4, 4), (8, 8)
         pytest.param(
             ["a_color.png", "a_MaskMap.jpg", "a_normal.exr", "a_normal.png", "_old/a_color.png", "a.json"],
             "a_color.png as colour, a_MaskMap.jpg as metallic and occlusion, a_normal.png as normals; not used: "
+            "a_MaskMap.jpg (without the transparency that holds roughness), "
             "a_normal.exr (normals: a_normal.png is taken), _old/a_color.png (set aside by _), a.json",
             id="partly",
         ),
@@ -213,7 +227,7 @@ def test_files_beside_one_another_and_those_of_no_role_are_named_too(tmp_path):
     texts = {"license.txt": "", "doc/a.md": "", "textures.toml": "[wall]\nnormal = 'dx'"}
     assert remarks_of(tmp_path / "mine", dict.fromkeys(names, SMALL) | texts) == (
         "mine, floor: FloorBaseColor.png as colour",
-        "mine, wall: Wall/x_albedo.png as colour, wall_normal.png as normals, green down",
+        "mine, wall: Wall/x_albedo.png as colour, wall_normal.png as normals (green down)",
         "mine, lane_paint: T_lane-paint_D.png as colour",
         "mine: not used: doc/a.md, license.txt, preview.png (its name tells no role)",
     )
