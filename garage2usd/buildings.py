@@ -495,6 +495,7 @@ def levels_report(
         tape=garage.tape,
         parking_stalls=garage.parking_stalls,
         **area_figures([level.layout for level in garage.levels]),
+        remarks=garage.config.remarks(),
         links=tuple(links),
         levels=tuple(
             LevelReport(

@@ -183,6 +183,7 @@ def _report(
         "stall_kinds": dict(sorted(Counter(stall.kind.value for stall in layout.quads).items())),
         "stall_uses": dict(sorted(Counter(stall.use.value for stall in layout.quads).items())),
         "unplaced": [{"id": part.name, "reason": part.reason} for part in layout.unplaced],
+        "remarks": config.remarks(),
         "changed": [{"id": stall.source.name, "change": stall.note} for stall in layout.fitted if stall.note],
         "stalls": [
             {

@@ -122,6 +122,7 @@ def make_report(
         stall_uses={str(use): count for use, count in sorted(Counter(s.use for s in layout.quads).items())},
         illuminance=layout.illuminance,
         not_designed_to=None if unmet is None else tuple(unmet),
+        remarks=config.remarks(),
         lane_kinds=layout.kinds_of_squares(),
         object_counts=layout.counts(),
         columns_at_mouths=layout.columns_at_mouths() if config.bay.column_setback_m else None,

@@ -26,6 +26,8 @@ _MOST_PX, _MOST_BYTES = 16384, 128 * 1024 * 1024
 _BANDS = (Channel.OCCLUSION, Channel.ROUGHNESS, Channel.METALLIC)
 _WIDE = frozenset({"I;16", "I;16B", "I;16L", "I;16N", "I"})
 """Pillow's modes of 16-bit grey images."""
+_ALPHA = 3
+"""Band of transparency, in which Unity keeps smoothness."""
 _JPEG_QUALITY, _COMPRESSION = 90, 6
 _BYTE, _HIGH_BYTE = 255, 8
 _ORIENTATION, _UPRIGHT = 0x0112, 1
@@ -115,7 +117,10 @@ def _loaded(file: MapFile, role: str) -> Image.Image:
 
 def _band(file: MapFile, role: str) -> Image.Image:
     """Load one channel of an image: that of the file's band, or red of a separate image."""
-    band = _loaded(file, role).getchannel(file.band or 0)
+    if file.band == _ALPHA:
+        band = _opened(file, role, lambda picture: picture.convert("RGBA").getchannel(_ALPHA))
+    else:
+        band = _loaded(file, role).getchannel(file.band or 0)
     return band.point([_BYTE - value for value in range(_BYTE + 1)]) if file.is_turned else band
 
 

@@ -89,7 +89,8 @@ def build(
     (a_assets/, or a folder shared by many garages with the setting stage.assets).
 
     The garage is designed to all clauses of its profile that the given settings allow. Violated clauses are printed on
-    stderr, one per line, and listed under not_designed_to in the report.
+    stderr, one per line, and listed under not_designed_to in the report. So are, under remarks, the files of folders of
+    your own: which are used for what, and which are not.
 
     \b
     Examples:
@@ -103,6 +104,7 @@ def build(
         settings = load_config(config, profile=profile)
     else:
         settings = GarageConfig(**({} if profile is None else {"profile": profile_setting(profile)}))
+    echo_notices(settings.remarks())
     if settings.building.levels > 1:
         refused = {"learning-curve": learning_curve, "best-plans": best_plans, "with": formats}
         _build_levels(settings, output, seed, tape, refused, _earlier(ctx, output))

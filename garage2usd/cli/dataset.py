@@ -6,7 +6,7 @@ from pathlib import Path
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, echo_table
+from garage2usd.cli.parameters import INPUT_FILE, echo_notices, echo_table
 from garage2usd.common.errors import DataSetError
 
 __all__ = ["dataset"]
@@ -67,6 +67,7 @@ def dataset(
     if recipe is None or output is None:
         raise click.UsageError("Give a RECIPE and --output FOLDER, or --verify FOLDER.")
     from garage2usd.datasets import load_recipe, make_dataset  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.datasets.recipe import folder_remarks  # noqa: PLC0415
     from garage2usd.datasets.shards import empty_splits  # noqa: PLC0415
 
     asked = load_recipe(recipe)
@@ -79,6 +80,7 @@ def dataset(
     for split in empty_splits(changed):
         share = changed.splits[split] / sum(changed.splits.values()) * changed.count
         click.echo(f"{split} gets none of the {changed.count} garages: its share is {share:.2g}", err=True)
+    echo_notices(folder_remarks(changed))
     with Bars(sys.stderr, unit="garages") as progress:
         made = make_dataset(
             changed, output, worker_count=workers, scheduler=scheduler, resume=resume, progress=progress

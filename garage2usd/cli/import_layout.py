@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, echo_table, profile_option, seed_option
+from garage2usd.cli.parameters import INPUT_FILE, echo_notices, echo_table, profile_option, seed_option
 from garage2usd.common.errors import printable
 
 if TYPE_CHECKING:
@@ -66,6 +66,7 @@ def import_layout(
         settings = GarageConfig(**({} if profile is None else {"profile": profile_setting(profile)}))
     if seed is not None:
         settings = settings.with_seed(seed)
+    echo_notices(settings.remarks())
     with Bars(sys.stderr) as progress:
         made = make(source, output, config=settings, proves=not no_proofs, progress=progress)
     unplaced = made.layout.unplaced

@@ -69,7 +69,7 @@ def echo_table(lines: Iterable[tuple[str, str]]) -> None:
 
 
 def echo_notices(notices: Iterable[str]) -> None:
-    """Print data that export formats cannot represent, on standard error."""
+    """Print what is not used of the user's files, or not represented by an export format, on standard error."""
     for notice in notices:
         click.echo(notice, err=True)
 

@@ -23,6 +23,7 @@ from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import BayConfig, SiteConfig
 from garage2usd.config.stage import StageConfig
 from garage2usd.config.stalls import StallsConfig
+from garage2usd.config.texture_sets import texture_remarks
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile, read_profile
 
 __all__ = [
@@ -124,6 +125,16 @@ class GarageConfig(Settings):
     def with_seed(self, seed: int) -> "GarageConfig":
         """Return the same settings with another seed."""
         return GarageConfig(**{**{name: getattr(self, name) for name in type(self).model_fields}, "seed": seed})
+
+    def remarks(self) -> tuple[str, ...]:
+        """Say in a line each which files of the user's folders are used for what, and what of them is not used.
+
+        Raises
+        ------
+        ConfigError
+            If a folder cannot be read.
+        """
+        return texture_remarks(self.look.textures) if self.look.textures else ()
 
     def digest(self) -> str:
         """SHA-256 of the canonical JSON of all settings that decide the garage.

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from garage2usd.common.documents import ARRAY_SUFFIXES, read_arrays, read_text
 from garage2usd.common.errors import ConfigError
 
-__all__ = ["absolute_in", "is_array_file", "matrices_of", "with_files", "with_textures", "without_files"]
+__all__ = ["FOLDERS", "absolute_in", "is_array_file", "matrices_of", "with_files", "with_textures", "without_files"]
 
 
 class _Given(NamedTuple):
@@ -24,6 +24,10 @@ _MATRICES = (
     _Given("bay", "column_widths_m", "column_widths_file", "R"),
     _Given("bay", "row_depths_m", "row_depths_file", "C"),
 )
+
+
+FOLDERS = (("look", "textures"), ("vehicles", "models"))
+"""Section and setting of each folder of the user's files."""
 
 
 def is_array_file(path: Path) -> bool:
@@ -79,7 +83,7 @@ def with_files(settings: Mapping[str, Any], folder: Path) -> dict[str, Any]:
 def with_textures(settings: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """Make the paths of texture and model folders absolute; other settings are returned unchanged, valid or not."""
     result = dict(settings)
-    for section, key in (("look", "textures"), ("vehicles", "models")):
+    for section, key in FOLDERS:
         match result.get(section):
             case {**given} if key in given:
                 result[section] = {**given, key: absolute_in(folder, given[key])}

@@ -1,4 +1,4 @@
-"""The user's texture sets: a folder with maps for each role, identified by their names, and the size of a repeat."""
+"""The user's texture sets: a folder with maps for each role, told by their names, and the size of a repeat."""
 
 import hashlib
 import re
@@ -11,17 +11,19 @@ from typing import Annotated, NamedTuple
 from pydantic import Field
 
 from garage2usd.common.documents import read_bytes, read_toml
-from garage2usd.common.errors import ConfigError
+from garage2usd.common.errors import ConfigError, printable
 from garage2usd.common.settings import Settings, validated
 from garage2usd.common.spelling import nearest
+from garage2usd.config.map_choice import PICTURES, MapChoice, NamedPicture, choose_maps, unused_in_words
 from garage2usd.config.map_names import Channel, channels_of
 
-__all__ = ["REPEAT_M", "MapFile", "Role", "TextureFolder", "TextureSet", "read_texture_sets"]
+__all__ = ["REPEAT_M", "MapFile", "Role", "TextureFolder", "TextureSet", "read_texture_sets", "texture_remarks"]
 
 FIELD = "look.textures"
 SIZES_FILE = "textures.toml"
-_PICTURES = frozenset({".png", ".jpg", ".jpeg"})
 _OTHER_PICTURES = frozenset({".exr", ".hdr", ".tif", ".tiff", ".tga", ".bmp", ".webp", ".dds", ".ktx", ".ktx2", ".gif"})
+_UNSEEN = frozenset({"thumbs.db", "ehthumbs.db", "desktop.ini", "icon\r", "__macosx", "@eadir"})
+"""Files and folders that systems leave in folders, beside those that begin with a point."""
 _MOST_BYTES = 128 * 1024 * 1024
 _MOST_FILES = 2000
 
@@ -62,7 +64,7 @@ class MapFile(NamedTuple):
     path, sha256
         The file, and the digest of its contents.
     band
-        Index of red, green or blue; None for all of them, or for a grey image.
+        Index of red, green, blue or transparency; None for red to blue, or for a grey image.
     is_turned
         Whether the values are inverted: gloss instead of roughness, or a normal map whose green points down.
     """
@@ -119,7 +121,7 @@ def read_texture_sets(folder: TextureFolder) -> tuple[TextureFolder, dict[Role, 
     ConfigError
         If a file cannot be read, a role, a map or a size is unknown, or the files do not match the folder's digest.
     """
-    sets = _sets(folder.folder)
+    sets = _contents(folder.folder).sets
     told = [(role, [(channel, *file[1:]) for channel, file in each.maps], each.repeat_m) for role, each in sets.items()]
     digest = hashlib.sha256(repr(told).encode()).hexdigest()
     if folder.sha256 not in {"", digest}:
@@ -127,7 +129,19 @@ def read_texture_sets(folder: TextureFolder) -> tuple[TextureFolder, dict[Role, 
     return TextureFolder(folder=folder.folder, sha256=digest), sets
 
 
-def _sets(folder: str) -> dict[Role, TextureSet]:
+def texture_remarks(folder: TextureFolder) -> tuple[str, ...]:
+    """Say which files of a folder are used for what, and which are not used; raises as `read_texture_sets`."""
+    return _contents(folder.folder).remarks
+
+
+class _Contents(NamedTuple):
+    """Texture sets of a folder, and a line on the files of each role and on those of none."""
+
+    sets: dict[Role, TextureSet]
+    remarks: tuple[str, ...]
+
+
+def _contents(folder: str) -> _Contents:
     place = Path(folder)
     try:
         files = sorted(_files(place))
@@ -139,34 +153,66 @@ def _sets(folder: str) -> dict[Role, TextureSet]:
 
 
 @lru_cache(maxsize=64)
-def _read(folder: str, stamps: tuple[tuple[str, int, int], ...]) -> dict[Role, TextureSet]:
+def _read(folder: str, stamps: tuple[tuple[str, int, int], ...]) -> _Contents:
     """Read the texture sets of a folder, cached until one of its files changes."""
     place = Path(folder)
     sizes = _sizes(place)
     found: dict[Role, list[Path]] = {}
+    others: dict[Role | None, list[tuple[Path, str]]] = {None: []}
     for path in (Path(name) for name, *_ in stamps):
-        role = _role_of(path, place)
-        if role is not None:
+        role, reason = _role_of(path, place)
+        if path.suffix.lower() in PICTURES | _OTHER_PICTURES and role is not None and not reason:
             found.setdefault(role, []).append(path)
+        elif path != place / SIZES_FILE:
+            others.setdefault(role, []).append((path, reason))
     if not found:
         raise ConfigError(FIELD, folder, f"pictures in a folder of a role, or named by one: {', '.join(Role)}")
     if unused := sizes.keys() - found.keys():
         role = min(unused)
         raise ConfigError(f"{FIELD}.{role}", str(place / SIZES_FILE), "sizes of roles that have pictures")
-    return {role: _set(role, found[role], sizes.get(role, _RoleSizes())) for role in Role if role in found}
+    sets, remarks = {}, []
+    for role in Role:
+        if role in found:
+            above = _above([*found[role], *(path for path, _ in others.get(role, ()))], place)
+            pictures = [
+                NamedPicture(path, path.relative_to(above).as_posix(), _without_role(path.stem)) for path in found[role]
+            ]
+            of_role = sizes.get(role, _RoleSizes())
+            choice = choose_maps(pictures, field=f"{FIELD}.{role}", normals=of_role.normal)
+            choice.unused.extend((path.relative_to(above).as_posix(), why) for path, why in others.pop(role, ()))
+            sets[role] = _set(role, choice, of_role)
+            remarks.append(f"{_shown(above, place, role)}: {choice.in_words()}")
+    rest = [(path.relative_to(place).as_posix(), why) for each in others.values() for path, why in each]
+    if rest:
+        remarks.append(f"{_shown(place, place)}: {unused_in_words(rest)}")
+    return _Contents(sets, tuple(remarks))
 
 
 def _files(folder: Path) -> Iterator[Path]:
-    """Yield image files, and files that may be images, in the folder and its subfolders."""
+    """Yield the files in the folder and its subfolders, without hidden ones."""
     count = 0
     for path in folder.iterdir():
         for file in path.rglob("*") if path.is_dir() else (path,):
             count += 1
             if count > _MOST_FILES:
                 raise ValueError(f"it holds more than {_MOST_FILES} files")
-            hidden = any(part.startswith((".", "_")) for part in file.relative_to(folder).parts)
-            if not hidden and file.is_file() and file.suffix.lower() in _PICTURES | _OTHER_PICTURES | {".toml"}:
+            parts = file.relative_to(folder).parts
+            if not any(part.startswith(".") or part.lower() in _UNSEEN for part in parts) and file.is_file():
                 yield file
+
+
+def _above(files: list[Path], folder: Path) -> Path:
+    """Folder to which remarks on the files of a role refer: that of the role if it holds all, else the whole one."""
+    firsts = {path.relative_to(folder).parts[0] for path in files}
+    only = folder / min(firsts)
+    return only if len(firsts) == 1 and only.is_dir() else folder
+
+
+def _shown(above: Path, folder: Path, role: Role | None = None) -> str:
+    name = printable(folder.absolute().name)
+    if above != folder:
+        return f"{name}/{printable(above.name)}"
+    return f"{name}, {role}" if role else name
 
 
 def _sizes(folder: Path) -> dict[Role, _RoleSizes]:
@@ -185,67 +231,50 @@ def _sizes(folder: Path) -> dict[Role, _RoleSizes]:
     return sizes
 
 
-def _role_of(path: Path, folder: Path) -> Role | None:
-    """Role of a file, by its folder or the beginning of its name; None if it has none."""
-    first = path.relative_to(folder).parts[0].lower()
-    if path.suffix.lower() == ".toml":
-        return None
-    if path.parent != folder:
-        if first not in set(Role):
+def _role_of(path: Path, folder: Path) -> tuple[Role | None, str]:
+    """Role of a file, by its folder or the beginning of its name; without a role the reason if it is a picture.
+
+    Raises
+    ------
+    ConfigError
+        For a picture whose name tells a map, but no role.
+    """
+    first, *below = path.relative_to(folder).parts
+    is_below = bool(below)
+    role, rest = _divided(first)
+    is_picture = path.suffix.lower() in PICTURES | _OTHER_PICTURES
+    if any(part.startswith("_") for part in (first, *below[:-1])):
+        return (role if is_below else None), "set aside by _"
+    if role is not None and (not is_below or not rest):
+        return (role, "") if is_below or is_picture else (None, "")
+    if is_picture and channels_of(path.stem):
+        if is_below:
             raise ConfigError(FIELD, str(path.parent), f"folders of the roles {', '.join(Role)}")
-        return Role(first)
+        raise ConfigError(FIELD, str(path), f"names that begin with a role: {', '.join(Role)}")
+    return None, "its name tells no role" if is_picture else ""
+
+
+def _divided(name: str) -> tuple[Role | None, str]:
+    """Divide a name into the role at its beginning and the rest: ``FloorBaseColor``, ``T_lane-paint_D``."""
     for role in sorted(Role, key=len, reverse=True):
-        if re.match(rf"{role}(?![a-z0-9])", first):
-            return role
-    raise ConfigError(FIELD, str(path), f"names that begin with a role: {', '.join(Role)}")
+        words = r"[\W_]*".join(role.split("_"))
+        if found := re.match(rf"(?:[Tt]_)?((?i:{words}))(?![a-z0-9])", name):
+            rest = name[found.end() :]
+            if not (found[1].isupper() and rest[:1].isalpha()):
+                return role, rest
+    return None, name
 
 
-class _Found(NamedTuple):
-    """A candidate file for a channel; the least candidate is chosen: not packed, not inverted, PNG before JPEG."""
-
-    is_packed: bool
-    is_turned: bool
-    is_jpeg: bool
-    path: Path
-    band: int | None
+def _without_role(stem: str) -> str:
+    return _divided(stem)[1]
 
 
-def _set(role: Role, files: list[Path], sizes: _RoleSizes) -> TextureSet:
+def _set(role: Role, choice: MapChoice, sizes: _RoleSizes) -> TextureSet:
     """Build the texture set of a role."""
-    field = f"{FIELD}.{role}"
-    chosen = _chosen(role, files)
-    if Channel.COLOUR not in chosen:
-        names = ", ".join(path.name for path in files[:4])
-        raise ConfigError(field, names, "a map whose name says color, albedo, basecolor or diffuse, as PNG or JPEG")
     maps = []
-    for channel, file in chosen.items():
-        digest = hashlib.sha256(read_bytes(file.path, field=field, max_bytes=_MOST_BYTES)).hexdigest()
-        is_told = channel is Channel.NORMAL and sizes.normal is not None
-        maps.append(
-            (channel, MapFile(str(file.path), digest, file.band, sizes.normal == "dx" if is_told else file.is_turned))
-        )
+    for channel, chosen in choice.maps.items():
+        path = chosen.file.path
+        digest = hashlib.sha256(read_bytes(path, field=f"{FIELD}.{role}", max_bytes=_MOST_BYTES)).hexdigest()
+        maps.append((channel, MapFile(str(path), digest, chosen.band, chosen.is_turned)))
     along, up = sizes.repeat_m if isinstance(sizes.repeat_m, tuple) else (sizes.repeat_m or REPEAT_M[role], None)
     return TextureSet(tuple(maps), (along, up))
-
-
-def _chosen(role: Role, files: list[Path]) -> dict[Channel, _Found]:
-    """Choose the file of each channel."""
-    field = f"{FIELD}.{role}"
-    found: dict[Channel, list[_Found]] = {}
-    others: dict[Channel, Path] = {}
-    for path in files:
-        suffix = path.suffix.lower()
-        for channel, band, is_turned in channels_of(re.sub(rf"(?i)^{role}(?![a-z0-9])", "", path.stem)):
-            if suffix in _PICTURES:
-                found.setdefault(channel, []).append(_Found(band is not None, is_turned, suffix != ".png", path, band))
-            else:
-                others[channel] = path
-    for channel, path in others.items():
-        if channel not in found:
-            raise ConfigError(field, str(path), f"a PNG or a JPEG of {channel}")
-    chosen = {channel: min(found[channel]) for channel in Channel if channel in found}
-    for channel, file in chosen.items():
-        alike = [other.path.name for other in found[channel] if other[:3] == file[:3]]
-        if len(alike) > 1:
-            raise ConfigError(field, " and ".join(sorted(alike)), f"one map of {channel}")
-    return chosen

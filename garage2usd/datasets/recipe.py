@@ -17,6 +17,7 @@ from garage2usd.common.randomness import Step, derived_seed
 from garage2usd.common.settings import Settings, validated
 from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig, config_from_mapping, profile_setting
+from garage2usd.config.files import FOLDERS
 from garage2usd.datasets.difficulty import Level
 from garage2usd.datasets.distribution import Weight, distribution_of
 from garage2usd.datasets.drives import DrivesConfig
@@ -25,7 +26,16 @@ from garage2usd.datasets.settings_table import first_value, merge_settings, pin_
 from garage2usd.sensors.rig.rig import read_rig
 from garage2usd.site.levels import check_levels
 
-__all__ = ["Alternative", "Distinct", "MakeConfig", "Recipe", "ShardForm", "ShardsConfig", "load_recipe"]
+__all__ = [
+    "Alternative",
+    "Distinct",
+    "MakeConfig",
+    "Recipe",
+    "ShardForm",
+    "ShardsConfig",
+    "folder_remarks",
+    "load_recipe",
+]
 
 ASSET_FOLDER = "assets"
 RECIPE_FILE = "recipe.json"
@@ -295,6 +305,18 @@ def load_recipe(path: str | Path) -> Recipe:
     recipe = validated(Recipe, settings)
     recipe.check()
     return recipe
+
+
+def folder_remarks(recipe: Recipe) -> tuple[str, ...]:
+    """Return the remarks of `GarageConfig` on the user's folders that the garages of a recipe may draw, each once."""
+    tables = [recipe.garage, *(each.garage for group in recipe.groups.values() for each in group)]
+    remarks: dict[str, None] = {}
+    for table in tables:
+        for section, key in FOLDERS:
+            match table.get(section):
+                case {**given} if key in given and distribution_of(given[key], field=key) is None:
+                    remarks |= dict.fromkeys(GarageConfig(**{section: {key: given[key]}}).remarks())
+    return tuple(remarks)
 
 
 def _recorded(path: Path) -> dict[str, Any]:

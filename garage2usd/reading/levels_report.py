@@ -51,6 +51,7 @@ class LevelsReport(Record):
     parking_stalls: int
     area_per_stall_m2: float | None = None
     gross_area_per_stall_m2: float | None = None
+    remarks: tuple[str, ...] = ()
     links: tuple[ReportedLink, ...]
     levels: tuple[LevelReport, ...]
     seconds: dict[str, float] | None = None

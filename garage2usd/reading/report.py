@@ -177,6 +177,7 @@ class Report(Record):
     stall_uses: dict[str, int] | None = None
     illuminance: LightLevels | None = None
     not_designed_to: tuple[UnmetClause, ...] | None = None
+    remarks: tuple[str, ...] = ()
     lane_kinds: dict[str, int] | None = None
     object_counts: dict[str, int] | None = None
     columns_at_mouths: tuple[str, ...] | None = None
