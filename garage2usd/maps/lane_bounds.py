@@ -158,13 +158,14 @@ def _steps(length_m: float, step_m: float, least_m: float) -> int:
     return min(math.ceil(length_m / step_m - _LEAST_M), math.floor(length_m / least_m + _LEAST_M))
 
 
-def _runs_around(run_m: float, before_m: float, step_m: float, speed: float) -> list[float]:
-    """Return distances along a road near `run_m`, first those up to a step behind the point before, then others."""
+def _runs_around(run_m: float, before_m: float, step_m: float, speed: float) -> Iterator[float]:
+    """Yield distances along a road near `run_m`, first those up to a step behind the point before, then others."""
+    yield run_m
     aside_m = _ASIDE_M / max(speed, _LEAST_M)
-    runs = [run_m - aside_m * number for number in range(math.ceil((run_m - before_m) / aside_m))]
+    runs = [run_m - aside_m * number for number in range(1, math.ceil((run_m - before_m) / aside_m))]
     most_m = before_m + _MOST_STEPS * step_m
     runs += [run_m + aside_m * number for number in range(1, math.ceil((most_m - run_m) / aside_m))]
-    return sorted(runs, key=lambda run: (run > before_m + step_m, abs(run - run_m)))
+    yield from sorted(runs, key=lambda run: (run > before_m + step_m, abs(run - run_m)))
 
 
 def _pieces(bound: Bound) -> Iterator[tuple[float, float, float]]:

@@ -1,5 +1,6 @@
 """Stalls of a Lanelet2 map: parking areas, Autoware's parking spaces, access areas and parking lots."""
 
+import itertools
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
@@ -161,23 +162,27 @@ class Feet:
     def _foot(self, index: int, run_m: float) -> _Foot:
         """Add the foot at a distance along a line, away from points of other lines, or return the one that is near."""
         line, bound, own = self._tree.geometries[index], self._bounds[index], self._points[index]
-        asides = (sign * _STEP_M * step for step in range(_MOST_STEPS) for sign in (1, -1))
-        runs = [run for aside in asides if 0.0 <= (run := run_m + aside) <= line.length]
-        places = [(x, y, 0.0) for x, y in shapely.get_coordinates(line.interpolate(runs)).tolist()]
-        for run, place in zip(runs, places, strict=True):
+        for step, sign in itertools.product(range(_MOST_STEPS), (1, -1)):
+            run = run_m + sign * step * _STEP_M
+            place = _along(line, run)
             point = self._osm.near(place)
             if point in own:
                 return _Foot(point, bound, run)
-            if point is None or point in self._corners:
-                return self._add(bound, own, run, place)
-        return self._add(None, own, run_m, places[0])
-
-    def _add(self, bound: Bound | None, own: set[int], run_m: float, place: Place) -> _Foot:
+            if (point is None or point in self._corners) and 0.0 <= run <= line.length:
+                break
+        else:
+            run, bound, place = run_m, None, _along(line, run_m)
         point = self._osm.point(place)
         if bound is not None:
             own.add(point)
-            self._on.setdefault(bound, {})[run_m] = point
-        return _Foot(point, bound, run_m)
+            self._on.setdefault(bound, {})[run] = point
+        return _Foot(point, bound, run)
+
+
+def _along(line: shapely.LineString, run_m: float) -> Place:
+    """Return the point at a distance along a line, or at its end."""
+    point = line.interpolate(min(max(run_m, 0.0), line.length))
+    return point.x, point.y, 0.0
 
 
 def stall_points(osm: OsmFile, garage: BuiltGarage) -> list[_StallPoints]:

@@ -2,7 +2,7 @@
 
 import itertools
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -21,8 +21,8 @@ Place = tuple[float, float, float]
 """Point (x, y, z) in metres, in the frame of `garage2usd.maps.frame`."""
 APART_M = 0.051
 """Least distance between two points; nearer ones are merged. Lanelet2's check `mapping.points_too_close` wants 5 cm."""
-_CELL_M = 0.5
-"""Side of the cubes by which points are looked up."""
+_CELL_M = 1.0
+"""Side of the cubes by which points are looked up; floors, where most points are, lie in the middle of cubes."""
 _DEGREE_DIGITS = 11
 """Decimals of degrees: a micrometre. Further digits of PROJ differ by processor; the last one may too."""
 
@@ -163,11 +163,13 @@ def _tag_lines(tags: Mapping[str, str]) -> list[str]:
 
 
 def _cell(x: float, y: float, z: float) -> _Cell:
-    return math.floor(x / _CELL_M), math.floor(y / _CELL_M), math.floor(z / _CELL_M)
+    return math.floor(x / _CELL_M), math.floor(y / _CELL_M), math.floor(z / _CELL_M + 0.5)
 
 
-def _cells_around(place: Place) -> Iterator[_Cell]:
+def _cells_around(place: Place) -> Iterable[_Cell]:
     """Return the cells of all points that can be within `APART_M`: one, or several at a border."""
     x, y, z = place
     low, high = _cell(x - APART_M, y - APART_M, z - APART_M), _cell(x + APART_M, y + APART_M, z + APART_M)
+    if low == high:
+        return (low,)
     return itertools.product(*(range(first, last + 1) for first, last in zip(low, high, strict=True)))
