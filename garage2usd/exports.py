@@ -29,12 +29,12 @@ from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.pipeline import build
 from garage2usd.reading.files import STAGE_SUFFIXES
 from garage2usd.reading.levels import levels_of
-from garage2usd.reading.objects import PlacedObject
-from garage2usd.reading.remarks import Remarks
 from garage2usd.reading.report import read_report
-from garage2usd.reading.values import metres_y_up
-from garage2usd.reading.walk import placed_objects
 from garage2usd.reading.whole_garage import open_garage
+from garage2usd.scenes.objects import PlacedObject
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.values import metres_y_up
+from garage2usd.scenes.walk import placed_objects
 
 __all__ = ["EXPORT_SUFFIXES", "check_exports", "check_formats", "export", "without_lacking"]
 

@@ -15,9 +15,9 @@ from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
 from garage2usd.common.errors import StageError
 from garage2usd.objects import PIECE_LABELS
 from garage2usd.reading.lights import DOMES, LIGHT_TYPES, LightSource, light_of, luminance_of
-from garage2usd.reading.objects import PlacedObject, once_for_each_look
-from garage2usd.reading.values import READ_AT, metres_per_unit, metres_y_up, opinions_of
-from garage2usd.reading.walk import placed_objects
+from garage2usd.scenes.objects import PlacedObject, once_for_each_look
+from garage2usd.scenes.values import READ_AT, metres_per_unit, metres_y_up, opinions_of
+from garage2usd.scenes.walk import placed_objects
 from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY
 
 __all__ = ["Contents", "PlacedLight", "read_contents"]
@@ -62,11 +62,11 @@ def read_contents(stage: Usd.Stage, objects: Iterable[PlacedObject] | None = Non
     stage
         The stage.
     objects
-        Result of `garage2usd.reading.walk.placed_objects` in metres, Y up, if already known.
+        Result of `garage2usd.scenes.walk.placed_objects` in metres, Y up, if already known.
 
     Notes
     -----
-    For the definition of an object see `garage2usd.reading.walk.placed_objects`. A prim with a class of pieces, such as
+    For the definition of an object see `garage2usd.scenes.walk.placed_objects`. A prim with a class of pieces, such as
     paint, counts as part of the object above it: paint is floor.
 
     Raises

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from garage2usd.as_built.convex_parts import are_dented, convex_outlines
 from garage2usd.as_built.outlines import Outlines, outlines_of
 from garage2usd.layout.grounds import hulls_around
-from garage2usd.reading.polygons import triangulated
+from garage2usd.scenes.polygons import triangulated
 from garage2usd.structure.pieces import joined
 
 __all__ = [

@@ -19,8 +19,8 @@ from garage2usd.objects.lamp import LampSpec
 from garage2usd.reading.lanes import Lanes, moved_stalls, read_lanes
 from garage2usd.reading.levels import refuse_levels
 from garage2usd.reading.lights import LightSource
-from garage2usd.reading.objects import PlacedObject
 from garage2usd.reading.whole_garage import garage_root, open_garage
+from garage2usd.scenes.objects import PlacedObject
 from garage2usd.structure.grid import Structure, cells_from_text
 
 __all__ = ["garage_of_file", "garage_of_opened", "garage_of_stage", "profile_name"]

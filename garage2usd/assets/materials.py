@@ -76,11 +76,14 @@ class StoredTexture(NamedTuple):
     stem
         Beginning of its file name.
     data
-        RGB image as PNG.
+        RGB or RGBA image.
+    suffix
+        Extension of its format: ``.png`` or ``.jpg``.
     """
 
     stem: str
     data: bytes
+    suffix: str = ".png"
 
 
 Texture = str | PaintedTexture | OwnTexture | StoredTexture
@@ -121,6 +124,8 @@ class Material:
         Size of one repeat of the textures in metres.
     repeat_up_m
         Size along V, if it differs.
+    wraps
+        Wrap modes of the textures along U and V: ``repeat``, ``mirror`` or ``clamp``.
     touch
         Class of friction.
     """
@@ -139,6 +144,7 @@ class Material:
     emissive_rgb: Rgb = (0.0, 0.0, 0.0)
     repeat_m: float = 1.0
     repeat_up_m: float | None = None
+    wraps: tuple[str, str] = ("repeat", "repeat")
     touch: Touch = Touch.CONCRETE
 
     def textures(self) -> tuple[Texture, ...]:

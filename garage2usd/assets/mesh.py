@@ -77,6 +77,8 @@ class Part:
     pose
         Pose in which a layer places the mesh, with points relative to it, so that equal parts such as wheels share one
         array; None for a mesh in the axes of the asset. The points here are always in the axes of the asset.
+    double_sided
+        True if the back is visible where viewers hide backs.
     """
 
     name: str
@@ -91,6 +93,7 @@ class Part:
     collider: Collider | None = None
     piece: str = ""
     pose: Pose | None = None
+    double_sided: bool = False
 
     @property
     def own_points(self) -> NDArray[np.float32]:

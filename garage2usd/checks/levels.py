@@ -19,8 +19,8 @@ from garage2usd.common.documents import is_file
 from garage2usd.common.errors import ConfigError
 from garage2usd.garage import LaneKind
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
-from garage2usd.reading.polygons import triangulated
 from garage2usd.reading.whole_garage import open_garage
+from garage2usd.scenes.polygons import triangulated
 from garage2usd.sensors.rays.ray_caster import BoxTree
 
 __all__ = ["check_levels", "read_stage"]

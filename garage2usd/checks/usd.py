@@ -10,8 +10,8 @@ from garage2usd.checks.finding import Severity
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.profiles import Profile
 from garage2usd.reading.files import usd_text
-from garage2usd.reading.taxonomy import LABELS, LABELS_SCHEMA, labels_of
-from garage2usd.reading.values import metres_per_unit
+from garage2usd.scenes.taxonomy import LABELS, LABELS_SCHEMA, labels_of
+from garage2usd.scenes.values import metres_per_unit
 
 __all__ = ["BOOK"]
 

@@ -32,6 +32,7 @@ _BROUGHT = {
     "scenariogeneration": ("maps", "scenariogeneration"),
     "embreex": ("sensors", "embreex"),
     "trimesh": ("sensors", "trimesh"),
+    "DracoPy": ("models", "DracoPy"),
     "rosbags": ("sensors", "rosbags"),
 }
 """Extra and display name of each optional module."""

@@ -4,11 +4,11 @@
 import hashlib
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache
 from itertools import islice
 from pathlib import Path
-from typing import Annotated, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,14 +16,19 @@ from pydantic import Field, field_validator
 
 from garage2usd.common.documents import read_toml
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.foreign_models import MODEL_SUFFIXES, ForeignPart, model_digest, read_model
 from garage2usd.common.settings import Settings, validated
 from garage2usd.common.spelling import nearest
 from garage2usd.config.vehicles import CAR_BODIES, CarBody, VehicleClass
+from garage2usd.scenes.gltf_file import GLTF_SUFFIXES
+
+if TYPE_CHECKING:  # reading models imports USD, and few garages have any
+    from garage2usd.scenes.foreign_models import ForeignPart
 
 __all__ = ["ModelFolder", "OwnCar", "VehiclesConfig", "cars_by_name", "folder_of", "placed_parts", "read_own_cars"]
 
 FIELD = "vehicles.models"
+MODEL_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz", *GLTF_SUFFIXES)
+"""Extensions of model files."""
 FACTS_FILE = "models.toml"
 _MOST_MODELS = 500
 _LENGTH_M, _WIDTH_M, _HEIGHT_M = (2.0, 7.0), (1.2, 2.6), (1.0, 3.0)
@@ -100,12 +105,15 @@ class OwnCar(CarBody):
         and shifted into the axes of a parked car.
     outlines
         Convex outlines (x, z) in metres of the body and, if known, of the mirrors.
+    remarks
+        A line for each kind of part or property of the model that is not taken, or not as it is.
     """
 
     path: str
     sha256: str
     to_car: tuple[tuple[float, float, float], ...]
     outlines: tuple[tuple[tuple[float, float], ...], ...]
+    remarks: tuple[str, ...] = field(default=(), compare=False, repr=False)
 
     @property
     def measures(self) -> CarBody:
@@ -220,7 +228,7 @@ def _facts(folder: Path, names: Sequence[str]) -> dict[str, _Facts]:
     return facts
 
 
-def placed_parts(car: OwnCar) -> tuple[ForeignPart, ...]:
+def placed_parts(car: OwnCar) -> "tuple[ForeignPart, ...]":
     """Return the parts of a car in its own axes: origin in the centre of its footprint on the floor, nose along -Z.
 
     Raises
@@ -228,18 +236,28 @@ def placed_parts(car: OwnCar) -> tuple[ForeignPart, ...]:
     ConfigError
         If the file cannot be read, or has changed since the settings were read.
     """
+    from garage2usd.scenes.foreign_models import model_digest, read_model  # noqa: PLC0415 - as above
+
     path = Path(car.path)
     if model_digest(path, field=FIELD) != car.sha256:
         raise ConfigError(FIELD, car.path, "a file that stays as it was when the settings were read")
     *rows, offset = np.array(car.to_car)
+    turn = np.array(rows) / np.linalg.norm(rows, axis=1, keepdims=True)
     return tuple(
-        replace(part, triangles_m=part.triangles_m @ np.array(rows) + offset) for part in read_model(path, field=FIELD)
+        replace(
+            part,
+            triangles_m=part.triangles_m @ np.array(rows) + offset,
+            normals=None if part.normals is None else part.normals @ turn,
+        )
+        for part in read_model(path, field=FIELD).parts
     )
 
 
 def _car(path: Path, facts: _Facts) -> OwnCar:
+    from garage2usd.scenes.foreign_models import model_digest, read_model  # noqa: PLC0415 - as above
+
     digest = model_digest(path, field=FIELD)
-    parts = read_model(path, field=FIELD)
+    parts, remarks = read_model(path, field=FIELD)
     turn = _turn(path, parts, facts)
     turned = [part.triangles_m.reshape(-1, 3) @ turn for part in parts]
     is_mirror = [bool(_MIRROR_WORDS.search(part.name)) for part in parts]
@@ -284,6 +302,7 @@ def _car(path: Path, facts: _Facts) -> OwnCar:
         sha256=digest,
         to_car=tuple(_row(row) for row in (*np.round(turn * scale, 9), np.round(offset, 6))),
         outlines=tuple(_hull(np.concatenate(group)) for group in groups if group),
+        remarks=tuple(f"{path.name}: {line}" for line in remarks),
     )
 
 
@@ -301,7 +320,7 @@ def _mirrors(placed: Sequence[NDArray[np.float64]], is_mirror: Sequence[bool], l
     return round(length_m / 2 + float(every.min() + every.max()) / 2, 4)
 
 
-def _turn(path: Path, parts: Sequence[ForeignPart], facts: _Facts) -> NDArray[np.float64]:
+def _turn(path: Path, parts: "Sequence[ForeignPart]", facts: _Facts) -> NDArray[np.float64]:
     """Rotation matrix for row vectors, in metres and Y up, that turns the nose to -Z; shape (3, 3)."""
     points = np.concatenate([part.triangles_m.reshape(-1, 3) for part in parts])
     spans = points.max(axis=0) - points.min(axis=0)

@@ -17,20 +17,20 @@ from garage2usd.garage import Stall
 from garage2usd.layout.grounds import hulls_of
 from garage2usd.maps.glb_file import GlbFile, Piece
 from garage2usd.maps.glb_lights import place_of, punctual_light, why_left_out
-from garage2usd.maps.glb_meshes import are_rigid, by_facets, joined, moved_triangles, rigid_inverses
+from garage2usd.maps.glb_meshes import are_rigid, by_facets, joined, rigid_inverses
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.maps.stall_facts import StallFacts
 from garage2usd.objects import CAR_LABELS, PIECE_LABELS
 from garage2usd.reading.labels import Labels, read_labels
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.levels import levels_of
-from garage2usd.reading.looks import MeshLooks
-from garage2usd.reading.meshes import DRAWN_TYPES, Triangles
-from garage2usd.reading.objects import DrawnPart, Matrix, PlacedObject, once_for_each_look
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.surfaces import SurfaceLook
-from garage2usd.reading.values import metres_per_unit, metres_y_up
-from garage2usd.reading.walk import placed_objects
+from garage2usd.scenes.looks import MeshLooks
+from garage2usd.scenes.meshes import DRAWN_TYPES, Triangles
+from garage2usd.scenes.objects import DrawnPart, Matrix, PlacedObject, once_for_each_look
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.surfaces import SurfaceLook
+from garage2usd.scenes.values import metres_per_unit, metres_y_up
+from garage2usd.scenes.walk import placed_objects
 
 __all__ = ["write_glb"]
 
@@ -60,7 +60,7 @@ def write_glb(
     labels
         Table of labels with instance ids; if left out, read by `garage2usd.reading.labels.read_labels`.
     objects
-        Objects from `garage2usd.reading.walk.placed_objects` in metres with Y up, if already known.
+        Objects from `garage2usd.scenes.walk.placed_objects` in metres with Y up, if already known.
     remarks
         Receives remarks on features that glTF lacks.
 
@@ -112,9 +112,7 @@ def write_glb(
             if placed.label not in PIECE_LABELS:
                 node_of[placed.path] = node, inverse
         else:  # no node can say so: it goes into the vertices
-            pieces = [
-                piece._replace(triangles=moved_triangles(piece.triangles, placed.matrix)) for piece in look.pieces
-            ]
+            pieces = [piece._replace(triangles=piece.triangles.moved(placed.matrix)) for piece in look.pieces]
             mesh = glb.add_mesh(pieces, name=_name(placed))
             glb.add_node(placed.path, level.own(_IDENTITY), mesh=mesh, above=level.node, extras=extras)
     units = metres_per_unit(stage)
@@ -244,7 +242,7 @@ class _Looks:
         for part in placed.parts:
             kind = part.prim.GetTypeName()
             if kind in DRAWN_TYPES:
-                for mesh, surface in self._looks.of_part(placed, part):
+                for mesh, surface, _ in self._looks.of_part(placed, part):
                     is_bumpy = bool(surfaces[surface].normal_texture)
                     for is_faceted, triangles in self._facets_of(mesh, _is_matte(surfaces[surface])):
                         own = self._placed(triangles, part.matrix)
@@ -273,7 +271,7 @@ class _Looks:
             return triangles
         key = triangles, matrix.tobytes()
         if key not in self._moved:
-            self._moved[key] = moved_triangles(triangles, matrix)
+            self._moved[key] = triangles.moved(matrix)
         return self._moved[key]
 
 

@@ -15,11 +15,11 @@ from garage2usd.common.version import VERSION
 from garage2usd.maps.glb_materials import Materials
 from garage2usd.maps.glb_meshes import Primitive, beside, places_of, primitive_of
 from garage2usd.maps.glb_textures import shortest
-from garage2usd.reading.meshes import Triangles
-from garage2usd.reading.objects import Matrix
-from garage2usd.reading.pictures import Pictures
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.surfaces import SurfaceLook
+from garage2usd.scenes.meshes import Triangles
+from garage2usd.scenes.objects import Matrix
+from garage2usd.scenes.pictures import Pictures
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.surfaces import SurfaceLook
 
 __all__ = ["GlbFile", "Piece"]
 

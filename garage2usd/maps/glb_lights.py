@@ -8,8 +8,8 @@ from pxr import Usd
 
 from garage2usd.maps.glb_textures import shortest
 from garage2usd.reading.lights import DOMES, LIGHT_TYPES, LightSource, light_of, unsaid_of
-from garage2usd.reading.objects import Matrix
-from garage2usd.reading.remarks import Remarks
+from garage2usd.scenes.objects import Matrix
+from garage2usd.scenes.remarks import Remarks
 
 __all__ = ["place_of", "punctual_light", "why_left_out"]
 

@@ -5,19 +5,17 @@ from dataclasses import replace
 from typing import Any
 
 from garage2usd.maps.glb_textures import Textures, shortest
-from garage2usd.reading.base_colours import base_colour_of
-from garage2usd.reading.pictures import Band, Bands, Pictures, factored
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.surfaces import SurfaceLook
-from garage2usd.reading.textures import Texture
+from garage2usd.scenes.base_colours import base_colour_of, normal_bands_of
+from garage2usd.scenes.pictures import Band, Bands, Pictures, factored
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.surfaces import SurfaceLook
+from garage2usd.scenes.textures import Texture
 
 __all__ = ["Materials"]
 
 _REFLECTED = 0.04
 """Reflectance of glTF's default index of refraction at normal incidence."""
 _USUAL_IOR = 1.5
-_DIRECTIONS = (2.0, 2.0, 2.0), (-1.0, -1.0, -1.0)
-"""Scale and bias from a picture's values to a normal, implicit in glTF."""
 _SAME = 1e-6
 
 
@@ -145,18 +143,11 @@ class _Material:
         if texture is None:
             return
         scale, bias = texture.scale[:3], texture.bias[:3]
-        if (scale, bias) == ((1.0,) * 3, (0.0,) * 3):
-            self._remarks.add("normal maps without scale and bias are read with those of bytes, 2 and -1", texture.file)
-            scale, bias = _DIRECTIONS
         strength = scale[0] / 2
         is_flattened = scale == (scale[0], scale[0], 2.0) and bias == (-strength, -strength, -1.0) and strength > 0
         if is_flattened:
-            scale, bias = _DIRECTIONS
-        bands = tuple(
-            texture.band(channel)._replace(scale=scale[channel] / 2, bias=(bias[channel] + 1) / 2)
-            for channel in range(3)
-        )
-        self._made["normalTexture"] = self._info(bands, texture)
+            texture = texture._replace(scale=(2.0, 2.0, 2.0, 1.0), bias=(-1.0, -1.0, -1.0, 0.0))
+        self._made["normalTexture"] = self._info(normal_bands_of(texture, self._remarks), texture)
         if is_flattened and strength != 1:
             self._made["normalTexture"]["scale"] = shortest([strength])[0]
 

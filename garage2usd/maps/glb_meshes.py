@@ -9,8 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.reading.meshes import Triangles, cross
-from garage2usd.reading.objects import Matrix
+from garage2usd.scenes.meshes import Triangles, cross
 
 __all__ = [
     "Primitive",
@@ -18,7 +17,6 @@ __all__ = [
     "beside",
     "by_facets",
     "joined",
-    "moved_triangles",
     "places_of",
     "primitive_of",
     "rigid_inverses",
@@ -248,21 +246,6 @@ def places_of(matrices: Matrices) -> list[dict[str, list[float]]]:
         for node in np.flatnonzero((values != usual).any(axis=1)).tolist():
             places[node][name] = (values[node] + 0.0).tolist()  # no minus before a zero
     return places
-
-
-def moved_triangles(mesh: Triangles, matrix: Matrix) -> Triangles:
-    """Transform triangles to another space, also by a matrix that is not rigid."""
-    turn = matrix[:3, :3]
-    is_mirrored = np.linalg.det(turn) < 0
-    return Triangles(
-        (mesh.positions_m @ turn + matrix[3, :3]).astype(np.float32),
-        _unit(mesh.normals @ np.linalg.pinv(turn).T, (0.0, 1.0, 0.0)),
-        mesh.coordinates,
-        mesh.indices[:, [0, 2, 1]] if is_mirrored else mesh.indices,
-        mesh.face_of,
-        mesh.double_sided,
-        mesh.colours,
-    )
 
 
 def _tangents_of(mesh: Triangles, coordinates: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from garage2usd.reading.pictures import Band, Bands, Picture, Pictures
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.textures import Layout
+from garage2usd.scenes.pictures import Band, Bands, Picture, Pictures
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.textures import Layout
 
 __all__ = ["Textures", "shortest"]
 

@@ -13,7 +13,7 @@ from garage2usd.maps.network import Network
 from garage2usd.maps.parking_lanes import ParkingLane, ParkingLanes, ParkingSpace, driven_lanes
 from garage2usd.maps.xml_text import child, write_xml
 from garage2usd.native import elementary
-from garage2usd.reading.remarks import Remarks
+from garage2usd.scenes.remarks import Remarks
 
 __all__ = ["NETWORK_SUFFIX", "write_parking_areas"]
 

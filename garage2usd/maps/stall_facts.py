@@ -8,7 +8,7 @@ import shapely
 from garage2usd.as_built.stall_grounds import StallGrounds
 from garage2usd.garage import Stall
 from garage2usd.layout.grounds import Grounds
-from garage2usd.reading.objects import Matrix
+from garage2usd.scenes.objects import Matrix
 
 __all__ = ["StallFacts"]
 

@@ -13,7 +13,7 @@ from garage2usd.common.errors import StageError
 from garage2usd.objects import CLASSES, CLASSES_VERSION
 from garage2usd.reading.label_table import LARGEST_CLASS_ID, LARGEST_ID, SemanticClass, read_label_table
 from garage2usd.reading.number_plates import CAR_OF_PLATE, PLATE_TEXT
-from garage2usd.reading.walk import placed_objects
+from garage2usd.scenes.walk import placed_objects
 
 __all__ = ["CITYSCAPES", "Labels", "NumberPlates", "owner_of", "read_labels"]
 

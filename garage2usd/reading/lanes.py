@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
 from garage2usd.garage import Fault, LaneEdge, LaneGraph, LaneKind, LaneNode, Point, Stall, StallUse
-from garage2usd.reading.values import READ_AT, metres_y_up, numbers_of
 from garage2usd.reading.whole_garage import GRAPH, garage_root
+from garage2usd.scenes.values import READ_AT, metres_y_up, numbers_of
 
 __all__ = ["GUIDE_LIFT_M", "Lanes", "moved_stalls", "read_lanes"]
 

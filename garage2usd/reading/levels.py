@@ -9,8 +9,8 @@ from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
 from garage2usd.common.errors import StageError
 from garage2usd.objects.ramp import KIND as RAMP
-from garage2usd.reading.values import READ_AT, metres_y_up
 from garage2usd.reading.whole_garage import LEVELS, garage_root, in_own_frame
+from garage2usd.scenes.values import READ_AT, metres_y_up
 
 __all__ = [
     "StageLevel",

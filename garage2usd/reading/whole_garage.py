@@ -9,7 +9,7 @@ from pxr import Gf, Usd, UsdGeom
 
 from garage2usd.common.errors import StageError
 from garage2usd.reading.files import open_stage
-from garage2usd.reading.values import READ_AT, Z_UP_TO_Y_UP, metres_y_up
+from garage2usd.scenes.values import READ_AT, Z_UP_TO_Y_UP, metres_y_up
 
 __all__ = ["GRAPH", "LEVELS", "garage_root", "in_own_frame", "open_garage"]
 

@@ -13,7 +13,6 @@ from garage2usd.common.output import check_file, check_writable, publish, stagin
 from garage2usd.common.progress import Announce, Progress, silent, unheard
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import Labels, read_labels
-from garage2usd.reading.values import metres_per_unit
 from garage2usd.render.birds_eye_views import OVERHEAD
 from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
 from garage2usd.render.cameras import View, find_views
@@ -24,6 +23,7 @@ from garage2usd.render.frames_file import write_frames
 from garage2usd.render.free_camera import free_view
 from garage2usd.render.pictures import Picture, with_needed
 from garage2usd.render.slot_labels import NEEDED, SlotFormat, SlotLabels, check_slots
+from garage2usd.scenes.values import metres_per_unit
 from garage2usd.sensors.rays.birds_eye import Orthographic
 from garage2usd.sensors.slots import read_slots
 from garage2usd.stage.labels import OBJECT_LABELS

@@ -11,7 +11,7 @@ from pxr import Usd, UsdGeom
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.spelling import find_named
-from garage2usd.reading.values import metres_per_unit
+from garage2usd.scenes.values import metres_per_unit
 from garage2usd.sensors.rays.around_view import SEAM_M, AroundView
 from garage2usd.sensors.rays.birds_eye import Orthographic
 from garage2usd.sensors.rays.lenses import Fisheye, Pinhole

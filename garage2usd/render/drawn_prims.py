@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdGeom, UsdLux, UsdShade
 
 from garage2usd.reading.labels import owner_of
-from garage2usd.reading.objects import DrawnPart, PlacedObject, once_for_each_look
-from garage2usd.reading.values import metres_per_unit
-from garage2usd.reading.walk import placed_objects
+from garage2usd.scenes.objects import DrawnPart, PlacedObject, once_for_each_look
+from garage2usd.scenes.values import metres_per_unit
+from garage2usd.scenes.walk import placed_objects
 
 __all__ = ["SHAPE_PROPERTY", "DrawnPrims", "read_drawn_prims", "write_shapes"]
 
@@ -63,7 +63,7 @@ def read_drawn_prims(stage: Usd.Stage, ids: Mapping[str, int]) -> DrawnPrims:
 
     Notes
     -----
-    See `garage2usd.reading.walk.placed_objects` for the prims that are drawn.
+    See `garage2usd.scenes.walk.placed_objects` for the prims that are drawn.
     """
     metres = metres_per_unit(stage)
     numbers: dict[Hashable, int] = {}

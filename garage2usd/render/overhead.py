@@ -12,8 +12,8 @@ from garage2usd.as_built.driven_floor import DrivenFloor
 from garage2usd.as_built.driven_ground import CAR_HEIGHT_M
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.levels import StageLevel, levels_of
-from garage2usd.reading.meshes import DRAWN_TYPES, Triangles, triangles_of
 from garage2usd.render.drawn_prims import DrawnPrims
+from garage2usd.scenes.meshes import DRAWN_TYPES, Triangles, triangles_of
 from garage2usd.sensors.rig.poses import y_up_to_stage
 
 __all__ = ["Overhead", "find_overhead"]

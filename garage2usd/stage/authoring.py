@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pxr import Sdf, Tf, UsdGeom, UsdPhysics, Vt
 
 from garage2usd.common.errors import OutputError
-from garage2usd.reading.taxonomy import LABELS_SCHEMA, OBJECT_TAXONOMY, labels_name
+from garage2usd.scenes.taxonomy import LABELS_SCHEMA, OBJECT_TAXONOMY, labels_name
 
 __all__ = [
     "apply_schemas",

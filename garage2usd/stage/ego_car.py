@@ -7,7 +7,7 @@ from pxr import Gf, Sdf, Usd, UsdGeom
 from garage2usd.assets import finished
 from garage2usd.assets.cars import lit
 from garage2usd.config.vehicles import CarBody
-from garage2usd.reading.values import metres_per_unit, metres_y_up
+from garage2usd.scenes.values import metres_per_unit, metres_y_up
 from garage2usd.stage.authoring import define, operation, order_operations, save_file
 from garage2usd.stage.driving_car import CAR_NAME, define_car_looks, driven_asset, write_car_textures
 from garage2usd.stage.lamp_lights import define_lamp_lights

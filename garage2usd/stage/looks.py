@@ -3,7 +3,7 @@
 from pxr import Gf, Sdf
 
 from garage2usd.assets import Material, NonVisual, Texture, pascal_case
-from garage2usd.reading.taxonomy import FINISH, LABELS_SCHEMA, labels_name
+from garage2usd.scenes.taxonomy import FINISH, LABELS_SCHEMA, labels_name
 from garage2usd.stage.authoring import apply_schemas, attribute, connect, define, words
 
 __all__ = ["PACKED_CHANNELS", "TEXTURE_FOLDER", "define_material", "label_material", "set_glow", "set_varying"]
@@ -60,7 +60,7 @@ def define_material(
         _author_colour(surface, path, material)
         _author_finish(surface, path, material)
     if material.normal_texture is not None:
-        reader = _reader(layer, path, "NormalTexture", material.normal_texture, "raw")
+        reader = _reader(layer, path, "NormalTexture", material.normal_texture, "raw", material.wraps)
         # an 8-bit normal map stores (n + 1) / 2
         attribute(reader, "inputs:scale", _TYPES.Float4, Gf.Vec4f(2, 2, 2, 1))
         attribute(reader, "inputs:bias", _TYPES.Float4, Gf.Vec4f(-1, -1, -1, 0))
@@ -98,7 +98,7 @@ def _author_colour(surface: Sdf.PrimSpec, path: Sdf.Path, material: Material) ->
         attribute(surface, "inputs:diffuseColor", _TYPES.Color3f, Gf.Vec3f(*material.colour_rgb))
         return
     colour = attribute(surface, "inputs:diffuseColor", _TYPES.Color3f)
-    reader = _reader(surface.layer, path, "ColourTexture", material.colour_texture, "sRGB")
+    reader = _reader(surface.layer, path, "ColourTexture", material.colour_texture, "sRGB", material.wraps)
     if material.tint_rgb != _UNTINTED:
         attribute(reader, "inputs:scale", _TYPES.Float4, Gf.Vec4f(*material.tint_rgb, 1))
     colour.connectionPathList.explicitItems = [attribute(reader, "outputs:rgb", _TYPES.Float3).path]
@@ -112,7 +112,7 @@ def _author_finish(surface: Sdf.PrimSpec, path: Sdf.Path, material: Material) ->
     if material.packed_texture is None:
         _author_plain_finish(surface, material)
         return
-    reader = _reader(surface.layer, path, "PackedTexture", material.packed_texture, "raw")
+    reader = _reader(surface.layer, path, "PackedTexture", material.packed_texture, "raw", material.wraps)
     for channel, name in PACKED_CHANNELS.items():
         output = attribute(reader, f"outputs:{channel}", _TYPES.Float)
         connect(surface, f"inputs:{name}", _TYPES.Float, output)
@@ -123,13 +123,15 @@ def _author_plain_finish(surface: Sdf.PrimSpec, material: Material) -> None:
     attribute(surface, "inputs:metallic", _TYPES.Float, material.metallic)
 
 
-def _reader(layer: Sdf.Layer, path: Sdf.Path, name: str, file: Texture, colour_space: str) -> Sdf.PrimSpec:
+def _reader(
+    layer: Sdf.Layer, path: Sdf.Path, name: str, file: Texture, colour_space: str, wraps: tuple[str, str]
+) -> Sdf.PrimSpec:
     """Author a reader of a texture file."""
     reader = _shader(layer, path.AppendChild(name), "UsdUVTexture")
     attribute(reader, "inputs:file", _TYPES.Asset, Sdf.AssetPath(str(file)))
     attribute(reader, "inputs:sourceColorSpace", _TYPES.Token, colour_space)
-    for axis in ("wrapS", "wrapT"):
-        attribute(reader, f"inputs:{axis}", _TYPES.Token, "repeat")
+    for axis, mode in zip(("wrapS", "wrapT"), wraps, strict=True):
+        attribute(reader, f"inputs:{axis}", _TYPES.Token, mode)
     connect(reader, "inputs:st", _TYPES.Float2, _coordinates(layer, path.AppendChild("Coordinates")))
     return reader
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.reading.taxonomy import LABELS_SCHEMA, SQUARE_TAXONOMY, labels_name
+from garage2usd.scenes.taxonomy import LABELS_SCHEMA, SQUARE_TAXONOMY, labels_name
 
 __all__ = [
     "anchored",

@@ -287,6 +287,8 @@ def define_mesh(
     finish = finish or MATERIALS[part.material]
     usual = MATERIALS.get(part.material, finish)
     mesh = define(layer, path, "Mesh")
+    if part.double_sided:
+        attribute(mesh, "doubleSided", _TYPES.Bool, value=True, uniform=True)
     points = Vt.Vec3fArray.FromNumpy(part.own_points)
     attribute(mesh, "points", _TYPES.Point3fArray, points)
     numbers(mesh, "faceVertexCounts", part.face_counts)

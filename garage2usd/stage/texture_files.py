@@ -44,7 +44,7 @@ def texture_file(texture: Texture, quality: TextureQuality) -> NamedFile:
         data, suffix = own_file(texture, quality)
         return NamedFile(content_name(f"own_{texture.role}_{texture.use}", data, suffix), data)
     if isinstance(texture, StoredTexture):
-        return NamedFile(content_name(texture.stem, texture.data, ".png"), texture.data)
+        return NamedFile(content_name(texture.stem, texture.data, texture.suffix), texture.data)
     path = texture_folder(quality) / (texture.mask if isinstance(texture, PaintedTexture) else texture)
     data = path.read_bytes()
     if isinstance(texture, PaintedTexture):

@@ -6,7 +6,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.reading.surfaces import SurfaceLook
+from garage2usd.scenes.surfaces import SurfaceLook
 from garage2usd.sensors.rays.ray_scene import RayHits, RayScene
 
 __all__ = ["MovedScene", "joined"]

@@ -13,14 +13,14 @@ from garage2usd.common.errors import StageError
 from garage2usd.common.extras import of_extra
 from garage2usd.objects.sky import KIND as SKY
 from garage2usd.reading.labels import Labels, owner_of
-from garage2usd.reading.looks import MeshLooks
-from garage2usd.reading.meshes import DRAWN_TYPES
-from garage2usd.reading.objects import DrawnPart, PlacedObject, once_for_each_look
-from garage2usd.reading.pictures import Pictures, sampled
-from garage2usd.reading.surfaces import SurfaceLook
-from garage2usd.reading.textures import Layout
-from garage2usd.reading.values import metres_per_unit
-from garage2usd.reading.walk import placed_objects
+from garage2usd.scenes.looks import MeshLooks
+from garage2usd.scenes.meshes import DRAWN_TYPES
+from garage2usd.scenes.objects import DrawnPart, PlacedObject, once_for_each_look
+from garage2usd.scenes.pictures import Pictures, sampled
+from garage2usd.scenes.surfaces import SurfaceLook
+from garage2usd.scenes.textures import Layout
+from garage2usd.scenes.values import metres_per_unit
+from garage2usd.scenes.walk import placed_objects
 from garage2usd.sensors.rays.ray_caster import RayCaster, ray_caster
 
 with of_extra("LiDAR"):
@@ -276,7 +276,7 @@ def _pieces(placed: PlacedObject, part: DrawnPart, looks: MeshLooks) -> list[_Pi
     if part.prim.GetTypeName() not in DRAWN_TYPES:
         return []
     found = []
-    for mesh, surface in looks.of_part(placed, part):
+    for mesh, surface, _ in looks.of_part(placed, part):
         triangles, look = looks.meshes.values[mesh], looks.surfaces.values[surface]
         if _are_opaque(np.array(look.opacity), look):
             places = triangles.positions_m @ part.matrix[:3, :3] + part.matrix[3, :3]

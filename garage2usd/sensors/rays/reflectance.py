@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.assets import MATERIALS, Material, Touch, pascal_case
-from garage2usd.reading.surfaces import SurfaceLook
+from garage2usd.scenes.surfaces import SurfaceLook
 
 __all__ = ["REFLECTANCES", "MaterialClass", "Reflectance", "material_class", "returned"]
 

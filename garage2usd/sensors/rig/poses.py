@@ -11,7 +11,7 @@ from pxr import Usd
 
 from garage2usd.driving.timing import Motion
 from garage2usd.driving.trajectory import Trajectory
-from garage2usd.reading.values import metres_y_up
+from garage2usd.scenes.values import metres_y_up
 from garage2usd.sensors.rig.twist import Twist
 
 __all__ = ["CAR_FROM_VEHICLE", "MAP_TO_Y_UP", "VehiclePose", "poses_along", "vehicle_to_y_up", "y_up_to_stage"]

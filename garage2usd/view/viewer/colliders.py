@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.reading.meshes import Triangles
-from garage2usd.reading.values import READ_AT
+from garage2usd.scenes.meshes import Triangles
+from garage2usd.scenes.values import READ_AT
 from garage2usd.view.viewer.scene import Piece, box_corners, moved
 
 __all__ = ["collider_lines", "collider_of"]

@@ -4,7 +4,7 @@ import numpy as np
 from pxr import Usd
 
 from garage2usd.reading.lights import light_of
-from garage2usd.reading.objects import Matrix
+from garage2usd.scenes.objects import Matrix
 from garage2usd.view.viewer.scene import Light
 
 __all__ = ["placed_light"]

@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 from pxr import Usd
 
 from garage2usd.reading.lights import DOMES, LIGHT_TYPES
-from garage2usd.reading.looks import MeshLooks, Numbered
-from garage2usd.reading.meshes import DRAWN_TYPES
-from garage2usd.reading.objects import Matrix, PlacedObject, once_for_each_look
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.values import metres_per_unit
-from garage2usd.reading.walk import placed_objects
+from garage2usd.scenes.looks import MeshLooks, Numbered
+from garage2usd.scenes.meshes import DRAWN_TYPES
+from garage2usd.scenes.objects import Matrix, PlacedObject, once_for_each_look
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.values import metres_per_unit
+from garage2usd.scenes.walk import placed_objects
 from garage2usd.view.viewer.colliders import collider_of
 from garage2usd.view.viewer.lights import placed_light
 from garage2usd.view.viewer.scene import UNLABELLED, Light, Piece, Placed, Shape

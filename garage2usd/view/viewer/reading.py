@@ -11,8 +11,8 @@ from garage2usd.common.errors import StageError
 from garage2usd.reading.label_table import read_label_table
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.levels import levels_of
-from garage2usd.reading.values import metres_y_up
 from garage2usd.reading.whole_garage import garage_root
+from garage2usd.scenes.values import metres_y_up
 from garage2usd.view.viewer.looks import Looks
 from garage2usd.view.viewer.scene import Placed, Scene, Shape, box_corners, moved
 

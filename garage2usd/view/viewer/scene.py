@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from garage2usd.reading.lanes import Lanes
 from garage2usd.reading.levels import StageLevel
-from garage2usd.reading.meshes import Triangles
-from garage2usd.reading.pictures import Bands, Pictures
+from garage2usd.scenes.meshes import Triangles
+from garage2usd.scenes.pictures import Bands, Pictures
 from garage2usd.view.viewer.surfaces import ShownSurface
 
 __all__ = ["UNLABELLED", "Light", "Piece", "Placed", "Scene", "Shape", "box_corners", "moved"]

@@ -2,11 +2,11 @@
 
 from typing import NamedTuple
 
-from garage2usd.reading.base_colours import base_colour_of
-from garage2usd.reading.pictures import ALPHA, Band, Bands, Pictures
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.surfaces import Rgb, SurfaceLook
-from garage2usd.reading.textures import Layout, Texture
+from garage2usd.scenes.base_colours import base_colour_of
+from garage2usd.scenes.pictures import ALPHA, Band, Bands, Pictures
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.surfaces import Rgb, SurfaceLook
+from garage2usd.scenes.textures import Layout, Texture
 
 __all__ = ["ShownSurface", "ShownSurfaces"]
 
@@ -19,7 +19,7 @@ class ShownSurface(NamedTuple):
     Attributes
     ----------
     colour_rgb, emissive_rgb, roughness, metallic, opacity, clearcoat, opacity_threshold
-        As in `garage2usd.reading.surfaces.SurfaceLook`; factors on the texture if there is one.
+        As in `garage2usd.scenes.surfaces.SurfaceLook`; factors on the texture if there is one.
     colour_texture, roughness_texture, metallic_texture
         Indices of textures; -1 for none.
     roughness_channel, metallic_channel

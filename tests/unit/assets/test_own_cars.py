@@ -14,9 +14,9 @@ from garage2usd.assets import MATERIALS
 from garage2usd.assets.cars import lit
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.foreign_models import read_model
 from garage2usd.config import GarageConfig
 from garage2usd.config.own_cars import ModelFolder, cars_by_name, read_own_cars
+from garage2usd.scenes.foreign_models import read_model
 from garage2usd.sensors.rig.ego_mask import ego_triangles_m
 from garage2usd.sensors.rig.rig import read_rig, rig_from_mapping
 from garage2usd.stage.driving_car import CAR_NAME, driven_asset
@@ -123,11 +123,10 @@ def test_finishes_of_own_cars_are_their_pictures(tmp_path):
 
 def test_channels_of_a_preview_surface_are_packed(tmp_path):
     write_z_up(tmp_path / "van.usdc", finish=True)
-    surfaces = {part.surface for part in read_model(tmp_path / "van.usdc", field="models")}
-    (surface,) = surfaces
+    (surface,) = {part.surface for part in read_model(tmp_path / "van.usdc", field="models").parts}
     assert surface.colour_rgb == pytest.approx((0.6, 0.02, 0.02))
-    assert (surface.picture, surface.normals) == (b"", b"")
-    assert Image.open(io.BytesIO(surface.packed)).getpixel((0, 0)) == (255, ROUGH_RGB[0], ROUGH_RGB[2])
+    assert (surface.picture, surface.normals) == (None, None)
+    assert Image.open(io.BytesIO(surface.packed.data)).getpixel((0, 0)) == (255, ROUGH_RGB[0], ROUGH_RGB[2])
 
 
 @pytest.fixture(scope="module")

@@ -24,7 +24,7 @@ from garage2usd.common.errors import StageError
 from garage2usd.maps.glb import write_glb
 from garage2usd.maps.glb_meshes import are_rigid, by_facets, rigid_inverses
 from garage2usd.objects import PIECE_LABELS
-from garage2usd.reading.meshes import Triangles
+from garage2usd.scenes.meshes import Triangles
 
 
 @pytest.fixture(scope="module")

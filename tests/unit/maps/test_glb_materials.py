@@ -22,7 +22,7 @@ from support.glb_reader import Glb
 from support.preview_surface import GltfMaterial, value_at
 
 from garage2usd.maps.glb import write_glb
-from garage2usd.reading.remarks import Remarks
+from garage2usd.scenes.remarks import Remarks
 
 BYTE = 1.5 / 255
 
@@ -48,7 +48,7 @@ def places(stage):
 def test_a_material_says_what_its_specification_says(about, tmp_path):
     stage = material_stage(tmp_path, MATERIALS[about])
     glb, remarks = exported(stage, tmp_path)
-    assert len(remarks) == about.startswith("missing file")
+    assert len(remarks) == about.startswith("missing")
     written, material = GltfMaterial(glb), UsdShade.Material(stage.GetPrimAtPath("/W/M"))
     is_mirror, off = "specularColor" in MATERIALS[about]["inputs"], 0
     compared = 0
@@ -224,10 +224,21 @@ def test_what_is_no_picture_is_named_and_shows_its_fallback(name, read, tmp_path
     assert GltfMaterial(glb).values((0.5, 0.5))[next(iter(read))] == pytest.approx(wanted)
 
 
-def test_tiles_are_named(tmp_path):
-    for tile in (1001, 1002):
-        Image.new("RGB", (4, 4), COLOUR).save(tmp_path / f"tile.{tile}.png")
-    said = case(texture("T", "tile.<UDIM>.png"), primvar(), diffuseColor=RGB)
-    glb, remarks = exported(material_stage(tmp_path, said), tmp_path)
-    assert remarks == ["of textures in tiles (UDIM) the first tile is carried alone (1): tile.<UDIM>.png"]
+def test_tiles_become_one_picture(tmp_path):
+    """By columns rightwards and rows of ten upwards from 1001; places without a tile are black."""
+    greys = {1001: 0, 1002: 51, 1011: 102, 1012: 204}
+    for tile, grey in greys.items():
+        Image.new("RGB", (8, 8), (grey,) * 3).save(tmp_path / f"tile.{tile}.png")
+    reader = texture("T", "tile.<UDIM>.png", sourceColorSpace='"raw"')
+    stage = material_stage(tmp_path, case(reader, primvar(varname="wide"), diffuseColor=RGB))
+    glb, remarks = exported(stage, tmp_path)
+    assert remarks == []
     assert len(glb.json["images"]) == 1
+    material, seen = GltfMaterial(glb), set()
+    for place, primvars in places(stage):
+        column, row = np.floor(primvars["wide"]).astype(int)
+        is_inside = np.abs(primvars["wide"] - np.rint(primvars["wide"])).min() > 0.1  # where pixels of two tiles mix
+        if (tile := 1001 + column + 10 * row) in greys and {column, row} <= {0, 1} and is_inside:
+            seen.add(tile)
+            assert material.values(place)["diffuseColor"] == pytest.approx([greys[tile] / 255] * 3, abs=2 * BYTE)
+    assert len(seen) > 1

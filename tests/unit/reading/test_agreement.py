@@ -9,9 +9,9 @@ from pxr import Usd, UsdGeom, UsdShade
 from support.foreign_stages import TRAPS, installed_stages
 
 from garage2usd.as_built.contents import read_contents as scene_of_checks
-from garage2usd.reading.values import metres_y_up
-from garage2usd.reading.walk import placed_objects
 from garage2usd.render.drawn_prims import read_drawn_prims as scene_of_render
+from garage2usd.scenes.values import metres_y_up
+from garage2usd.scenes.walk import placed_objects
 from garage2usd.view.viewer.looks import Looks
 
 STAGES = {**installed_stages(), **TRAPS}

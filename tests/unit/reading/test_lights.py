@@ -8,7 +8,7 @@ from support.glb_reader import Glb
 from garage2usd.maps.glb import write_glb
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.lights import light_of
-from garage2usd.reading.remarks import Remarks
+from garage2usd.scenes.remarks import Remarks
 from garage2usd.view.viewer import read_scene
 
 HEAD = '#usda 1.0\n(\ndefaultPrim = "W"\nmetersPerUnit = {metres}\nupAxis = "Y"\n)\ndef Xform "W"\n{{\n{prims}\n}}\n'

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
-from garage2usd.reading.values import READ_AT, number_of
+from garage2usd.scenes.values import READ_AT, number_of
 
 __all__ = ["solid_faces"]
 

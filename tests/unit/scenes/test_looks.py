@@ -3,7 +3,7 @@
 import pytest
 from pxr import Usd
 
-from garage2usd.reading.looks import MeshLooks
+from garage2usd.scenes.looks import MeshLooks
 
 ASSET = """#usda 1.0
 (
@@ -69,5 +69,5 @@ def test_materials_are_one_if_they_are_made_of_the_same_opinions(tmp_path, arc, 
     looks = MeshLooks()
     drawn = [looks.of_prim(stage.GetPrimAtPath(f"/{name}/Sheet")) for name in ("One", "Other")]
     assert [surface.colour_rgb for surface in looks.surfaces.values] == [pytest.approx(colour) for colour in colours]
-    assert [surface for ((_, surface),) in drawn] == [0, len(colours) - 1]
+    assert [surface for ((_, surface, _),) in drawn] == [0, len(colours) - 1]
     assert len(looks.meshes.values) == 1

@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdShade
 
-from garage2usd.reading.pictures import Band, Pictures
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.values import READ_AT, vector_of
+from garage2usd.scenes.pictures import Band, Pictures
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.values import READ_AT, numbers_of, vector_of
 
 __all__ = [
+    "LEFT_OUT",
+    "MISSING_PICTURE",
     "PRIMVAR_READER",
     "USUAL_COORDINATES",
     "UV_TEXTURE",
@@ -29,7 +31,12 @@ UV_TEXTURE, _TRANSFORM = "UsdUVTexture", "UsdTransform2d"
 _CHANNELS = {"rgb": -1, "r": 0, "g": 1, "b": 2, "a": 3}
 _DEEPEST = 16
 """Greatest number of chained coordinate transforms: connections may be circular."""
-_FIRST_TILE = "1001"
+_FIRST_TILE, _COLUMNS = 1001, 10
+"""Number of the first UDIM tile, and of tiles in a row."""
+_WHOLE = 1, 1
+"""Columns and rows of a picture that is not of tiles."""
+MISSING_PICTURE = "textures whose file is missing show their fallback"
+LEFT_OUT = "are left out, and their fallback is shown"
 _WRAPS = {"mirror": "mirror", "clamp": "clamp", "black": "clamp"}
 _SQUARE = 1e-6
 _Number = TypeVar("_Number", bound=np.floating[Any])
@@ -187,33 +194,34 @@ class TextureReader:
 
     def _of(self, reader: UsdShade.Shader) -> Texture | Four:
         """Return all channels of a texture."""
-        file = self._file(reader)
+        file, tiles = self._file(reader)
         if not file:
             return _numbers(reader, "fallback", (0.0, 0.0, 0.0, 1.0))
-        layout = self._layout(reader)._replace(wrap_s=self._wrap(reader, "wrapS"), wrap_t=self._wrap(reader, "wrapT"))
+        layout = self._layout(reader, Layout(scale=(1 / tiles[0], 1 / tiles[1])))
+        layout = layout._replace(wrap_s=self._wrap(reader, "wrapS"), wrap_t=self._wrap(reader, "wrapT"))
         scale, bias = _numbers(reader, "scale", (1.0,) * 4), _numbers(reader, "bias", (0.0,) * 4)
         return Texture(file, -1, layout, scale, bias, _word(reader, "sourceColorSpace", "auto"))
 
-    def _file(self, reader: UsdShade.Shader) -> str:
-        """Return the resolved path of a texture's picture; empty if none can be read."""
+    def _file(self, reader: UsdShade.Shader) -> tuple[str, tuple[int, int]]:
+        """Return the resolved path of a texture's picture, empty if none can be read, and its columns and rows."""
         source = source_of(reader, "file")
         value = source.attribute.Get(READ_AT) if source is not None and source.shader is None else None
         if source is None or not isinstance(value, Sdf.AssetPath) or not value.path:
-            return ""
-        path = value.resolvedPath
+            return "", _WHOLE
+        tiles = {(0, 0): value.resolvedPath}
         if UsdShade.UdimUtils.IsUdimIdentifier(value.path):
             tiles = _tiles(value.path, source.attribute)
-            path = tiles.get(_FIRST_TILE, "")
-            if len(tiles) > 1:
-                self._remarks.add("of textures in tiles (UDIM) the first tile is carried alone", value.path)
-        if not path:
-            self._remarks.add("textures whose file is missing show their fallback", value.path)
-            return ""
-        fault = self._pictures.fault(path)
-        if fault:
-            self._remarks.add(f"pictures that {fault} are left out, and their fallback is shown", value.path)
-            return ""
-        return str(path)
+        if not tiles or not all(tiles.values()):
+            self._remarks.add(MISSING_PICTURE, value.path)
+            return "", _WHOLE
+        for path in tiles.values():
+            if fault := self._pictures.fault(path):
+                self._remarks.add(f"pictures that {fault} {LEFT_OUT}", value.path)
+                return "", _WHOLE
+        if len(tiles) == 1 and (0, 0) in tiles:
+            return str(tiles[0, 0]), _WHOLE
+        columns, rows = (1 + max(place[axis] for place in tiles) for axis in (0, 1))
+        return self._pictures.mosaic(tiles), (columns, rows)
 
     def _wrap(self, reader: UsdShade.Shader, name: str) -> str:
         word = _word(reader, name, "useMetadata")
@@ -221,15 +229,15 @@ class TextureReader:
             self._remarks.add("textures are clamped where they should be black outside", reader.GetPath())
         return _WRAPS.get(word, "repeat")
 
-    def _layout(self, reader: UsdShade.Shader) -> Layout:
-        """Return the texture coordinates of a texture, and their transform."""
-        steps: list[Layout] = []
+    def _layout(self, reader: UsdShade.Shader, last: Layout) -> Layout:
+        """Return the texture coordinates of a texture, and their transform; `last` is applied after all others."""
+        steps: list[Layout] = [last] if last.is_moved else []
         node, name = reader, "st"
         for _ in range(_DEEPEST):
             source = source_of(node, name)
             if source is None and node is reader:
                 self._remarks.add("textures without coordinates are read at those of the name st", reader.GetPath())
-                return Layout()
+                return self._after(USUAL_COORDINATES, steps, reader)
             if source is None or source.shader is None:
                 fixed = _pair(node, name, (0.0, 0.0))
                 return self._after(Coordinates("", fixed), steps, reader)
@@ -263,10 +271,11 @@ class TextureReader:
         return Layout(coordinates, scale, rotation_rad, origin)
 
 
-def _tiles(path: str, attribute: Usd.Attribute) -> dict[str, str]:
-    """Return the resolved paths of a texture's UDIM tiles, by tile number."""
+def _tiles(path: str, attribute: Usd.Attribute) -> dict[tuple[int, int], str]:
+    """Return the resolved paths of a texture's UDIM tiles, by column and row."""
     (opinion, *_) = attribute.GetPropertyStack(READ_AT)
-    return {tile: str(found) for found, tile in UsdShade.UdimUtils.ResolveUdimTilePaths(path, opinion.layer)}
+    found = UsdShade.UdimUtils.ResolveUdimTilePaths(path, opinion.layer)
+    return {divmod(int(tile) - _FIRST_TILE, _COLUMNS)[::-1]: str(file) for file, tile in found}
 
 
 def _word(node: UsdShade.Shader, name: str, otherwise: str) -> str:
@@ -292,4 +301,7 @@ def _numbers(node: UsdShade.Shader, name: str, otherwise: Four) -> Four:
 
 def _vector(node: UsdShade.Shader, name: str, otherwise: tuple[float, ...]) -> tuple[float, ...]:
     source = source_of(node, name)
-    return vector_of(source.attribute, len(otherwise)) if source is not None and source.shader is None else otherwise
+    if source is None or source.shader is not None:
+        return otherwise
+    given = len(numbers_of(source.attribute, np.float64))  # fewer than its schema asks for, as some programs write
+    return vector_of(source.attribute, max(1, min(given, len(otherwise)))) + otherwise[given:]

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from pxr import Usd, UsdGeom, UsdLux, UsdShade
 
-from garage2usd.reading.values import READ_AT
+from garage2usd.scenes.values import READ_AT
 
 __all__ = ["PrimType", "PrimTypes", "is_imageable", "is_visible", "purpose_of"]
 

@@ -1,13 +1,16 @@
-"""Base colour of a surface: colour and opacity combined, for formats with one texture for both."""
+"""Textures of a surface as other formats take them: colour and opacity in one, and normals as bytes."""
 
 from typing import NamedTuple
 
-from garage2usd.reading.pictures import Bands, Pictures, factored
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.surfaces import Rgb, SurfaceLook
-from garage2usd.reading.textures import Texture
+from garage2usd.scenes.pictures import Bands, Pictures, factored
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.surfaces import Rgb, SurfaceLook
+from garage2usd.scenes.textures import Texture
 
-__all__ = ["BaseColour", "base_colour_of"]
+__all__ = ["BaseColour", "base_colour_of", "normal_bands_of"]
+
+_DIRECTIONS = (2.0, 2.0, 2.0), (-1.0, -1.0, -1.0)
+"""Scale and bias from a picture's values to a normal, where 8 bits store (n + 1) / 2."""
 
 
 class BaseColour(NamedTuple):
@@ -46,3 +49,14 @@ def base_colour_of(surface: SurfaceLook, pictures: Pictures, remarks: Remarks) -
         bands += (1.0,)
     red, green, blue = factors
     return BaseColour((red, green, blue), share, bands, colour or opacity)
+
+
+def normal_bands_of(texture: Texture, remarks: Remarks) -> Bands:
+    """Return the bands of a normal map that stores (n + 1) / 2; add a remark if its scale and bias are not given."""
+    scale, bias = texture.scale[:3], texture.bias[:3]
+    if (scale, bias) == ((1.0,) * 3, (0.0,) * 3):
+        remarks.add("normal maps without scale and bias are read with those of bytes, 2 and -1", texture.file)
+        scale, bias = _DIRECTIONS
+    return tuple(
+        texture.band(channel)._replace(scale=scale[channel] / 2, bias=(bias[channel] + 1) / 2) for channel in range(3)
+    )

@@ -6,7 +6,7 @@ from typing import NamedTuple, Self
 import numpy as np
 from pxr import Usd, UsdGeom, UsdShade
 
-from garage2usd.reading.values import READ_AT
+from garage2usd.scenes.values import READ_AT
 
 __all__ = ["NOTHING", "Inherited", "handed_down"]
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.reading.inheritance import NOTHING, Inherited
+from garage2usd.scenes.inheritance import NOTHING, Inherited
 
 __all__ = ["DrawnPart", "Matrix", "PlacedObject", "once_for_each_look"]
 
@@ -57,6 +57,8 @@ class PlacedObject:
         From its space to the world.
     parts
         Drawn parts. Instances of one prototype that inherit the same values share one tuple.
+    is_twin_whole
+        True if `twin` starts at the stage's root although the walk began in a prototype.
     """
 
     path: str
@@ -65,6 +67,7 @@ class PlacedObject:
     square: str
     matrix: Matrix
     parts: Sequence[DrawnPart] = field(default_factory=list)
+    is_twin_whole: bool = False
 
     def twin_of(self, part: DrawnPart) -> Usd.Prim:
         """Return the prim on the stage that looks like a part, with the part's inherited values."""

@@ -6,10 +6,10 @@ from pxr import Usd, UsdGeom, UsdShade
 from support.glb_reader import Glb
 
 from garage2usd.maps.glb import write_glb
-from garage2usd.reading.looks import MeshLooks
-from garage2usd.reading.meshes import DRAWN_TYPES
-from garage2usd.reading.walk import placed_objects
 from garage2usd.render.drawn_prims import read_drawn_prims
+from garage2usd.scenes.looks import MeshLooks
+from garage2usd.scenes.meshes import DRAWN_TYPES
+from garage2usd.scenes.walk import placed_objects
 from garage2usd.view.viewer import read_scene
 
 COLOURS = {"Red": (1, 0, 0), "Green": (0, 1, 0), "Blue": (0, 0, 1), "Grey": (0.25, 0.25, 0.25)}
@@ -168,7 +168,7 @@ def test_every_reader_shows_what_usd_computes(about, tmp_path):
     for placed in objects:
         for part in placed.parts:
             if part.prim.GetTypeName() in DRAWN_TYPES:
-                ((_, surface),) = looks.of_part(placed, part)
+                ((_, surface, _),) = looks.of_part(placed, part)
                 found[placed.twin + part.path] = looks.surfaces.values[surface].colour_rgb
     assert found.keys() == wanted.keys()
     assert all(found[name] == pytest.approx(wanted[name]) for name in wanted)

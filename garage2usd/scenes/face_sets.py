@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom, UsdShade
 
-from garage2usd.reading.values import READ_AT, numbers_of
+from garage2usd.common.errors import StageError
+from garage2usd.scenes.values import READ_AT, numbers_of
 
 __all__ = ["face_sets"]
 
@@ -18,6 +19,11 @@ def face_sets(prim: Usd.Prim) -> Iterator[tuple[Usd.Prim, NDArray[np.intp] | Non
     ------
     tuple
         The prim with the material binding, and the numbers of its faces; None for all.
+
+    Raises
+    ------
+    StageError
+        If a subset names a face that the mesh lacks.
     """
     children = prim.GetFilteredChildren(Usd.TraverseInstanceProxies())
     subsets = [child for child in children if child.IsA(UsdGeom.Subset) and _is_bound(child)]
@@ -26,7 +32,12 @@ def face_sets(prim: Usd.Prim) -> Iterator[tuple[Usd.Prim, NDArray[np.intp] | Non
         return
     faces_of = [numbers_of(UsdGeom.Subset(child).GetIndicesAttr(), np.intp) for child in subsets]
     count = len(numbers_of(UsdGeom.Mesh(prim).GetFaceVertexCountsAttr(), np.int64))
-    yield from zip(subsets, faces_of, strict=True)
+    for subset, faces in zip(subsets, faces_of, strict=True):
+        wrong = faces[(faces < 0) | (faces >= count)].tolist()
+        if wrong:
+            file = prim.GetStage().GetRootLayer().realPath
+            raise StageError(file, f"{subset.GetPath()} names face {wrong[0]} of {count}")
+        yield subset, faces
     rest = np.setdiff1d(np.arange(count), np.concatenate(faces_of))
     if len(rest):
         yield prim, rest

@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 from pxr import Kind, Usd, UsdGeom
 
-from garage2usd.reading.inheritance import NOTHING, Inherited, handed_down
-from garage2usd.reading.objects import DrawnPart, Matrix, PlacedObject
-from garage2usd.reading.prim_types import PrimType, PrimTypes, is_imageable, is_visible, purpose_of
-from garage2usd.reading.taxonomy import OBJECT_TAXONOMY, SQUARE_TAXONOMY, label_of, labels_name
-from garage2usd.reading.values import READ_AT, numbers_of
+from garage2usd.scenes.inheritance import NOTHING, Inherited, handed_down
+from garage2usd.scenes.objects import DrawnPart, Matrix, PlacedObject
+from garage2usd.scenes.prim_types import PrimType, PrimTypes, is_imageable, is_visible, purpose_of
+from garage2usd.scenes.taxonomy import OBJECT_TAXONOMY, SQUARE_TAXONOMY, label_of, labels_name
+from garage2usd.scenes.values import READ_AT, numbers_of
 
 __all__ = ["placed_objects"]
 
@@ -25,7 +25,9 @@ _IDENTITY = np.eye(4)
 _IDENTITY.setflags(write=False)
 
 
-def placed_objects(stage: Usd.Stage, to_world: Matrix, *, with_looks: bool = True) -> list[PlacedObject]:
+def placed_objects(
+    stage: Usd.Stage, to_world: Matrix, *, with_looks: bool = True, within: Usd.Prim | None = None
+) -> list[PlacedObject]:
     """Find every object that a stage draws, in the order of its prims.
 
     Parameters
@@ -33,9 +35,11 @@ def placed_objects(stage: Usd.Stage, to_world: Matrix, *, with_looks: bool = Tru
     stage
         The stage in its current composition; instances and point instancers are followed.
     to_world
-        From the stage's space to that of the results, for example `garage2usd.reading.values.metres_y_up`.
+        From the stage's space to that of the results, for example `garage2usd.scenes.values.metres_y_up`.
     with_looks
         False to leave out the appearance that parts inherit, where shapes alone are of interest.
+    within
+        A prim at the root of the stage, to find what is at and below it alone; all prims if left out.
 
     Raises
     ------
@@ -51,7 +55,7 @@ def placed_objects(stage: Usd.Stage, to_world: Matrix, *, with_looks: bool = Tru
     """
     walk = _Walk(stage, with_looks=with_looks)
     at = _At("", "", to_world, to_world)
-    for prim in stage.GetPseudoRoot().GetChildren():
+    for prim in [within] if within else stage.GetPseudoRoot().GetChildren():
         walk.visit(prim, at)
     return [found for found in at.found if found.parts]
 
@@ -78,6 +82,8 @@ class _At:
         Predicate of the children to visit.
     found
         Objects found so far.
+    is_twin_whole
+        True if `twin` starts at the stage's root, as for the points of instancers, wherever the walk began.
     """
 
     path: str
@@ -91,6 +97,7 @@ class _At:
     within: Matrix = field(default_factory=lambda: _IDENTITY)
     predicate: "Usd._PrimFlagsPredicate" = Usd.PrimDefaultPredicate
     found: list[PlacedObject] = field(default_factory=list)
+    is_twin_whole: bool = False
 
 
 class _Prototype(NamedTuple):
@@ -141,13 +148,14 @@ class _Walk:
             within,
             above.predicate,
             above.found,
+            above.is_twin_whole,
         )
         label = label_of(prim) if _CLASS in said else ""
         if kind.is_instancer:
             self._visit_points(prim, at, label)
             return
         if label or (holder is None and self._is_whole(prim)):
-            at.holder = PlacedObject(at.path, at.twin, label, at.square, at.matrix)
+            at.holder = PlacedObject(at.path, at.twin, label, at.square, at.matrix, is_twin_whole=at.is_twin_whole)
             at.within = _IDENTITY
             at.found.append(at.holder)
         self._visit_contents(prim, kind, at)
@@ -182,9 +190,19 @@ class _Walk:
             if is_shown and 0 <= index < len(roots) and roots[index]:
                 root, path = roots[index], f"{at.path}[{point}]"
                 matrix = np.array(place) @ at.matrix
-                holder = PlacedObject(path, _twin(root), label_of(root) or label or above, at.square, matrix)
+                is_whole = at.is_twin_whole or not root.IsInPrototype()
+                named = label_of(root) or label or above
+                holder = PlacedObject(path, _twin(root), named, at.square, matrix, is_twin_whole=is_whole)
                 at.found.append(holder)
-                here = replace(at, path=path, twin=holder.twin, matrix=matrix, holder=holder, within=_IDENTITY)
+                here = replace(
+                    at,
+                    path=path,
+                    twin=holder.twin,
+                    matrix=matrix,
+                    holder=holder,
+                    within=_IDENTITY,
+                    is_twin_whole=is_whole,
+                )
                 self._take(self._point_prototype(root, at.inherited if root.IsInPrototype() else NOTHING), here)
 
     def _prototype(self, prototype: Usd.Prim, at: _At) -> _Prototype:
@@ -220,11 +238,12 @@ class _Walk:
             at.found.append(
                 PlacedObject(
                     at.path + inner.path,
-                    at.twin + inner.twin,
+                    inner.twin if inner.is_twin_whole else at.twin + inner.twin,
                     inner.label or above,
                     inner.square or at.square,
                     inner.matrix @ at.matrix,
                     inner.parts,
+                    at.is_twin_whole or inner.is_twin_whole,
                 )
             )
         if at.holder is None:

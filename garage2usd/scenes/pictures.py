@@ -2,7 +2,7 @@
 
 import io
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any, NamedTuple
 
@@ -13,7 +13,7 @@ from pxr import Ar
 
 from garage2usd.common.extras import installation_of
 
-__all__ = ["ALPHA", "Band", "Bands", "Picture", "Pictures", "factored", "sampled"]
+__all__ = ["ALPHA", "Band", "Bands", "Picture", "Pictures", "factored", "has_sixteen_bits", "sampled"]
 
 _PLAIN_KINDS = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
 """Picture formats of browsers and glTF, by their first bytes."""
@@ -24,6 +24,7 @@ _SIXTEEN = 16
 _COLOURED = 3
 """Least number of channels of an 8-bit picture that is read as sRGB colours."""
 _WHOLE = {"I;16": 65535.0, "I;16B": 65535.0, "I;16L": 65535.0, "I": 65535.0, "F": 1.0}
+_OPAQUE_BYTE = 255
 ALPHA = 3
 """Number of the alpha channel."""
 _KNEE, _SLOPE, _SHIFT, _POWER = 0.0031308, 12.92, 0.055, 2.4
@@ -86,6 +87,38 @@ class Pictures:
         self._faults: dict[str, str] = {}
         self._pixels: dict[str, _Pixels] = {}
 
+    def give(self, file: str, data: bytes) -> None:
+        """Take the bytes of a picture that no file of its own holds, under a name of one's choice."""
+        self._data[file] = data
+
+    def give_values(self, file: str, values: NDArray[np.float64], *, is_srgb: bool = False) -> None:
+        """Take linear values as a picture of bytes, shape (rows, columns) or (rows, columns, 3)."""
+        buffer = io.BytesIO()
+        Image.fromarray(_stored(values, is_srgb=is_srgb)).save(buffer, format="PNG")
+        self._data[file] = buffer.getvalue()
+
+    def mosaic(self, tiles: Mapping[tuple[int, int], str]) -> str:
+        """Compose pictures by their columns and rows, counted rightwards and upwards, into one; return its name.
+
+        All get the size of the largest, and places without a picture are black.
+        """
+        names = [f"{column},{row}={tile}" for (column, row), tile in sorted(tiles.items())]
+        file = f"mosaic of {' '.join(names)}"
+        if file not in self._data:
+            read = {}
+            for place, tile in tiles.items():
+                read[place] = Image.fromarray(np.rint(self._pixels_of(tile).values.clip(0, 1) * 255).astype(np.uint8))
+            width, height = (max(sides) for sides in zip(*(picture.size for picture in read.values()), strict=True))
+            columns, rows = (1 + max(place[axis] for place in tiles) for axis in (0, 1))
+            whole = Image.new("RGBA", (columns * width, rows * height))
+            for (column, row), picture in read.items():
+                whole.paste(picture.resize((width, height)), (column * width, (rows - 1 - row) * height))
+            stream = io.BytesIO()
+            has_alpha = any(np.asarray(picture)[..., ALPHA].min() < _OPAQUE_BYTE for picture in read.values())
+            whole.convert("RGBA" if has_alpha else "RGB").save(stream, format="PNG")
+            self._data[file] = stream.getvalue()
+        return file
+
     def data(self, file: str) -> bytes:
         """Return the bytes of a picture's file; empty if it cannot be opened."""
         if file not in self._data:
@@ -143,7 +176,7 @@ class Pictures:
         with Image.open(io.BytesIO(data)) as picture:  # reads the header alone
             has_palette = picture.mode == "P"
             channels = _COLOURED if has_palette else len(picture.getbands())
-            return channels, picture.mode not in _WHOLE and not _has_sixteen_bits(data)
+            return channels, picture.mode not in _WHOLE and not has_sixteen_bits(data)
 
     def plane(self, band: Band) -> NDArray[np.float64]:
         """Return the values of a band; float64, shape (rows, columns), the first row on top."""
@@ -246,7 +279,8 @@ def _of_size(plane: NDArray[np.float64] | float, size: tuple[int, int]) -> NDArr
     return np.asarray(resized, dtype=np.float64)
 
 
-def _has_sixteen_bits(data: bytes) -> bool:
+def has_sixteen_bits(data: bytes) -> bool:
+    """Return True for a PNG of 16 bits a channel."""
     return data.startswith(b"\x89PNG") and data[_BITS_AT] == _SIXTEEN
 
 
@@ -258,7 +292,7 @@ def _of_pillow(data: bytes) -> _Pixels:
             return _Pixels(_four([np.asarray(grey, dtype=np.float32)]), 1, are_bytes=False)
         channels = _COLOURED if picture.mode in {"P", "CMYK"} else len(picture.getbands())
         values = np.asarray(picture.convert("RGBA"), dtype=np.float32) / np.float32(255)
-        return _Pixels(values, channels, are_bytes=not _has_sixteen_bits(data))
+        return _Pixels(values, channels, are_bytes=not has_sixteen_bits(data))
 
 
 def _of_openexr(data: bytes) -> _Pixels:

@@ -2,17 +2,17 @@
 
 import hashlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
-from garage2usd.reading.polygons import triangulated
-from garage2usd.reading.solid_shapes import solid_faces
-from garage2usd.reading.textures import USUAL_COORDINATES, Coordinates
-from garage2usd.reading.values import READ_AT, numbers_of
+from garage2usd.scenes.polygons import triangulated
+from garage2usd.scenes.solid_shapes import solid_faces
+from garage2usd.scenes.textures import USUAL_COORDINATES, Coordinates
+from garage2usd.scenes.values import READ_AT, numbers_of
 
 __all__ = ["DRAWN_TYPES", "Triangles", "cross", "triangles_of"]
 
@@ -40,6 +40,8 @@ class Triangles:
         int32, shape (triangles,): number of each triangle's face.
     double_sided
         True if the back is visible.
+    has_normals
+        True if the normals are those of the file; False if they follow from the faces.
     """
 
     positions_m: NDArray[np.float32]
@@ -49,6 +51,7 @@ class Triangles:
     face_of: NDArray[np.int32]
     double_sided: bool
     colours: NDArray[np.float32] | None = None
+    has_normals: bool = True
 
     def key(self) -> bytes:
         """Return a key that is equal for identical triangles."""
@@ -67,14 +70,24 @@ class Triangles:
         is_used = np.zeros(len(self.positions_m), dtype=bool)
         is_used[self.indices[kept]] = True
         used, indices = np.flatnonzero(is_used), (np.cumsum(is_used) - 1)[self.indices[kept]]
-        return Triangles(
-            self.positions_m[used],
-            self.normals[used],
-            self.coordinates[used],
-            indices.astype(np.uint32),
-            self.face_of[kept],
-            self.double_sided,
-            None if self.colours is None else self.colours[used],
+        return replace(
+            self,
+            positions_m=self.positions_m[used],
+            normals=self.normals[used],
+            coordinates=self.coordinates[used],
+            indices=indices.astype(np.uint32),
+            face_of=self.face_of[kept],
+            colours=None if self.colours is None else self.colours[used],
+        )
+
+    def moved(self, matrix: NDArray[np.float64]) -> "Triangles":
+        """Transform triangles to another space, by a matrix for row vectors that need not be rigid, shape (4, 4)."""
+        turn = matrix[:3, :3]
+        return replace(
+            self,
+            positions_m=(self.positions_m @ turn + matrix[3, :3]).astype(np.float32),
+            normals=_unit(self.normals @ np.linalg.pinv(turn).T),
+            indices=self.indices[:, [0, 2, 1]] if np.linalg.det(turn) < 0 else self.indices,
         )
 
 
@@ -94,7 +107,7 @@ def triangles_of(
 
     Notes
     -----
-    Faces that are holes are omitted, and polygons are cut by `garage2usd.reading.polygons.triangulated`. Without
+    Faces that are holes are omitted, and polygons are cut by `garage2usd.scenes.polygons.triangulated`. Without
     authored normals, a mesh is faceted, or smooth if it has a subdivision scheme; it is not subdivided. Faces that
     refer to missing points are omitted, as in a renderer.
     """
@@ -120,7 +133,7 @@ def triangles_of(
         return None
     if mesh.GetOrientationAttr().Get(READ_AT) == UsdGeom.Tokens.leftHanded:
         fans = fans[:, [0, 2, 1]]
-    normals = _normals(mesh, points, corners, fans, face_of)
+    normals, has_normals = _normals(mesh, points, corners, fans, face_of)
     coordinates = [_coordinates(prim, own, len(points), corners, fans, face_of) for own in sets]
     return _welded(
         points[corners[fans]].reshape(-1, 3),
@@ -129,6 +142,7 @@ def triangles_of(
         _colours(prim, colour_name, len(points), corners, fans, face_of) if colour_name else None,
         face_of,
         double_sided=bool(mesh.GetDoubleSidedAttr().Get(READ_AT)),
+        has_normals=has_normals,
     )
 
 
@@ -155,8 +169,8 @@ def _normals(
     corners: NDArray[np.int64],
     fans: NDArray[np.int64],
     face_of: NDArray[np.int32],
-) -> NDArray[np.float32]:
-    """Return the normal of each corner of each triangle, shape (triangles, 3, 3)."""
+) -> tuple[NDArray[np.float32], bool]:
+    """Return the normal of each corner of each triangle, shape (triangles, 3, 3), and True if the mesh gives them."""
     primvar = UsdGeom.PrimvarsAPI(mesh).GetPrimvar("normals")
     if primvar.HasAuthoredValue():
         values, interpolation = primvar.ComputeFlattened(READ_AT), primvar.GetInterpolation()
@@ -164,15 +178,15 @@ def _normals(
         values, interpolation = mesh.GetNormalsAttr().Get(READ_AT), mesh.GetNormalsInterpolation()
     authored = _at_corners(values, interpolation, 3, len(points), corners, fans, face_of)
     if authored is not None:
-        return _unit(authored)
+        return _unit(authored), True
     places = points[corners[fans]].astype(np.float64)
     areas = cross((places[:, 1] - places[:, 0]).T, (places[:, 2] - places[:, 0]).T).T
     if mesh.GetSubdivisionSchemeAttr().Get(READ_AT) != UsdGeom.Tokens.none:
         sums = np.zeros((len(points), 3))
         np.add.at(sums, corners[fans].ravel(), np.repeat(areas, 3, axis=0))
         smooth: NDArray[np.float32] = _unit(sums)[corners[fans]]
-        return smooth
-    return np.repeat(_unit(areas)[:, None], 3, axis=1)
+        return smooth, False
+    return np.repeat(_unit(areas)[:, None], 3, axis=1), False
 
 
 def _coordinates(
@@ -263,6 +277,7 @@ def _welded(
     face_of: NDArray[np.int32],
     *,
     double_sided: bool,
+    has_normals: bool = True,
 ) -> Triangles:
     """Merge identical triangle corners to vertices."""
     sets = coordinates.shape[1]
@@ -283,4 +298,5 @@ def _welded(
         face_of,
         double_sided,
         None if colours is None else kept[:, 6 + 2 * sets :].copy(),
+        has_normals,
     )

@@ -5,7 +5,7 @@ from functools import cache
 
 from pxr import Usd, Vt
 
-from garage2usd.reading.values import READ_AT, lacks
+from garage2usd.scenes.values import READ_AT, lacks
 
 __all__ = [
     "FINISH",

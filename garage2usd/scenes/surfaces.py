@@ -3,17 +3,17 @@
 # Over 300 lines: every input of UsdPreviewSurface is read here, as what one says depends on others.
 
 import math
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdGeom, UsdShade
 
-from garage2usd.reading.pictures import ALPHA, Pictures
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.taxonomy import finish_of
-from garage2usd.reading.textures import (
+from garage2usd.scenes.pictures import ALPHA, Pictures
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.taxonomy import finish_of
+from garage2usd.scenes.textures import (
     PRIMVAR_READER,
     USUAL_COORDINATES,
     UV_TEXTURE,
@@ -23,9 +23,9 @@ from garage2usd.reading.textures import (
     TextureReader,
     source_of,
 )
-from garage2usd.reading.values import READ_AT, vector_of
+from garage2usd.scenes.values import READ_AT, vector_of
 
-__all__ = ["PLAIN", "Rgb", "SurfaceLook", "SurfaceReader", "stands_alone"]
+__all__ = ["Rgb", "SurfaceLook", "SurfaceReader", "stands_alone"]
 
 Rgb = tuple[float, float, float]
 _PREVIEW = "UsdPreviewSurface"
@@ -98,6 +98,11 @@ class SurfaceLook:
         return self.has_alpha or self.opacity < 1
 
     @property
+    def has_textures(self) -> bool:
+        """True if a texture gives a value of the surface."""
+        return any(getattr(self, name) for name in _TEXTURES)
+
+    @property
     def sets(self) -> tuple[Coordinates, ...]:
         """Distinct texture coordinates of the surface's textures; at least one."""
         textures = [getattr(self, name) for name in _TEXTURES]
@@ -105,8 +110,6 @@ class SurfaceLook:
 
 
 _TEXTURES = tuple(own.name for own in fields(SurfaceLook) if own.name.endswith("_texture"))
-PLAIN = SurfaceLook()
-"""Surface without a material."""
 
 
 class _Given(NamedTuple):
@@ -124,6 +127,8 @@ class SurfaceReader:
     ----------
     remarks
         Collector of omitted properties.
+    pictures
+        Receives the pictures of the textures.
 
     Attributes
     ----------
@@ -133,8 +138,8 @@ class SurfaceReader:
         True if the last surface read depends on its prim.
     """
 
-    def __init__(self, remarks: Remarks) -> None:
-        self.pictures, self.read_a_primvar = Pictures(), False
+    def __init__(self, remarks: Remarks, pictures: Pictures) -> None:
+        self.pictures, self.read_a_primvar = pictures, False
         self._remarks = remarks
         self._textures = TextureReader(self.pictures, remarks)
 
@@ -157,12 +162,13 @@ class SurfaceReader:
         return SurfaceLook(colour_rgb=(red, green, blue), opacity=share, colour_name="displayColor" if varies else "")
 
     def surface_of(self, material: UsdShade.Material, prim: Usd.Prim) -> SurfaceLook:
-        """Return the surface of a prim from its material's UsdPreviewSurface; `PLAIN` without one."""
+        """Return the surface of a prim from its material's UsdPreviewSurface, or that of `unbound` without one."""
         self.read_a_primvar = False
         found, _, _ = material.ComputeSurfaceSource()
         if not found or found.GetIdAttr().Get() != _PREVIEW:
             self._remarks.add("materials without a UsdPreviewSurface are plain", material.GetPath())
-            return PLAIN
+            self.read_a_primvar = True
+            return replace(self.unbound(prim), name=finish_of(material.GetPrim()))
         shader = _Inputs(self, found, prim, frozenset(found.GetPrim().GetAuthoredPropertyNames()))
         if any(shader.given("displacement", (0.0,)).values):
             self._remarks.add("displacement is left out", material.GetPath())
@@ -302,6 +308,8 @@ def _rows(primvar: UsdGeom.Primvar, width: int) -> NDArray[np.float64] | None:
         return None
     if not primvar.GetTypeName().isArray:
         values = values[None]
+    if not values.ndim:
+        return None
     rows = values.reshape(len(values), -1) if len(values) else values.reshape(0, 1)
     return rows[:, :width] if len(rows) and rows.shape[1] >= width else None
 

@@ -5,15 +5,16 @@ from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Sdf, Usd, UsdShade
+from pxr import Sdf, Usd, UsdGeom, UsdShade
 
-from garage2usd.reading.face_sets import face_sets
-from garage2usd.reading.inheritance import NOTHING, Inherited
-from garage2usd.reading.meshes import Triangles, triangles_of
-from garage2usd.reading.objects import DrawnPart, PlacedObject
-from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.surfaces import SurfaceLook, SurfaceReader, stands_alone
-from garage2usd.reading.values import opinions_of
+from garage2usd.scenes.face_sets import face_sets
+from garage2usd.scenes.inheritance import NOTHING, Inherited
+from garage2usd.scenes.meshes import Triangles, triangles_of
+from garage2usd.scenes.objects import DrawnPart, PlacedObject
+from garage2usd.scenes.pictures import Pictures
+from garage2usd.scenes.remarks import Remarks
+from garage2usd.scenes.surfaces import SurfaceLook, SurfaceReader, stands_alone
+from garage2usd.scenes.values import opinions_of
 
 __all__ = ["DrawnMesh", "MeshLooks", "Numbered"]
 
@@ -42,10 +43,13 @@ class DrawnMesh(NamedTuple):
     ----------
     mesh, surface
         Numbers of the triangles and of the surface.
+    subset
+        Name of the subset of the prim's faces; empty for none.
     """
 
     mesh: int
     surface: int
+    subset: str = ""
 
 
 class MeshLooks:
@@ -57,6 +61,8 @@ class MeshLooks:
         True to keep surfaces of materials of different names apart, even if they look alike.
     remarks
         Collector of omitted properties; the default is a new one.
+    pictures
+        Receives the pictures of the textures; the default is a new collection.
 
     Attributes
     ----------
@@ -68,12 +74,14 @@ class MeshLooks:
         Omitted properties.
     """
 
-    def __init__(self, *, is_apart_by_name: bool = False, remarks: Remarks | None = None) -> None:
+    def __init__(
+        self, *, is_apart_by_name: bool = False, remarks: Remarks | None = None, pictures: Pictures | None = None
+    ) -> None:
         self._is_apart_by_name = is_apart_by_name
         self.meshes: Numbered[Triangles] = Numbered()
         self.surfaces: Numbered[SurfaceLook] = Numbered()
         self.remarks = Remarks() if remarks is None else remarks
-        self._reader = SurfaceReader(self.remarks)
+        self._reader = SurfaceReader(self.remarks, Pictures() if pictures is None else pictures)
         self.pictures = self._reader.pictures
         self._triangles_of: dict[Hashable, Triangles | None] = {}
         self._mesh_of: dict[Hashable, int | None] = {}
@@ -86,7 +94,7 @@ class MeshLooks:
         return self.of_prim(placed.twin_of(part), part.inherited)
 
     def of_prim(self, prim: Usd.Prim, inherited: Inherited = NOTHING) -> list[DrawnMesh]:
-        """Return the meshes of a prim of `garage2usd.reading.meshes.DRAWN_TYPES`; `inherited` is from outside it."""
+        """Return the meshes of a prim of `garage2usd.scenes.meshes.DRAWN_TYPES`; `inherited` is from outside it."""
         found, opinions = [], opinions_of(prim)
         for bound, faces in face_sets(prim):
             surface = self._surface(bound, prim)
@@ -98,13 +106,14 @@ class MeshLooks:
                 self._mesh_of[of_faces] = self._mesh(prim, key, look, faces)
             mesh = self._mesh_of[of_faces]
             if mesh is not None:
-                found.append(DrawnMesh(mesh, surface))
+                found.append(DrawnMesh(mesh, surface, "" if bound == prim else bound.GetName()))
         return found
 
     def _mesh(self, prim: Usd.Prim, key: Hashable, look: SurfaceLook, faces: NDArray[np.intp] | None) -> int | None:
         """Return the number of the triangles of some faces; None without triangles."""
         # prims made of the same opinions are the same
         if key not in self._triangles_of:
+            self._remark_coordinates(prim, look)
             self._triangles_of[key] = triangles_of(prim, sets=look.sets, colour_name=look.colour_name)
         triangles = self._triangles_of[key]
         if triangles is not None and faces is not None:
@@ -113,9 +122,18 @@ class MeshLooks:
             return None
         return self.meshes.number(triangles, triangles.key())
 
+    def _remark_coordinates(self, prim: Usd.Prim, look: SurfaceLook) -> None:
+        """Add a remark where a prim lacks texture coordinates, so that a texture shows one pixel."""
+        primvars = UsdGeom.PrimvarsAPI(prim)
+        for own in look.sets if look.has_textures else ():
+            if own.name and not primvars.FindPrimvarWithInheritance(own.name).HasValue():
+                self.remarks.add(f"textures show one pixel without the coordinates {own.name}", prim.GetPath())
+
     def _surface(self, bound: Usd.Prim, prim: Usd.Prim) -> int:
         bindings = UsdShade.MaterialBindingAPI(bound)
         material, _ = bindings.ComputeBoundMaterial(UsdShade.Tokens.preview)
+        if not material:
+            material, _ = bindings.ComputeBoundMaterial(UsdShade.Tokens.full)
         if not material:
             return self._number(self._reader.unbound(prim))
         path = material.GetPath()

@@ -6,7 +6,7 @@ import shapely
 from pxr import Sdf, Usd, UsdGeom
 from scipy.spatial.transform import Rotation
 
-from garage2usd.reading.meshes import triangles_of
+from garage2usd.scenes.meshes import triangles_of
 
 L_SHAPE = [(10, 4), (4, 4), (4, 10), (0, 10), (0, 0), (10, 0)]
 COMB = [(0, 0), (9, 0), (9, 5), (8, 5), (8, 1), (6, 1), (6, 5), (5, 5), (5, 1), (1, 1), (1, 5), (0, 5)]
