@@ -1,19 +1,26 @@
-"""Lane bounds as polylines, shared by adjacent lanes."""
+"""Lane bounds as polylines, shared by adjacent lanes, in the points of a Lanelet2 map."""
 
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from itertools import pairwise
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import chain
 
 from garage2usd.maps.network import LEFT, RIGHT, Network, Road
-from garage2usd.maps.osm_file import Place
-from garage2usd.native import elementary
+from garage2usd.maps.osm_file import APART_M, OsmFile, Place
 
 __all__ = ["Bound", "LaneBounds", "lane_bounds"]
 
 _SAG_M = 1e-3
-"""Greatest deviation of a polyline from its lane bound."""
+"""Greatest deviation of a polyline from its lane bound, where its points are `APART_M` from one another."""
 _LEAST_M = 1e-6
+_SAME_M = 1e-3
+"""Distance between the middles of two bounds of the same ends up to which they are one."""
+_CHORD = 1.02
+"""Ratio of arc to chord that is allowed for in the least distance between points."""
+_ASIDE_M = 0.01
+"""Step along a bound in which points are moved away from others."""
+_MOST_STEPS = 2.0
+"""Greatest distance between two points in steps of `_SAG_M`, where other points are in the way."""
 _MOST_EASED_BEND, _MOST_EASED_SLOPE = 6.0, 1.5
 """Greatest second and first derivative of the easing curve for lane widths, from 0 to 1 along a road of length 1."""
 
@@ -24,14 +31,33 @@ class Bound:
 
     Attributes
     ----------
+    road, side
+        The road, and the bound's number from left to right: 0, 1 between the lanes, 2.
+    points
+        Ids of the points of the polyline along the road.
     places
-        Points of the polyline along the road.
-    is_middle
-        True for the line between the two lanes of a straight road, where the middle line is painted.
+        Their positions.
     """
 
-    places: list[Place]
-    is_middle: bool = False
+    road: Road
+    side: int
+    points: list[int] = field(default_factory=list)
+    places: list[Place] = field(default_factory=list)
+
+    @property
+    def is_middle(self) -> bool:
+        """True for the line between the two lanes of a straight road, where the middle line is painted."""
+        road = self.road
+        return self.side == 1 and road.lanes == (LEFT, RIGHT) and road.line.is_straight and road.junction is None
+
+    def offset_m(self, run_m: float) -> float:
+        """Return the distance from the road's reference line to the bound, to the left."""
+        lanes = self.road.lanes_at(run_m)
+        return (lanes.middle_m + lanes.left_m, lanes.middle_m, lanes.middle_m - lanes.right_m)[self.side]
+
+    def at(self, run_m: float) -> Place:
+        """Return the point of the bound at a distance along the road."""
+        return (*self.road.line.beside(run_m, self.offset_m(run_m)), self.road.height_m(run_m))
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +83,11 @@ class LaneBounds:
         return (self.right,) if self.road.lanes == (LEFT, RIGHT) else (self.left, self.right)
 
     @property
+    def is_level(self) -> bool:
+        """True for a lane that lies on the floor of its level."""
+        return all(abs(height) < APART_M for _, _, height in self.left.places)
+
+    @property
     def ground(self) -> list[tuple[float, float]]:
         """Corners (x, y) of the lane's polygon."""
         return [place[:2] for place in (*self.left.places, *reversed(self.right.places))]
@@ -68,49 +99,94 @@ class LaneBounds:
         return turned if self.lane == RIGHT else -turned
 
 
-def lane_bounds(network: Network) -> tuple[LaneBounds, ...]:
-    """Compute all lanes of a garage with their bounds, ordered by road and from left to right."""
-    return tuple(lane for road in network.roads for lane in _lanes(road))
+def lane_bounds(network: Network, osm: OsmFile) -> tuple[LaneBounds, ...]:
+    """Compute all lanes of a garage with their bounds, ordered by road and from left to right.
+
+    The points of bounds are added to the map: all ends, then those between, which keep clear of all other points.
+    """
+    lanes = tuple(lane for road in network.roads for lane in _lanes(road))
+    bounds = list(dict.fromkeys(chain.from_iterable((lane.left, lane.right) for lane in lanes)))
+    for bound in bounds:
+        start = osm.point(bound.at(0.0))
+        bound.points = [start, osm.point(bound.at(bound.road.line.length_m), other_than=start)]
+    drawn: dict[frozenset[int], list[Bound]] = {}
+    for bound in bounds:
+        alike = drawn.setdefault(frozenset(bound.points), [])
+        same = next((other for other in alike if math.dist(_middle(bound), _middle(other)) < _SAME_M), None)
+        if same is None:
+            alike.append(bound)
+            bound.points[1:1] = _inner_points(bound, osm)
+        else:
+            bound.points = same.points if same.points[0] == bound.points[0] else same.points[::-1]
+        bound.places = [osm.place(point) for point in bound.points]
+    return lanes
 
 
 def _lanes(road: Road) -> Iterator[LaneBounds]:
-    is_middle = road.lanes == (LEFT, RIGHT) and road.line.is_straight and road.junction is None
-    lefts, middles, rights = Bound([]), Bound([], is_middle), Bound([])
-    runs = _runs(road)
-    for run in runs:
-        lanes, height = road.lanes_at(run), road.height_m(run)
-        sides = lanes.middle_m + lanes.left_m, lanes.middle_m, lanes.middle_m - lanes.right_m
-        for bound, side in zip((lefts, middles, rights), sides, strict=True):
-            bound.places.append((*road.line.beside(run, side), height))
-    for bound in (lefts, middles, rights):
-        if _turns_back(bound, road, runs):
-            bound.places[1:-1] = []
+    left, middle, right = (Bound(road, side) for side in range(3))
     for lane in road.lanes:
-        yield LaneBounds(road, lane, middles, lefts if lane == LEFT else rights)
+        yield LaneBounds(road, lane, middle, left if lane == LEFT else right)
 
 
-def _turns_back(bound: Bound, road: Road, runs: Sequence[float]) -> bool:
-    """Test if a bound runs backwards, as the inner bound of a bend tighter than its lane is wide."""
-    for (before, start), (after, end) in pairwise(zip(runs, bound.places, strict=True)):
-        heading = road.line.at((before + after) / 2)[2]
-        if (end[0] - start[0]) * elementary.cos(heading) + (end[1] - start[1]) * elementary.sin(heading) < -_LEAST_M:
-            return True
-    return False
+def _middle(bound: Bound) -> Place:
+    return bound.at(bound.road.line.length_m / 2)
 
 
-def _runs(road: Road) -> list[float]:
-    """Divide a road into lengths whose bounds are straight within `_SAG_M`, including changes of slope."""
+def _inner_points(bound: Bound, osm: OsmFile) -> list[int]:
+    """Add the points between the ends of a bound, including changes of slope."""
+    pieces = list(_pieces(bound))
+    if any(speed < -_LEAST_M for _, _, speed in pieces):
+        return []  # the inner bound of a bend tighter than its lane is wide
+    found: list[int] = []
+    at_m = 0.0
+    for end_m, step_m, speed in pieces:
+        least_m = _CHORD * APART_M / max(speed, _LEAST_M)
+        while (steps := _steps(end_m - at_m, step_m, least_m)) > 1:
+            run_m = at_m + (end_m - at_m) / steps
+            free = (run for run in _runs_around(run_m, at_m, max(step_m, least_m), speed) if run < end_m)
+            at_m = next((run for run in free if osm.near(bound.at(run)) is None), run_m)
+            found.append(osm.point(bound.at(at_m)))
+        if end_m < bound.road.line.length_m and osm.near(bound.at(end_m)) is None:
+            at_m = end_m
+            found.append(osm.point(bound.at(end_m)))
+    taken = bound.points
+    return [point for point in dict.fromkeys(found) if point not in taken]
+
+
+def _steps(length_m: float, step_m: float, least_m: float) -> int:
+    """Divide a length into steps of at most `step_m`, and at least `least_m` even if that is more."""
+    return min(math.ceil(length_m / step_m - _LEAST_M), math.floor(length_m / least_m + _LEAST_M))
+
+
+def _runs_around(run_m: float, before_m: float, step_m: float, speed: float) -> Iterator[float]:
+    """Yield distances along a road near `run_m`, first those up to a step behind the point before, then others."""
+    yield run_m
+    aside_m = _ASIDE_M / max(speed, _LEAST_M)
+    runs = [run_m - aside_m * number for number in range(1, math.ceil((run_m - before_m) / aside_m))]
+    most_m = before_m + _MOST_STEPS * step_m
+    runs += [run_m + aside_m * number for number in range(1, math.ceil((most_m - run_m) / aside_m))]
+    yield from sorted(runs, key=lambda run: (run > before_m + step_m, abs(run - run_m)))
+
+
+def _pieces(bound: Bound) -> Iterator[tuple[float, float, float]]:
+    """Divide a road at changes of curvature and slope.
+
+    Each piece is its end, the step within which the bound is straight to `_SAG_M`, and the least ratio of the bound's
+    length to the road's; below zero where the bound runs backwards.
+    """
+    road = bound.road
     length_m = road.line.length_m
-    wide_m = max(abs(lanes.middle_m) + lanes.left_m + lanes.right_m for lanes in (road.start, road.end))
-    change_m = 2 * sum(abs(start - end) for start, end in zip(road.start, road.end, strict=True))
+    change_m = abs(bound.offset_m(length_m) - bound.offset_m(0.0))
     eased, slope = _MOST_EASED_BEND * change_m / length_m**2, _MOST_EASED_SLOPE * change_m / length_m
-    runs, at_m = {0.0, length_m}, 0.0
-    for arc in road.line.arcs:
+    start_m = 0.0
+    for number, arc in enumerate(road.line.arcs, start=1):
+        end_m = length_m if number == len(road.line.arcs) else start_m + arc.length_m
         bend = abs(arc.curvature_per_m)
-        # the second derivative of a line beside the road, whose distance to it changes, is no greater
-        most = bend * (1 + bend * wide_m) + 2 * bend * slope + eased
-        steps = max(1, math.ceil(arc.length_m * math.sqrt(most / (8 * _SAG_M))))
-        runs.update(at_m + arc.length_m * step / steps for step in range(steps))
-        at_m += arc.length_m
-    runs.update(run for run, _ in road.profile_m if run < length_m)
-    return sorted(runs)
+        speeds = [1 - arc.curvature_per_m * bound.offset_m(run) for run in (start_m, end_m)]
+        most = bend * max(speeds) + 2 * bend * slope + eased
+        step_m = math.sqrt(8 * _SAG_M / most) if most > 0 else math.inf
+        for run, _ in road.profile_m:
+            if start_m + _LEAST_M < run < end_m - _LEAST_M:
+                yield run, step_m, min(speeds)
+        yield end_m, step_m, min(speeds)
+        start_m = end_m

@@ -8,7 +8,7 @@ from pxr import Usd
 from garage2usd.as_built import BuiltGarage
 from garage2usd.config.maps import MapsConfig
 from garage2usd.maps.lane_bounds import Bound, LaneBounds, lane_bounds
-from garage2usd.maps.lanelet2_parking import add_lots, add_stalls
+from garage2usd.maps.lanelet2_parking import add_lots, add_stalls, stall_points
 from garage2usd.maps.lanelet2_stops import add_stops
 from garage2usd.maps.network import LEFT, Network
 from garage2usd.maps.osm_file import Member, OsmFile
@@ -51,8 +51,9 @@ def write_lanelet2(
     Notes
     -----
     A lanelet is a driving lane of a road of `garage2usd.maps.network`, with the numbers that both have in the OpenDRIVE
-    map. The last points of one are the first of the next, and the two of an aisle share its middle line. Bounds lie
-    within a millimetre of the lane's; where a bend is tighter than its lane is wide, the inner one is straight.
+    map. The last points of one are the first of the next, and the two of an aisle share its middle line. Points are
+    `garage2usd.maps.osm_file.APART_M` from one another. Bounds lie within a millimetre of the lane's where such points
+    allow it; where a bend is tighter than its lane is wide, the inner one is straight.
     Latitude and longitude follow the projection of the OpenDRIVE map. Stalls are those of
     `garage2usd.maps.lanelet2_parking`.
     """
@@ -93,16 +94,17 @@ def write_lanelet2_levels(
 
 def _add_level(osm: OsmFile, garage: BuiltGarage, network: Network, settings: MapsConfig) -> tuple[LaneBounds, ...]:
     """Write the lanes, stalls and stops of a level, and return its lanes."""
-    lanes = lane_bounds(network)
-    feet = add_stalls(osm, garage, lanes)
+    stalls = stall_points(osm, garage)
+    lanes = lane_bounds(network, osm)
+    feet = add_stalls(osm, garage, lanes, stalls)
     stops = add_stops(osm, garage, lanes)
     ways: dict[Bound, int] = {}
     for lane in lanes:
         for bound, is_left in ((lane.left, True), (lane.right, False)):
             if bound not in ways:
-                places = feet.along(bound)
+                points = feet.along(bound)
                 is_turned = lane.lane == LEFT and not is_left
-                ways[bound] = osm.way(osm.points(reversed(places) if is_turned else places), _bound_tags(bound))
+                ways[bound] = osm.way(points[::-1] if is_turned else points, _bound_tags(bound))
         members = [Member("way", ways[lane.left], "left"), Member("way", ways[lane.right], "right")]
         members += [Member("relation", rule, "regulatory_element") for rule in stops.get(lane, ())]
         osm.relation(members, _lanelet_tags(lane, settings))

@@ -1,6 +1,7 @@
 """OSM XML files of Lanelet2 maps: shared points, ways and relations with geographic coordinates."""
 
 import itertools
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -14,14 +15,14 @@ from garage2usd.maps.xml_text import number_text, tag_text, write_lines
 with of_extra("a Lanelet2 map"):
     from pyproj import Transformer
 
-__all__ = ["Member", "OsmFile", "Place"]
+__all__ = ["APART_M", "Member", "OsmFile", "Place"]
 
 Place = tuple[float, float, float]
 """Point (x, y, z) in metres, in the frame of `garage2usd.maps.frame`."""
-_SAME_M = 5e-4
-"""Distance along each axis up to which points are merged."""
-_GROUP_BITS = 7
-"""Cells of the side `_SAME_M` are grouped for lookup, by two to the power of this number along each axis."""
+APART_M = 0.051
+"""Least distance between two points; nearer ones are merged. Lanelet2's check `mapping.points_too_close` wants 5 cm."""
+_CELL_M = 1.0
+"""Side of the cubes by which points are looked up; floors, where most points are, lie in the middle of cubes."""
 _DEGREE_DIGITS = 11
 """Decimals of degrees: a micrometre. Further digits of PROJ differ by processor; the last one may too."""
 
@@ -57,36 +58,44 @@ class OsmFile:
         self.floor_m = 0.0
         self._numbers = itertools.count(1)
         self._places: dict[int, Place] = {}
-        self._near: dict[_Cell, list[tuple[_Cell, int, Place]]] = {}
+        self._cells: dict[_Cell, list[int]] = {}
         self._ways: dict[int, tuple[tuple[int, ...], dict[str, str]]] = {}
         self._way_of: dict[tuple[int, ...], int] = {}
         self._relations: dict[int, tuple[tuple[Member, ...], dict[str, str]]] = {}
 
-    def point(self, place: Place) -> int:
-        """Return the id of the OSM point at a position, creating it if needed."""
-        x, y, z = place = (place[0], place[1], place[2] + self.floor_m)
-        cell = _cell(place)
-        found = [
-            (other, number)
-            for group in _groups_around(cell)
-            for other, number, (other_x, other_y, other_z) in self._near.get(group, ())
-            if abs(other_x - x) <= _SAME_M and abs(other_y - y) <= _SAME_M and abs(other_z - z) <= _SAME_M
-        ]
-        if found:
-            return min(found)[1]
+    def point(self, place: Place, *, other_than: int | None = None) -> int:
+        """Return the id of the OSM point within `APART_M` of a position, creating it if needed.
+
+        The point is never `other_than`, even if that is near.
+        """
+        near = self.near(place)
+        if near is not None and near != other_than:
+            return near
         number = next(self._numbers)
-        self._places[number] = place
-        self._near.setdefault(_group(*cell), []).append((cell, number, place))
+        x, y, z = self._places[number] = place[0], place[1], place[2] + self.floor_m
+        self._cells.setdefault(_cell(x, y, z), []).append(number)
         return number
 
+    def near(self, place: Place) -> int | None:
+        """Return the id of the nearest OSM point within `APART_M` of a position, if there is one."""
+        at = place[0], place[1], place[2] + self.floor_m
+        found = [
+            (apart_m, number)
+            for cell in _cells_around(at)
+            for number in self._cells.get(cell, ())
+            if (apart_m := math.dist(at, self._places[number])) < APART_M
+        ]
+        return min(found)[1] if found else None
+
     def points(self, places: Iterable[Place]) -> tuple[int, ...]:
-        """Return the ids of OSM points at a sequence of positions, without repeats."""
+        """Return the ids of OSM points near a sequence of positions, without repeats."""
         numbers = [self.point(place) for place in places]
         return tuple(number for number, before in zip(numbers, [None, *numbers], strict=False) if number != before)
 
     def place(self, point: int) -> Place:
-        """Return the position of an OSM point."""
-        return self._places[point]
+        """Return the position of an OSM point, its height over the floor."""
+        x, y, z = self._places[point]
+        return x, y, z - self.floor_m
 
     def way(self, points: Sequence[int], tags: Mapping[str, str]) -> int:
         """Return the id of the OSM way along points, reusing one in either direction."""
@@ -123,12 +132,13 @@ class OsmFile:
         facts
             Attributes of the element `MetaInfo`, which Autoware reads and other programs ignore.
         """
-        places = np.array(list(self._places.values())).reshape(-1, 3)
+        used = sorted({point for points, _ in self._ways.values() for point in points})
+        places = np.array([self._places[point] for point in used]).reshape(-1, 3)
         longitudes, latitudes = self._to_degrees.transform(places[:, 0], places[:, 1])
         lines = [f"{tag_text('osm', {'version': '0.6', 'generator': generator})}>"]
         lines.append(f"  {tag_text('MetaInfo', facts)} />")
         columns = *places.T.tolist(), longitudes.tolist(), latitudes.tolist()
-        for number, x, y, z, longitude, latitude in zip(self._places, *columns, strict=True):
+        for number, x, y, z, longitude, latitude in zip(used, *columns, strict=True):
             lat, lon = f"{latitude:.{_DEGREE_DIGITS}f}", f"{longitude:.{_DEGREE_DIGITS}f}"
             lines += [
                 f'  <node id="{number}" version="1" lat="{lat}" lon="{lon}">',
@@ -152,21 +162,14 @@ def _tag_lines(tags: Mapping[str, str]) -> list[str]:
     return [f"    {tag_text('tag', {'k': name, 'v': value})} />" for name, value in tags.items()]
 
 
-def _cell(place: Place) -> _Cell:
+def _cell(x: float, y: float, z: float) -> _Cell:
+    return math.floor(x / _CELL_M), math.floor(y / _CELL_M), math.floor(z / _CELL_M + 0.5)
+
+
+def _cells_around(place: Place) -> Iterable[_Cell]:
+    """Return the cells of all points that can be within `APART_M`: one, or several at a border."""
     x, y, z = place
-    return round(x / _SAME_M), round(y / _SAME_M), round(z / _SAME_M)
-
-
-def _group(x: int, y: int, z: int) -> _Cell:
-    half = 1 << (_GROUP_BITS - 1)  # what lies at 0 is in the middle of a group
-    return (x + half) >> _GROUP_BITS, (y + half) >> _GROUP_BITS, (z + half) >> _GROUP_BITS
-
-
-def _groups_around(cell: _Cell) -> Iterable[_Cell]:
-    """Return the lookup groups of a cell and its neighbours: one, or several at a border."""
-    x, y, z = cell
-    low, high = _group(x - 1, y - 1, z - 1), _group(x + 1, y + 1, z + 1)
+    low, high = _cell(x - APART_M, y - APART_M, z - APART_M), _cell(x + APART_M, y + APART_M, z + APART_M)
     if low == high:
         return (low,)
-    (left, front, under), (right, back, over) = low, high
-    return {(i, j, k) for i in (left, right) for j in (front, back) for k in (under, over)}
+    return itertools.product(*(range(first, last + 1) for first, last in zip(low, high, strict=True)))

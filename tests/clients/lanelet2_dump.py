@@ -6,9 +6,11 @@ usage: lanelet2_dump.py MAP LATITUDE LONGITUDE OUTPUT
 import json
 import sys
 
-from lanelet2 import core, io, projection, routing, traffic_rules
+from lanelet2 import core, geometry, io, projection, routing, traffic_rules
 
 COST = 1e9
+APART_M = 0.05
+"""As in Lanelet2's check `mapping.points_too_close`, which its wheel for Python lacks."""
 
 map_path, latitude_deg, longitude_deg, output_path = sys.argv[1:]
 projector = projection.LocalCartesianProjector(io.Origin(float(latitude_deg), float(longitude_deg)))
@@ -27,12 +29,19 @@ def line_of(line):
     return {"id": line.id, "tags": tags_of(line), "places": [place_of(point) for point in line]}
 
 
+def is_close(point):
+    """Whether the nearest other point on the plane is too close in space."""
+    around = garage.pointLayer.nearest(core.BasicPoint2d(point.x, point.y), 2)
+    return any(other.id != point.id and geometry.distance(point, other) < APART_M for other in around)
+
+
 garage, errors = io.loadRobust(map_path, projector)
 rules = traffic_rules.create(traffic_rules.Locations.Germany, traffic_rules.Participants.Vehicle)
 graph = routing.RoutingGraph(garage, rules)
 found = {
     "errors": list(errors),
     "faults": list(graph.checkValidity(False)),
+    "close": [place_of(point) for point in garage.pointLayer if is_close(point)],
     "points": [
         [*place_of(point), float(point.attributes["local_x"]), float(point.attributes["local_y"])]
         for point in garage.pointLayer

@@ -61,8 +61,8 @@ FAULTS = [
     Fault(
         "left lanes in the direction of their roads",
         "lane_bounds",
-        "LaneBounds(road, lane, middles, lefts if lane == LEFT else rights)",
-        "LaneBounds(road, lane, *((lefts, middles) if lane == LEFT else (middles, rights)))",
+        "LaneBounds(road, lane, middle, left if lane == LEFT else right)",
+        "LaneBounds(road, lane, *((left, middle) if lane == LEFT else (middle, right)))",
     ),
     Fault("points of ways not shared", "osm_file", "in self._near.get(", "in {}.get("),
     Fault(

@@ -7,6 +7,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import yaml
+from rosbags.typesys import Stores, get_typestore
 from scipy.spatial.transform import Rotation
 from support.recordings import Recorded
 from support.sample_files import REPOSITORY
@@ -78,6 +80,29 @@ def test_rosbags_reads_the_same_messages(bag):
     )
     clouds = [message.data.tobytes() for topic, _, message in read if topic == "/lidar_top/points"]
     assert clouds == [base64.b64decode(message["data"]) for message in of_topic(bag, "/lidar_top/points")]
+
+
+def test_metadata_are_read_by_ros_2_humble_and_iron(bag):
+    """They know the versions up to 8, in which the profiles of a topic are a text of numbers."""
+    information = yaml.safe_load((bag.folder / "bag/metadata.yaml").read_text())["rosbag2_bagfile_information"]
+    assert information["version"] <= 8
+    profiles = {
+        topic["topic_metadata"]["name"]: topic["topic_metadata"]["offered_qos_profiles"]
+        for topic in information["topics_with_message_count"]
+    }
+    assert all(isinstance(text, str) for text in profiles.values())
+    (kept,) = yaml.safe_load(profiles.pop("/tf_static"))
+    assert (kept["history"], kept["depth"], kept["reliability"], kept["durability"]) == (1, 1, 1, 1)
+    assert set(profiles.values()) == {""}
+
+
+@pytest.mark.parametrize("distribution", ["humble", "iron", "jazzy", "kilted"])
+def test_types_are_those_of_every_ros_2(distribution, bag):
+    information = yaml.safe_load((bag.folder / "bag/metadata.yaml").read_text())["rosbag2_bagfile_information"]
+    store = get_typestore(Stores[f"ROS2_{distribution.upper()}"])
+    for topic in information["topics_with_message_count"]:
+        described = topic["topic_metadata"]
+        assert described["type_description_hash"] == store.hash_rihs01(described["type"])
 
 
 def test_points_carry_instance_and_class(bag):

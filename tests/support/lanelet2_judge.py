@@ -13,6 +13,10 @@ from support.rays import Rays
 from support.stage_lanes import judged_stage
 
 NEAR_M = 1e-3
+APART_M = 0.05
+"""Least distance between two points of a map."""
+TIGHT_M = 0.02
+"""How far a bound may lie off a bend whose points cannot be nearer to one another."""
 GROOVE_M = 0.012
 """Depth of the grooves of ramps, and what single precision adds."""
 LEAST_IN_SQUARE_M = 1.0
@@ -66,6 +70,8 @@ class Lanelet2Judge:
     def _said(self):
         yield from self.map["errors"]
         yield from self.map["faults"]
+        if self.map["close"]:
+            yield f"{len(self.map['close'])} points lie within {APART_M} m of another, as {self.map['close'][:2]}"
         header, said = _header(self.path)
         facts = self.stage.GetDefaultPrim().GetCustomData()
         if header.get("generator") != f"garage2usd {facts['version']}" or said["map_version"] != facts["version"]:
@@ -95,9 +101,11 @@ class Lanelet2Judge:
             for side in {"left", "right"} - set(straight):
                 following = [n for n in lanelet["following"] if not self._is_straight_in_a_bend(n, side)]
                 for onward in [self.lanelets[n][side]["places"][1:] for n in following] or [[]]:
-                    sag_m = _sags([*lanelet[side]["places"], *onward]).max(initial=0.0)
-                    if sag_m > 1.5 * NEAR_M:
-                        yield f"the {side} bound of lanelet {number} cuts a bend by {sag_m:.4f} m"
+                    sags, shorter_m = _sags([*lanelet[side]["places"], *onward])
+                    # no point lies 5 cm from two others that are less than 10 cm apart
+                    sag_m = sags[sags > np.where(shorter_m > 2 * APART_M, 1.5 * NEAR_M, TIGHT_M)]
+                    if len(sag_m):
+                        yield f"the {side} bound of lanelet {number} cuts a bend by {sag_m.max():.4f} m"
             middle = self.middles[number]
             x, y = middle.interpolate(0.5, normalized=True).coords[0]
             (x0, y0), (x1, y1) = (middle.interpolate(share, normalized=True).coords[0] for share in (0.45, 0.55))
@@ -108,7 +116,7 @@ class Lanelet2Judge:
 
     def _is_straight_in_a_bend(self, number, side):
         is_bent = abs(_turned_rad(self.middles[number])) > STRAIGHT_RAD
-        return is_bent and _sags(self.lanelets[number][side]["places"]).max(initial=0.0) < 1e-6
+        return is_bent and _sags(self.lanelets[number][side]["places"])[0].max(initial=0.0) < 1e-6
 
     def _lanes_of_aisles(self):
         """In squares driven straight through: in each direction one on its right half, with one line between them."""
@@ -163,12 +171,11 @@ class Lanelet2Judge:
         places = []
         for lanelet in self.lanelets.values():
             left, right = (np.array(lanelet[side]["places"]) for side in ("left", "right"))
-            if len(left) == len(right):
-                inner = (left + right)[1:-1] / 2
-                ends = np.array([left[0] + right[0], left[-1] + right[-1]]) / 2
-                towards = (ends[::-1] - ends) / np.linalg.norm(ends[1] - ends[0])
-                # not on the edge of the floor, where lanes end
-                places += [*inner, *(ends + NEAR_M * towards)]
+            inner = (left + right)[1:-1] / 2 if len(left) == len(right) else np.zeros((0, 3))
+            ends = np.array([left[0] + right[0], left[-1] + right[-1]]) / 2
+            towards = (ends[::-1] - ends) / np.linalg.norm(ends[1] - ends[0])
+            # not on the edge of the floor, where lanes end
+            places += [*inner, *(ends + NEAR_M * towards)]
         places = np.array(places)
         above = np.stack([places[:, 0], places[:, 2] + 1, -places[:, 1]], axis=1)
         owner, place, _ = rays.cast(above, np.tile((0.0, -1.0, 0.0), (len(places), 1)))
@@ -367,11 +374,12 @@ def _outline(thing):
 
 
 def _sags(places):
-    """How far the arcs that corners of a polyline stand for lie off it at most."""
+    """How far the arcs that corners of a polyline stand for lie off it at most, and the shorter side of each corner."""
     steps = np.diff(np.array(places)[:, :2], axis=0)
     lengths = np.linalg.norm(steps, axis=1)
     turned = np.abs([np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b) for a, b in pairwise(steps)])
-    return np.minimum(lengths[1:], lengths[:-1]) * np.tan(turned / 4) / 2
+    shorter = np.minimum(lengths[1:], lengths[:-1])
+    return shorter * np.tan(turned / 4) / 2, shorter
 
 
 def _turn(lanelet):

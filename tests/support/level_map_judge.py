@@ -100,6 +100,8 @@ class LevelMapJudge:
         """Routes lead from every stall of the lowest level to the street and back; only ramps lead to other levels."""
         found = lanelet2_map(path, self.folder, *origin)
         yield from found["errors"]
+        if found["close"]:
+            yield f"{len(found['close'])} points lie within 5 cm of another, as {found['close'][:2]}"
         lanelets = {lanelet["id"]: lanelet for lanelet in found["lanelets"]}
         heights = {
             number: np.array([place[2] for side in ("left", "right") for place in lanelet[side]["places"]])

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,8 @@ with of_extra("a ROS 2 bag"):
 
 __all__ = ["write_ros_bag"]
 
+_VERSION: Literal[8] = 8
+"""Version of the metadata: the newest that ROS 2 Humble and Iron read; in 9, of Jazzy, QoS profiles are no text."""
 _MAP, _VEHICLE = "map", "base_link"
 _BEGINS_S = 946_684_800
 """First stamp, 1 January 2000; tf2 would take a stamp of 0 for the latest transform."""
@@ -74,7 +76,7 @@ def write_ros_bag(recording: Recording, folder: Path, *, stage_to_map: NDArray[n
     shots = [shot for shot in recording.shots if shot.files.keys() & {"colour", "npz"}]
     if not shots:
         raise ConfigError("rig", recording.rig, "a rig whose pictures or points were recorded, for a ROS 2 bag")
-    with Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+    with Writer(folder, version=_VERSION, storage_plugin=StoragePlugin.MCAP) as writer:
         bag = _Bag(writer, _names([shot.sensor for shot in shots]))
         bag.add_sensors(shots, stage_to_map)
         for _, at_once in groupby(shots, key=lambda shot: (shot.pose, shot.time_s)):
