@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, drive_options, refuse_seed, seed_option
+from garage2usd.cli.parameters import INPUT_FILE, drive_options, echo_notices, refuse_seed, seed_option
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -124,7 +124,10 @@ def _drive_to(
     from garage2usd.maps.level_drives import drive_planner  # noqa: PLC0415
     from garage2usd.sensors.rig.rig import read_rig  # noqa: PLC0415
 
-    car = None if rig is None else read_rig(rig).body
+    carrier = None if rig is None else read_rig(rig)
+    if carrier is not None:
+        echo_notices(carrier.remarks)
+    car = None if carrier is None else carrier.body
     with Bars(sys.stderr) as progress:
         garage, settings = _garage_of(path, seed, progress)
         driven = drive_planner(garage, settings).drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))

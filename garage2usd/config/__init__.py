@@ -18,7 +18,7 @@ from garage2usd.config.files import with_files, with_textures, without_files
 from garage2usd.config.fittings import FittingsConfig, ParkingConfig
 from garage2usd.config.look import LookConfig
 from garage2usd.config.maps import MapsConfig
-from garage2usd.config.own_cars import VehiclesConfig
+from garage2usd.config.own_cars import VehiclesConfig, read_own_cars
 from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import BayConfig, SiteConfig
 from garage2usd.config.stage import StageConfig
@@ -127,14 +127,16 @@ class GarageConfig(Settings):
         return GarageConfig(**{**{name: getattr(self, name) for name in type(self).model_fields}, "seed": seed})
 
     def remarks(self) -> tuple[str, ...]:
-        """Say in a line each which files of the user's folders are used for what, and what of them is not used.
+        """Say in a line each which of the user's textures are used for what, and what of textures and cars is not used.
 
         Raises
         ------
         ConfigError
             If a folder cannot be read.
         """
-        return texture_remarks(self.look.textures) if self.look.textures else ()
+        textures = texture_remarks(self.look.textures) if self.look.textures else ()
+        models = read_own_cars(self.vehicles.models)[1] if self.vehicles.models else ()
+        return (*textures, *(line for model in models for line in model.remarks))
 
     def digest(self) -> str:
         """SHA-256 of the canonical JSON of all settings that decide the garage.

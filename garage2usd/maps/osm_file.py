@@ -172,4 +172,5 @@ def _cells_around(place: Place) -> Iterable[_Cell]:
     low, high = _cell(x - APART_M, y - APART_M, z - APART_M), _cell(x + APART_M, y + APART_M, z + APART_M)
     if low == high:
         return (low,)
-    return itertools.product(*(range(first, last + 1) for first, last in zip(low, high, strict=True)))
+    spans = [range(first, last + 1) for first, last in zip(low, high, strict=True)]
+    return [(column, row, layer) for column, row, layer in itertools.product(*spans)]

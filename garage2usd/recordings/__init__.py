@@ -62,6 +62,14 @@ class Recorded:
     recording: Recording
 
 
+def _rig(rig: str | Path | Rig, scale: float, announce: Announce) -> Rig:
+    """Read a rig, and say what of its car's model is not taken."""
+    chosen = rig if isinstance(rig, Rig) else read_rig(rig)
+    for line in chosen.remarks:
+        announce(line)
+    return chosen.scaled(scale)
+
+
 def record(  # noqa: PLR0915 - the road of a recording, step by step
     stage: str | Path,
     output: str | Path,
@@ -133,7 +141,7 @@ def record(  # noqa: PLR0915 - the road of a recording, step by step
         If the stage cannot be read.
     """
     path, folder = Path(stage), Path(output)
-    chosen = (rig if isinstance(rig, Rig) else read_rig(rig)).scaled(scale)
+    chosen = _rig(rig, scale, announce)
     if not pictures and chosen.cameras and chosen.lidars:
         announce(f"without the cameras of the rig: {', '.join(camera.name for camera in chosen.cameras)}")
         chosen = chosen.without_cameras()

@@ -13,7 +13,7 @@ from garage2usd.common.documents import read_toml
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.settings import Settings, validated
 from garage2usd.config.files import absolute_in
-from garage2usd.config.own_cars import ModelFolder, cars_by_name, folder_of, read_own_cars
+from garage2usd.config.own_cars import ModelFolder, OwnCar, cars_by_name, folder_of, read_own_cars
 from garage2usd.config.vehicles import CarBody
 from garage2usd.sensors.rig.around_view_camera import AroundViewCamera
 from garage2usd.sensors.rig.camera import Camera, KannalaBrandtCamera, PinholeCamera, WoodScapeCamera
@@ -105,6 +105,12 @@ class Rig(Settings):
     def body(self) -> CarBody:
         """The body of the ego car."""
         return cars_by_name(self.models)[self.car]
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """A line for each kind of part or property of the user's car model that is not taken, or not as it is."""
+        body = self.body
+        return body.remarks if isinstance(body, OwnCar) else ()
 
     @property
     def cameras(self) -> tuple[Camera, ...]:

@@ -11,11 +11,13 @@ from PIL import Image
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
 from support.foreign_cars import boxes, plain, write_glb, write_z_up
 
+from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import config_from_mapping
 from garage2usd.config.files import with_textures
 from garage2usd.config.own_cars import ModelFolder, read_own_cars
 from garage2usd.scenes.foreign_models import read_model
+from garage2usd.sensors.rig.rig import read_rig
 
 _HEADER = struct.Struct("<4sIIII")
 
@@ -224,3 +226,21 @@ def test_pictures_of_sixteen_bits_keep_their_grey(tmp_path, glb):
     path = written(tmp_path, glb, lambda d: d["images"].__setitem__(0, {"uri": "grey.png"}))
     (part,) = [part for part in read_model(path, field="models").parts if part.surface.picture]
     assert Image.open(io.BytesIO(part.surface.picture.data)).getpixel((0, 0)) == (76, 76, 76)
+
+
+def test_what_is_not_taken_is_said_by_each_command_and_in_the_report(tmp_path, glb, capsys):
+    path = written(tmp_path, glb, lambda d: d["materials"][0].update(extensions={"KHR_materials_sheen": {}}))
+    title = json.loads(json.dumps(glb[0]))["materials"][0]["name"]
+    line = f"c.glb: KHR_materials_sheen is not used (1): {title}"
+    (tmp_path / "garage.toml").write_text(
+        f'site = {{width_cells = 4, height_cells = 4}}\nplan = {{episodes = 40}}\nvehicles = {{models = "{path}"}}\n'
+    )
+    main(["build", str(tmp_path / "garage.toml"), "-o", str(tmp_path / "g.usdc")], standalone_mode=False)
+    assert line in capsys.readouterr().err
+    assert json.loads((tmp_path / "g_report.json").read_text())["remarks"] == [line]
+    (tmp_path / "rig.toml").write_text(
+        'name = "own"\nmodels = "c.glb"\ncar = "c"\n'
+        '[[sensors]]\nkind = "pinhole"\nname = "front"\nposition_m = [1, 0, 1.4]\nsize_px = [64, 48]\n'
+        "focal_px = [40, 40]\n"
+    )
+    assert read_rig(tmp_path / "rig.toml").remarks == (line,)
