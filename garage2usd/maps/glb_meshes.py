@@ -1,5 +1,4 @@
 """Triangle meshes as glTF primitives, and matrices as translation, rotation and scale."""
-# Over 300 lines: which triangles share vertices and which need normals is decided where both are written.
 
 import math
 from collections.abc import Iterator, Sequence

@@ -19,7 +19,6 @@ from garage2usd.maps.xml_text import number_text
 __all__ = ["Feet", "add_lots", "add_stalls", "stall_points"]
 
 Floats = NDArray[np.float64]
-
 _MOST_ASIDE = 2.0
 """Ratio of distance ahead to distance beside a corner above which a lane bends away."""
 _GRID_M = 1e-4

@@ -184,8 +184,7 @@ def _normals(
     if mesh.GetSubdivisionSchemeAttr().Get(READ_AT) != UsdGeom.Tokens.none:
         sums = np.zeros((len(points), 3))
         np.add.at(sums, corners[fans].ravel(), np.repeat(areas, 3, axis=0))
-        smooth: NDArray[np.float32] = _unit(sums)[corners[fans]]
-        return smooth, False
+        return _unit(sums)[corners[fans]], False
     return np.repeat(_unit(areas)[:, None], 3, axis=1), False
 
 
@@ -247,13 +246,10 @@ def _at_corners(
     except (TypeError, ValueError):  # for no values too
         return None
     tokens = UsdGeom.Tokens
-    taken: NDArray[np.float32]
     if interpolation == tokens.faceVarying and len(found) == len(corners):
-        taken = found[fans]
-        return taken
+        return np.asarray(found[fans])
     if interpolation in {tokens.vertex, tokens.varying} and len(found) == points:
-        taken = found[corners[fans]]
-        return taken
+        return np.asarray(found[corners[fans]])
     if interpolation == tokens.uniform and face_of is not None and len(found) > face_of.max():
         return np.repeat(found[face_of][:, None], 3, axis=1)
     if interpolation == tokens.constant and len(found) == 1:

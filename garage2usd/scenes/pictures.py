@@ -1,4 +1,5 @@
 """Texture pictures: their bytes, their pixels, and pictures composed of channels of others."""
+# Over 300 lines: pictures are read, composed and stored by one set of pixels that each file is decoded to once.
 
 import io
 import math

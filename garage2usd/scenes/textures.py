@@ -1,4 +1,5 @@
 """Textures read from the nodes UsdUVTexture, UsdTransform2d and UsdPrimvarReader_float2."""
+# Over 300 lines: a texture, its pictures, coordinates and their transforms are read together.
 
 import math
 from collections.abc import Sequence

@@ -1,4 +1,5 @@
 """Traversal of a composed stage, by UsdGeom's own computations, with each prototype visited once."""
+# Over 300 lines: prims, instances and points of instancers are visited by each other.
 
 from dataclasses import dataclass, field, replace
 from functools import cache
