@@ -38,7 +38,7 @@ def outdated(reports, *, soak):
     """Entries that are off by more than half, as (key, noted, measured); a machine may be slower throughout."""
     noted = read_durations()
     measured = {key: seconds for key, seconds in _measured(reports, soak=soak).items() if seconds >= _LEAST_S}
-    speed = median(seconds / noted[key] for key, seconds in measured.items() if noted.get(key)) if measured else 1.0
+    speed = median([seconds / noted[key] for key, seconds in measured.items() if noted.get(key)] or [1.0])
     return [
         (key, noted.get(key), round(seconds, 1))
         for key, seconds in sorted(measured.items())
