@@ -1,7 +1,7 @@
 """Wide tests, which `make soak` runs and `make test` leaves out: sweeps over seeds, samples, bodies and systems.
 
 ``@pytest.mark.soak`` marks one; `soak_but` marks the cases of a parametrized test but for a few.
-They are divided into `PARTS` of about the same time.
+CI runs one of `PARTS` of them, another one each time.
 """
 
 import pytest
