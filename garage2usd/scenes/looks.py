@@ -129,12 +129,22 @@ class MeshLooks:
             if own.name and not primvars.FindPrimvarWithInheritance(own.name).HasValue():
                 self.remarks.add(f"textures show one pixel without the coordinates {own.name}", prim.GetPath())
 
+    def _remark_bindings(self, prim: Usd.Prim) -> None:
+        """Add a remark where a prim is bound to a material that is not there."""
+        stage = prim.GetStage()
+        while prim and not prim.IsPseudoRoot():
+            targets = UsdShade.MaterialBindingAPI(prim).GetDirectBindingRel().GetTargets()
+            if any(not stage.GetPrimAtPath(target) for target in targets):
+                self.remarks.add("bound materials that are missing leave the colour of the mesh", targets[0])
+            prim = prim.GetParent()
+
     def _surface(self, bound: Usd.Prim, prim: Usd.Prim) -> int:
         bindings = UsdShade.MaterialBindingAPI(bound)
         material, _ = bindings.ComputeBoundMaterial(UsdShade.Tokens.preview)
         if not material:
             material, _ = bindings.ComputeBoundMaterial(UsdShade.Tokens.full)
         if not material:
+            self._remark_bindings(bound)
             return self._number(self._reader.unbound(prim))
         path = material.GetPath()
         if path in self._surface_of_material:

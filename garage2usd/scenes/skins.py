@@ -9,7 +9,7 @@ __all__ = ["pose_skins"]
 
 
 def pose_skins(stage: Usd.Stage) -> None:
-    """Author the points of skinned meshes, as their skeletons pose them at `READ_AT`, in the stage's session layer.
+    """Author the points of skinned meshes, in the rest pose of their skeletons, in the stage's session layer.
 
     Instances that hold such meshes are resolved first, as what is below an instance cannot be authored.
     """
@@ -23,9 +23,18 @@ def pose_skins(stage: Usd.Stage) -> None:
         cache.Populate(own, Usd.TraverseInstanceProxies())
         for binding in cache.ComputeSkelBindings(own, Usd.TraverseInstanceProxies()):
             skeleton = cache.GetSkelQuery(binding.GetSkeleton())
-            joints = skeleton.ComputeSkinningTransforms(READ_AT)
+            joints = _resting(skeleton)
             for target in binding.GetSkinningTargets():
                 _pose(target, skeleton.GetPrim(), joints)
+
+
+def _resting(skeleton: UsdSkel.SkeletonQuery) -> Vt.Matrix4dArray:
+    """Return the transforms of points from where each joint is bound to where it rests; empty if one is not given."""
+    resting = skeleton.ComputeJointSkelTransforms(READ_AT, atRest=True)
+    world = skeleton.GetSkeleton().GetBindTransformsAttr().Get()
+    if not resting or not world or len(resting) != len(world):
+        return Vt.Matrix4dArray()
+    return Vt.Matrix4dArray([bind.GetInverse() * rest for bind, rest in zip(world, resting, strict=True)])
 
 
 def _pose(target: UsdSkel.SkinningQuery, skeleton: Usd.Prim, joints: Vt.Matrix4dArray) -> None:
