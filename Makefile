@@ -1,7 +1,7 @@
 # Two commands for a fresh Debian or Ubuntu with Python 3.11 to 3.14: `make demo` and `make test`. While one works, `make check`
 # runs what a change can affect, `make check BASE=commit` what differs from a commit. `make soak` runs the wide tests, which
 # take hours, and `make soak PART=3` an eighth of them.
-.PHONY: demo test check soak lint wheels
+.PHONY: demo test check soak digests lint wheels
 
 demo:
 	@./environment.sh demo
@@ -19,6 +19,11 @@ check: lint
 soak:
 	@./environment.sh test
 	@.venv/bin/python -m pytest -n auto --dist worksteal --soak $(if $(PART),--part $(PART))
+
+# sixty garages byte by byte as they were; `make digests WRITE=1` writes them anew after a change that is meant
+digests:
+	@./environment.sh test
+	@.venv/bin/python benchmarks/digests.py $(if $(WRITE),--write)
 
 # the wheels of all systems and the source distribution into dist/, checked; `release/release.sh` does it on a clean clone
 wheels:
