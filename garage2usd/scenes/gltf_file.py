@@ -13,7 +13,7 @@ from urllib.parse import unquote, urlsplit
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.common.documents import read_bytes
+from garage2usd.common.documents import is_file, read_bytes
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.extras import of_extra
 from garage2usd.scenes.remarks import Remarks
@@ -74,12 +74,12 @@ class GltfFile:
     Raises
     ------
     ConfigError
-        For what is no glTF 2, is cut off, requires an extension that is not read, or has nodes that hold each other or
-        files that are missing.
+        For what is no glTF 2, is cut off, requires an extension that is not read, or has nodes that hold each other;
+        and where a file is read that is missing, as many are that no reading needs.
     """
 
     def __init__(self, path: Path, *, field: str, max_bytes: int) -> None:
-        self.path, self.field, self._max_bytes = path, field, max_bytes
+        self.path, self.field = path, field
         data = read_bytes(path, field=field, max_bytes=max_bytes)
         if path.suffix.lower() == ".glb":
             self.document, self._binary = self._chunks(data)
@@ -87,13 +87,16 @@ class GltfFile:
             self.document, self._binary = self._json(data, "a file of glTF that is a JSON object"), b""
         self._check_extensions()
         self._check_nodes()
-        entries = [*self.list("buffers"), *self.list("images")]
+        entries = [*self.table("buffers"), *self.table("images")]
         uris = {entry["uri"] for entry in entries if isinstance(entry.get("uri"), str)}
-        self._files = {uri: self._beside(uri) for uri in uris if not uri.startswith("data:")}
+        places = {uri: path.parent / unquote(uri) for uri in uris if not urlsplit(uri).scheme}
+        self._files = {
+            uri: read_bytes(place, field=field, max_bytes=max_bytes) for uri, place in places.items() if is_file(place)
+        }
         self._decompressed: dict[int, Mapping[str, NDArray[Any]]] = {}
         self.told = [data, *(self._files[uri] for uri in sorted(self._files))]
 
-    def list(self, kind: str) -> list[dict[str, Any]]:
+    def table(self, kind: str) -> list[dict[str, Any]]:
         """Return a table of the file; empty without it."""
         entries = self.document.get(kind, [])
         if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
@@ -102,7 +105,7 @@ class GltfFile:
 
     def entry(self, kind: str, number: object) -> dict[str, Any]:
         """Return an entry of a table."""
-        entries = self.list(kind)
+        entries = self.table(kind)
         if not isinstance(number, int) or not 0 <= number < len(entries):
             raise self.fault(f"with {kind} {number} of {len(entries)}")
         return entries[number]
@@ -117,7 +120,7 @@ class GltfFile:
             for number, entry in enumerate(entries if isinstance(entries, list) else ()):
                 for extension in sorted(set(_extensions_in(entry)) - _READ):
                     remarks.add(f"{extension} is not used", title_of(entry, kind, number))
-        for number, entry in enumerate(self.list("animations")):
+        for number, entry in enumerate(self.table("animations")):
             remarks.add("animations are not used", title_of(entry, "animations", number))
 
     @cached_property
@@ -132,7 +135,15 @@ class GltfFile:
 
     def resource(self, uri: str) -> bytes:
         """Return the bytes that a URI names or holds."""
-        return base64.b64decode(uri.partition(",")[2]) if uri.startswith("data:") else self._files[uri]
+        if uri.startswith("data:"):
+            return base64.b64decode(uri.partition(",")[2])
+        if urlsplit(uri).scheme:
+            raise ConfigError(self.field, f"{self.path} with {uri}", "a model whose files lie beside it")
+        if uri not in self._files:
+            raise ConfigError(
+                self.field, f"{self.path} without {unquote(uri)}", "a model whose references lead to files"
+            )
+        return self._files[uri]
 
     def view(self, number: object) -> bytes:
         """Return the bytes of a buffer view."""
@@ -215,7 +226,7 @@ class GltfFile:
 
     def _check_nodes(self) -> None:
         """Refuse nodes that hold each other, or that several nodes hold."""
-        nodes = self.list("nodes")
+        nodes = self.table("nodes")
         parents: dict[int, int] = {}
         for number, node in enumerate(nodes):
             for child in node.get("children", ()):
@@ -233,15 +244,6 @@ class GltfFile:
                 if above == number or depth > _MOST_NODES_DEEP:
                     place = f"{self.path}, node {number}"
                     raise ConfigError(self.field, place, f"a tree of nodes up to {_MOST_NODES_DEEP} deep")
-
-    def _beside(self, uri: str) -> bytes:
-        """Read a file that the file names."""
-        name = unquote(uri)
-        if urlsplit(uri).scheme or Path(name).is_absolute():
-            raise ConfigError(self.field, f"{self.path} with {uri}", "a model whose files lie beside it")
-        if not (self.path.parent / name).is_file():
-            raise ConfigError(self.field, f"{self.path} without {name}", "a model whose references lead to files")
-        return read_bytes(self.path.parent / name, field=self.field, max_bytes=self._max_bytes)
 
 
 class _Numbers:

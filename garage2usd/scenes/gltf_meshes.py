@@ -54,7 +54,7 @@ class GltfMeshes:
 
     def __init__(self, file: GltfFile, remarks: Remarks) -> None:
         self._file, self._remarks = file, remarks
-        self._nodes = file.list("nodes")
+        self._nodes = file.table("nodes")
 
     def drawn(self) -> Iterator[GltfMesh]:
         """Yield the primitives that the file's scene draws as triangles."""
@@ -110,7 +110,7 @@ class GltfMeshes:
         return placed.moved(np.eye(4))  # with normals of unit length
 
     def _roots(self) -> Sequence[int]:
-        if self._file.list("scenes"):
+        if self._file.table("scenes"):
             scene = self._file.entry("scenes", self._file.document.get("scene", 0))
             roots: Sequence[int] = scene.get("nodes", ())
             return roots

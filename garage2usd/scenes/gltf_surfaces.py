@@ -184,7 +184,7 @@ class GltfSurfaces:
         uri = str(entry.get("uri", ""))
         title = str(entry.get("name") or ("" if uri.startswith("data:") else uri) or number)
         file = f"{self._file.path}, image {title}"
-        if sum(other.get("name") == entry.get("name") for other in self._file.list("images")) > 1:
+        if sum(other.get("name") == entry.get("name") for other in self._file.table("images")) > 1:
             file = f"{file} ({number})"
         self._pictures.give(file, self._file.picture(number))
         return file

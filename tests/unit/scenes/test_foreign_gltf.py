@@ -291,6 +291,17 @@ def test_pictures_of_webp_are_read_and_those_of_basis_universal_named(tmp_path):
     assert "textures of KHR_texture_basisu are left out (1): basis" in model.remarks
 
 
+def test_files_that_no_reading_needs_may_be_missing(tmp_path):
+    gltf = textured()
+    gltf.json["images"].append({"uri": "glow.png"})
+    gltf.json["textures"].append({"source": 1})
+    gltf.json["materials"][0]["emissiveTexture"] = {"index": 1}
+    assert only(read(gltf, tmp_path)).surface.picture
+    gltf.json["materials"][0]["normalTexture"] = {"index": 1}
+    with pytest.raises(ConfigError, match=r"c\.glb without glow\.png"):
+        read(gltf, tmp_path)
+
+
 def test_what_is_not_used_is_named_once_for_each_kind(tmp_path):
     gltf = Gltf()
     for name in ("a", "b"):
