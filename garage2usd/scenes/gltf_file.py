@@ -89,7 +89,7 @@ class GltfFile:
         self._check_nodes()
         entries = [*self.table("buffers"), *self.table("images")]
         uris = {entry["uri"] for entry in entries if isinstance(entry.get("uri"), str)}
-        places = {uri: path.parent / unquote(uri) for uri in uris if not urlsplit(uri).scheme}
+        places = {uri: path.parent / unquote(uri) for uri in uris if _is_beside(uri)}
         self._files = {
             uri: read_bytes(place, field=field, max_bytes=max_bytes) for uri, place in places.items() if is_file(place)
         }
@@ -137,7 +137,7 @@ class GltfFile:
         """Return the bytes that a URI names or holds."""
         if uri.startswith("data:"):
             return base64.b64decode(uri.partition(",")[2])
-        if urlsplit(uri).scheme:
+        if not _is_beside(uri):
             raise ConfigError(self.field, f"{self.path} with {uri}", "a model whose files lie beside it")
         if uri not in self._files:
             raise ConfigError(
@@ -284,6 +284,11 @@ class _Numbers:
         little = np.dtype(kind).newbyteorder("<")
         found: NDArray[Any] = np.ndarray((count, width), little, data, offset, (stride, size))
         return found.astype(kind)
+
+
+def _is_beside(uri: str) -> bool:
+    """Return True for the URI of a file beside the one that names it, and for those below it."""
+    return not urlsplit(uri).scheme and not Path(unquote(uri)).is_absolute()
 
 
 def _shares(values: NDArray[Any], *, is_normalized: bool) -> NDArray[Any]:
