@@ -164,12 +164,12 @@ def read_model(path: Path, *, field: str) -> ForeignModel:
 
 def _check_pictures(path: Path, field: str, remarks: Remarks) -> None:
     """Refuse a model that lacks a picture, or whose pictures cannot be read."""
-    missing, unread = remarks.places(MISSING_PICTURE), remarks.places(LEFT_OUT)
-    if missing:
-        raise ConfigError(field, f"{path} without {missing[0]}", "a model whose references lead to files")
-    if unread:
-        shown = unread[0] if unread[0].startswith(str(path)) else f"{path}, {unread[0]}"
-        raise ConfigError(field, shown, "a picture of a known format, such as PNG or JPEG, that can be read")
+    for _, place in remarks.ending(MISSING_PICTURE):
+        raise ConfigError(field, f"{path} without {place}", "a model whose references lead to files")
+    for reason, place in remarks.ending(LEFT_OUT):
+        shown = place if place.startswith(str(path)) else f"{path}, {place}"
+        allowed = f"a picture of a known format, such as PNG or JPEG; {reason.replace('that', 'not those that', 1)}"
+        raise ConfigError(field, shown, allowed)
 
 
 def _of_gltf(path: Path, field: str, remarks: Remarks, pictures: Pictures) -> Iterator[_Drawn]:

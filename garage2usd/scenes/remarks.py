@@ -15,9 +15,10 @@ class Remarks:
         """Add a place, such as a prim's path, to a remark's reason."""
         self._places.setdefault(reason, {})[str(place)] = None
 
-    def places(self, ending: str) -> list[str]:
-        """Return the places of the remarks whose reason has an ending."""
-        return [place for reason, places in self._places.items() if reason.endswith(ending) for place in places]
+    def ending(self, end: str) -> list[tuple[str, str]]:
+        """Return the reasons that have an ending, each without it and with each of its places."""
+        found = [(reason, place) for reason, places in self._places.items() for place in places]
+        return [(reason.removesuffix(end).strip(), place) for reason, place in found if reason.endswith(end)]
 
     def lines(self) -> list[str]:
         """Format one line per reason in order of first occurrence: the number of places, and the first few."""
