@@ -185,7 +185,8 @@ class _Reduction:
         value = float(getattr(self._look, name))
         if texture is None:
             return value
-        self._remarks.add(f"textures of {name} that lie unlike the colour's are carried as their mean", texture.file)
+        which = "" if name == "clearcoat" else " that lie unlike the colour's"
+        self._remarks.add(f"textures of {name}{which} are carried as their mean", texture.file)
         return min(max(self._pictures.mean(texture.band()), 0.0), 1.0)
 
     def _picture(self, bands: Bands, *, is_srgb: bool = False) -> PlainPicture:
