@@ -22,6 +22,7 @@ NAMED = {
     CLAMPED: "textures that clamp and mirror outside are repeated",
     "missing file": "textures whose file is missing show their fallback",
     "missing file without a fallback": "textures whose file is missing show their fallback",
+    "missing coordinates": "textures show one pixel without the coordinates nowhere",
 }
 TOLERANCE = 3 / 255
 
