@@ -81,7 +81,7 @@ def _material(surface: "PlainSurface", kind: str) -> Material:
         metallic=surface.metallic,
         opacity=surface.opacity if surface.opacity < _OPAQUE else 1.0,
         has_alpha=surface.has_alpha,
-        clearcoat=surface.clearcoat or (1.0 if kind == "car_paint_white" else 0.0),
+        clearcoat=surface.clearcoat,
         ior=surface.ior if surface.ior != _USUAL_IOR else None,
         wraps=surface.wraps,
         touch={"glass": Touch.PLASTIC, "tyre": Touch.RUBBER}.get(kind, Touch.STEEL),
