@@ -1,7 +1,9 @@
 """Models of other programs, as USD of any units and axes or as glTF: triangles with plain surfaces."""
+# Over 300 lines: two formats are read into the same parts, with the same limits and refusals.
 
 import hashlib
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
@@ -101,7 +103,8 @@ def model_digest(path: Path, *, field: str) -> str:
         If a file cannot be read, or a reference cannot be resolved.
     """
     if path.suffix.lower() in GLTF_SUFFIXES:
-        told = GltfFile(path, field=field, max_bytes=_MOST_BYTES).told
+        with _whole(path, field):
+            told = GltfFile(path, field=field, max_bytes=_MOST_BYTES).told
     else:
         with _Quiet():
             try:
@@ -137,8 +140,13 @@ def read_model(path: Path, *, field: str) -> ForeignModel:
     """
     is_gltf = path.suffix.lower() in GLTF_SUFFIXES
     remarks, pictures = Remarks(), Pictures()
-    try:
-        drawn = list((_of_gltf if is_gltf else _of_usd)(path, field, remarks, pictures))
+    with _whole(path, field), np.errstate(all="ignore"):
+        drawn, count = list[_Drawn](), 0
+        for mesh in (_of_gltf if is_gltf else _of_usd)(path, field, remarks, pictures):
+            drawn.append(mesh)
+            count += len(mesh.triangles.indices)
+            if count > _MOST_TRIANGLES:
+                raise ConfigError(field, f"{path} of {count} triangles or more", f"at most {_MOST_TRIANGLES} triangles")
         _check_pictures(path, field, remarks)
         plain: dict[tuple[SurfaceLook, str], tuple[PlainSurface, Layout | None]] = {}
         parts: list[ForeignPart] = []
@@ -147,19 +155,28 @@ def read_model(path: Path, *, field: str) -> ForeignModel:
             if key not in plain:
                 plain[key] = plain_surface_of(each.look, pictures, remarks)
             parts += _parts(each, *plain[key], remarks)
+    if not parts:
+        raise ConfigError(field, f"{path} of 0 triangles", f"models of 1 to {_MOST_TRIANGLES} triangles")
+    if not all(np.isfinite(part.triangles_m).all() for part in parts):
+        raise ConfigError(field, str(path), "a model whose points are finite")
+    return ForeignModel(tuple(parts), tuple(remarks.lines()))
+
+
+@contextmanager
+def _whole(path: Path, field: str) -> Iterator[None]:
+    """Context in which whatever the tables of a file of others hold ends in one error."""
+    try:
+        yield
     except StageError as error:
         raise ConfigError(field, f"{path}, {error.reason}", "values of the types of their schemas") from None
     except Garage2UsdError:
         raise
-    except Exception:  # noqa: BLE001 - whatever the tables of a file of others hold
-        kind = "a GLB whose tables are whole" if is_gltf else "a file of USD whose values are those of its schemas"
+    except Exception:  # noqa: BLE001 - as libraries fail in every way
+        is_gltf = path.suffix.lower() in GLTF_SUFFIXES
+        kind = (
+            "a file whose tables are those of glTF 2.0" if is_gltf else "a file whose values are those of USD's schemas"
+        )
         raise ConfigError(field, str(path), kind) from None
-    count = sum(len(part.st) for part in parts)
-    if not 0 < count <= _MOST_TRIANGLES:
-        raise ConfigError(field, f"{path} of {count} triangles", f"models of 1 to {_MOST_TRIANGLES} triangles")
-    if not all(np.isfinite(part.triangles_m).all() for part in parts):
-        raise ConfigError(field, str(path), "a model whose points are finite")
-    return ForeignModel(tuple(parts), tuple(remarks.lines()))
 
 
 def _check_pictures(path: Path, field: str, remarks: Remarks) -> None:
@@ -196,8 +213,10 @@ def _of_usd(path: Path, field: str, remarks: Remarks, pictures: Pictures) -> Ite
         is_z_up = UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z
         pose_skins(stage)
         looks = MeshLooks(is_apart_by_name=True, remarks=remarks, pictures=pictures)
-        # beside the default prim there may be a ground or a studio
-        for placed in placed_objects(stage, metres_y_up(stage), within=stage.GetDefaultPrim() or None):
+        root = _root(stage, remarks)
+        if stage.HasAuthoredTimeCodeRange():
+            remarks.add("animations are read at their first frame", path.name)
+        for placed in placed_objects(stage, metres_y_up(stage), within=root):
             for part in placed.parts:
                 name, kind = placed.path + part.path, part.prim.GetTypeName()
                 if part.prim.HasAPI(UsdLux.LightAPI):
@@ -212,6 +231,19 @@ def _of_usd(path: Path, field: str, remarks: Remarks, pictures: Pictures) -> Ite
                         whole = f"{name}/{subset}" if subset else name
                         triangles = looks.meshes.values[mesh].moved(matrix)
                         yield _Drawn(whole, triangles, looks.surfaces.values[surface], is_z_up)
+
+
+def _root(stage: Usd.Stage, remarks: Remarks) -> Usd.Prim | None:
+    """Return the prim at the root that holds the default prim, beside which there may be a ground or a studio."""
+    default = stage.GetDefaultPrim()
+    if not default:
+        return None
+    root = stage.GetPrimAtPath(default.GetPath().GetPrefixes()[0])
+    for other in stage.GetPseudoRoot().GetChildren():
+        below = Usd.PrimRange(other, Usd.TraverseInstanceProxies())
+        if other != root and any(prim.IsA(UsdGeom.Gprim) for prim in below):
+            remarks.add("what stands beside the default prim is left out", other.GetPath())
+    return root
 
 
 def _check(mesh: UsdGeom.Mesh, path: Path, field: str, remarks: Remarks) -> None:
@@ -250,7 +282,7 @@ def _parts(drawn: _Drawn, surface: PlainSurface, layout: Layout | None, remarks:
     colours, which = _palette(shades.mean(axis=1))
     if np.abs(colours[which][:, None] - shades).max() > _SAME_COLOUR:
         remarks.add(f"colours by point are carried as {len(colours)} colours by face", drawn.name)
-    tint = np.array(surface.colour_rgb) if surface.picture else np.ones(3)
+    tint = np.array(surface.colour_rgb) if drawn.look.colour_texture else np.ones(3)
     for number, colour in enumerate(colours):
         red, green, blue = np.round(colour * tint, 6).tolist()
         yield part(replace(surface, colour_rgb=(red, green, blue)), which == number)

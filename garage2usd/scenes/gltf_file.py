@@ -93,6 +93,7 @@ class GltfFile:
         self._files = {
             uri: read_bytes(place, field=field, max_bytes=max_bytes) for uri, place in places.items() if is_file(place)
         }
+        self._buffer = cache(self._of_buffer)
         self._decompressed: dict[int, Mapping[str, NDArray[Any]]] = {}
         self.told = [data, *(self._files[uri] for uri in sorted(self._files))]
 
@@ -149,7 +150,7 @@ class GltfFile:
         """Return the bytes of a buffer view."""
         entry = self.entry("bufferViews", number)
         start, length = entry.get("byteOffset", 0), entry["byteLength"]
-        whole = self._buffer(entry["buffer"])
+        whole = self._buffer(int(entry["buffer"]))
         if start < 0 or length < 0 or start + length > len(whole):
             raise self.fault(f"with a view of bytes {start} to {start + length} of {len(whole)}")
         return whole[start : start + length]
@@ -181,8 +182,10 @@ class GltfFile:
             found[name] = _shares(values.reshape(len(values), -1), is_normalized=bool(accessor.get("normalized")))
         return found
 
-    def _buffer(self, number: int) -> bytes:
+    def _of_buffer(self, number: int) -> bytes:
         entry = self.entry("buffers", number)
+        if "uri" not in entry and number:
+            raise self.fault(f"with buffer {number} without a URI")
         return self.resource(entry["uri"]) if "uri" in entry else self._binary
 
     def _chunks(self, data: bytes) -> tuple[dict[str, Any], bytes]:
@@ -202,7 +205,7 @@ class GltfFile:
 
     def _json(self, text: bytes, allowed: str) -> dict[str, Any]:
         try:
-            document = json.loads(text.decode("utf-8-sig"))
+            document = json.loads(text.decode("utf-8-sig"), parse_constant=_refused)
         except (ValueError, RecursionError):
             document = None
         if not isinstance(document, dict):
@@ -301,7 +304,12 @@ def _shares(values: NDArray[Any], *, is_normalized: bool) -> NDArray[Any]:
 
 def title_of(entry: Mapping[str, Any], kind: str, number: int) -> str:
     """Return the name of an entry of a table, or its kind and number."""
-    return str(entry.get("name") or f"{kind.removesuffix('s')} {number}")
+    return str(entry.get("name") or f"{'mesh' if kind == 'meshes' else kind.removesuffix('s')} {number}")
+
+
+def _refused(constant: str) -> None:
+    """Refuse NaN and infinities, which JSON lacks."""
+    raise ValueError(constant)
 
 
 def _extensions_in(entry: object) -> Iterator[str]:

@@ -17,6 +17,7 @@ from garage2usd.scenes.textures import Coordinates
 __all__ = ["GltfMesh", "GltfMeshes", "set_named"]
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
+_MOST_COPIES = 100_000
 _INSTANCING, _VISIBILITY = "EXT_mesh_gpu_instancing", "KHR_node_visibility"
 
 
@@ -55,6 +56,7 @@ class GltfMeshes:
     def __init__(self, file: GltfFile, remarks: Remarks) -> None:
         self._file, self._remarks = file, remarks
         self._nodes = file.table("nodes")
+        self._read: dict[int, Triangles] = {}
 
     def drawn(self) -> Iterator[GltfMesh]:
         """Yield the primitives that the file's scene draws as triangles."""
@@ -73,29 +75,36 @@ class GltfMeshes:
         double_sided
             True if the back is visible.
         """
+        key = id(mesh.primitive)  # of the file's document, which stays
+        if key in self._read:
+            return self._read[key]
         attributes = self._attributes(mesh)
-        positions = attributes["POSITION"].astype(np.float64)
-        corners = self._corners(mesh, len(positions))
-        if corners.size and not 0 <= corners.min() <= corners.max() < len(positions):
-            raise self._file.fault(f"with corner {corners.max()} of {len(positions)} in {mesh.name}")
+        count = len(attributes["POSITION"])
+        corners = self._corners(mesh, count)
+        if corners.size and not 0 <= corners.min() <= corners.max() < count:
+            raise self._file.fault(f"with corner {corners.max()} of {count} in {mesh.name}")
+        # primitives may share accessors, and each names some of their rows
+        vertices, inverse = np.unique(corners, return_inverse=True)
+        positions, corners = attributes["POSITION"][vertices].astype(np.float64), inverse.reshape(-1, 3)
         corners = corners[np.isfinite(positions[corners]).all(axis=(1, 2))]
         if not len(corners):
             return None
-        normals = attributes.get("NORMAL")
-        has_normals = normals is not None and len(normals) == len(positions)
-        vertices = np.arange(len(positions))
-        if not has_normals or normals is None:  # faceted (3.7.2.1), so that no two triangles share a vertex
-            vertices, corners = corners.ravel(), np.arange(corners.size).reshape(-1, 3)
-            positions = positions[vertices]
+        given = attributes.get("NORMAL")
+        has_normals = given is not None and len(given) == count
+        if has_normals and given is not None:
+            normals = given[vertices].astype(np.float64)
+        else:  # faceted (3.7.2.1), so that no two triangles share a vertex
+            order, corners = corners.ravel(), np.arange(corners.size).reshape(-1, 3)
+            vertices, positions = vertices[order], positions[order]
             first, second = (positions[corners[:, side]] - positions[corners[:, 0]] for side in (1, 2))
             normals = np.repeat(np.cross(first, second), 3, axis=0)
         joints = self._joints(mesh, attributes)
         if joints is not None:
             positions = _posed(positions, joints[vertices], 1.0)
-            normals = _posed(normals.astype(np.float64), joints[vertices], 0.0)
+            normals = _posed(normals, joints[vertices], 0.0)
         sets = [self._coordinates(mesh, attributes, look, own, vertices) for own in look.sets]
         colours = attributes.get(look.colour_name)
-        if colours is not None and look.is_blended and (colours[:, 3:] < 1).any():
+        if colours is not None and self._counts_alpha(mesh) and (colours[:, 3:] < 1).any():
             self._remarks.add("opacities by point are not used", mesh.name)
         placed = Triangles(
             positions.astype(np.float32),
@@ -104,18 +113,18 @@ class GltfMeshes:
             corners.astype(np.uint32),
             np.arange(len(corners), dtype=np.int32),
             double_sided,
-            None if colours is None else (colours[vertices][:, :3] * look.colour_rgb).astype(np.float32),
+            None if colours is None else _shares(colours[vertices][:, :3] * look.colour_rgb),
             has_normals,
-        )
-        return placed.moved(np.eye(4))  # with normals of unit length
+        ).moved(np.eye(4))  # with normals of unit length
+        if mesh.matrix is not None and "weights" not in mesh.node:
+            self._read[key] = placed
+        return placed
 
     def _roots(self) -> Sequence[int]:
         if self._file.table("scenes"):
             scene = self._file.entry("scenes", self._file.document.get("scene", 0))
-            roots: Sequence[int] = scene.get("nodes", ())
-            return roots
-        below = {child for node in self._nodes for child in node.get("children", ())}
-        return [number for number in range(len(self._nodes)) if number not in below]
+            return list(dict.fromkeys(number for number in scene.get("nodes", ()) if number not in self._below))
+        return [number for number in range(len(self._nodes)) if number not in self._below]
 
     def _drawn(self, number: int, above: str, matrix: Matrix) -> Iterator[GltfMesh]:
         node = self._file.entry("nodes", number)
@@ -144,6 +153,8 @@ class GltfMeshes:
         given = {name: self._file.numbers.of(number) for name, number in instancing.get("attributes", {}).items()}
         keys = {"translation": "TRANSLATION", "rotation": "ROTATION", "scale": "SCALE"}
         count = min(map(len, given.values()), default=0)
+        if count > _MOST_COPIES:
+            raise self._file.fault(f"with {count} copies of a mesh")
         return [
             _place({key: given[name][row].tolist() for key, name in keys.items() if name in given})
             for row in range(count)
@@ -202,14 +213,24 @@ class GltfMeshes:
                 weights = attributes[f"WEIGHTS_{group}"].astype(np.float64)
                 total += (weights[..., None, None] * poses[attributes[f"JOINTS_{group}"].astype(np.int64)]).sum(axis=1)
         sums = total[:, 3, 3]  # weights that add up to 1 but for rounding
-        return np.asarray(total / np.where(sums > 0, sums, 1.0)[:, None, None])
+        total[sums <= 0], sums[sums <= 0] = np.eye(4), 1.0
+        return np.asarray(total / sums[:, None, None])
+
+    @cached_property
+    def _below(self) -> frozenset[int]:
+        """Numbers of the nodes that other nodes hold."""
+        return frozenset(child for node in self._nodes for child in node.get("children", ()))
+
+    def _counts_alpha(self, mesh: GltfMesh) -> bool:
+        """Return True if the material of a primitive lets its opacity count."""
+        material = mesh.primitive.get("material")
+        return material is not None and self._file.entry("materials", material).get("alphaMode", "OPAQUE") != "OPAQUE"
 
     @cached_property
     def _places(self) -> dict[int, Matrix]:
         """Transforms of all nodes to the scene."""
         places: dict[int, Matrix] = {}
-        below = {child for node in self._nodes for child in node.get("children", ())}
-        waiting = [(number, np.eye(4)) for number in range(len(self._nodes)) if number not in below]
+        waiting = [(number, np.eye(4)) for number in range(len(self._nodes)) if number not in self._below]
         while waiting:
             number, above = waiting.pop()
             places[number] = _place(self._nodes[number]) @ above
@@ -254,6 +275,11 @@ def _place(node: Mapping[str, Any]) -> Matrix:
     matrix[:3, :3] = np.array(node.get("scale", (1, 1, 1)), dtype=np.float64)[:, None] * turn
     matrix[3, :3] = node.get("translation", (0, 0, 0))
     return matrix
+
+
+def _shares(values: NDArray[np.floating[Any]]) -> NDArray[np.float32]:
+    """Return values clamped between 0 and 1; 0 for NaN."""
+    return np.clip(np.nan_to_num(values), 0, 1).astype(np.float32)
 
 
 def _posed(vectors: NDArray[np.float64], joints: NDArray[np.float64], shift: float) -> NDArray[np.float64]:

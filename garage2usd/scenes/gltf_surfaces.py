@@ -10,13 +10,14 @@ from garage2usd.scenes.gltf_file import GltfFile, title_of
 from garage2usd.scenes.gltf_meshes import set_named
 from garage2usd.scenes.pictures import ALPHA, Pictures
 from garage2usd.scenes.remarks import Remarks
-from garage2usd.scenes.surfaces import Rgb, SurfaceLook
+from garage2usd.scenes.surfaces import Rgb, SurfaceLook, within
 from garage2usd.scenes.textures import LEFT_OUT, Coordinates, Layout, Texture
 
 __all__ = ["GltfSurfaces"]
 
 _WRAPS = {33071: "clamp", 33648: "mirror", 10497: "repeat"}
 _NEAREST = 9728
+_MOST_IOR = 1e3
 _COLOURS = "COLOR_0"
 _SOURCES = ("EXT_texture_webp", "EXT_texture_avif")
 _BASIS = "KHR_texture_basisu"
@@ -42,6 +43,7 @@ class GltfSurfaces:
     def __init__(self, file: GltfFile, pictures: Pictures, remarks: Remarks) -> None:
         self._file, self._pictures, self._remarks = file, pictures, remarks
         self._of_material = cache(self._material)
+        self._files: dict[int, str] = {}
 
     def surface(self, primitive: Mapping[str, Any]) -> tuple[SurfaceLook, bool]:
         """Return the surface of a primitive, and True if its back is visible."""
@@ -68,7 +70,7 @@ class GltfSurfaces:
         if any(material.get("emissiveFactor", ())):
             values["emissive_rgb"] = _rgb(material["emissiveFactor"])
         if "KHR_materials_ior" in extensions:
-            values["ior"] = float(extensions["KHR_materials_ior"].get("ior", 1.5))
+            values["ior"] = within(float(extensions["KHR_materials_ior"].get("ior", 1.5)), _MOST_IOR)
         return SurfaceLook(**values, name=str(material.get("name", ""))), bool(material.get("doubleSided"))
 
     def _reflection(self, material: Mapping[str, Any], title: str) -> dict[str, Any]:
@@ -77,8 +79,8 @@ class GltfSurfaces:
         if glossy is not None:
             return self._glossy(glossy, title)
         given = material.get("pbrMetallicRoughness", {})
-        factors = [float(part) for part in given.get("baseColorFactor", _ONES)]
-        roughness, metallic = (float(given.get(f"{name}Factor", 1.0)) for name in ("roughness", "metallic"))
+        factors = [_share(part) for part in given.get("baseColorFactor", _ONES)]
+        roughness, metallic = (_share(given.get(f"{name}Factor", 1.0)) for name in ("roughness", "metallic"))
         values = self._coloured(factors, given.get("baseColorTexture"), title)
         finish = given.get("metallicRoughnessTexture")
         for name, factor, channel in (("roughness", roughness, 1), ("metallic", metallic, 2)):
@@ -88,9 +90,9 @@ class GltfSurfaces:
 
     def _glossy(self, given: Mapping[str, Any], title: str) -> dict[str, Any]:
         """Return the values of KHR_materials_pbrSpecularGlossiness."""
-        factors = [float(part) for part in given.get("diffuseFactor", _ONES)]
+        factors = [_share(part) for part in given.get("diffuseFactor", _ONES)]
         values = self._coloured(factors, given.get("diffuseTexture"), title)
-        specular, glossiness = _rgb(given.get("specularFactor", _ONES)), float(given.get("glossinessFactor", 1.0))
+        specular, glossiness = _rgb(given.get("specularFactor", _ONES)), _share(given.get("glossinessFactor", 1.0))
         texture = self._texture(given.get("specularGlossinessTexture"), title, scale=(*specular, 1.0))
         if texture is None:
             return values | {"specular_rgb": specular, "roughness": 1 - glossiness}
@@ -108,15 +110,20 @@ class GltfSurfaces:
     def _opacity(self, material: Mapping[str, Any], values: Mapping[str, Any], title: str) -> dict[str, Any]:
         """Return what lets light through: opacity by the mode of alpha, less what is transmitted."""
         mode, found = material.get("alphaMode", "OPAQUE"), dict[str, Any]()
-        colour = values.get("colour_texture")
+        colour, cutoff = values.get("colour_texture"), _share(material.get("alphaCutoff", 0.5))
+        if mode == "MASK" and not cutoff:
+            mode = "OPAQUE"
         if mode == "OPAQUE":
             found["opacity"] = 1.0
         elif colour is not None and self._pictures.has_alpha(colour.file):
             found |= {"opacity_texture": colour._replace(channel=ALPHA), "opacity": 1.0}
         if mode == "MASK":
-            found["opacity_threshold"] = float(material.get("alphaCutoff", 0.5))
+            found["opacity_threshold"] = cutoff
         through = material.get("extensions", {}).get("KHR_materials_transmission", {})
-        share = float(through.get("transmissionFactor", 0.0))
+        share = _share(through.get("transmissionFactor", 0.0))
+        if share and mode == "MASK":
+            self._remarks.add("KHR_materials_transmission of what is cut out is not used", title)
+            return found
         texture = self._texture(through.get("transmissionTexture"), title, channel=0)
         if texture is not None:
             self._remarks.add("textures of transmission are carried as their mean", texture.file)
@@ -135,8 +142,8 @@ class GltfSurfaces:
         if given is None:
             return {}
         coat: dict[str, Any] = {
-            "clearcoat": float(given.get("clearcoatFactor", 0.0)),
-            "clearcoat_roughness": float(given.get("clearcoatRoughnessFactor", 0.0)),
+            "clearcoat": _share(given.get("clearcoatFactor", 0.0)),
+            "clearcoat_roughness": _share(given.get("clearcoatRoughnessFactor", 0.0)),
         }
         for name, key, channel in (("clearcoat", "clearcoat", 0), ("clearcoatRoughness", "clearcoat_roughness", 1)):
             scale = (coat[key],) * 4
@@ -183,16 +190,22 @@ class GltfSurfaces:
         entry = self._file.entry("images", number)
         uri = str(entry.get("uri", ""))
         title = str(entry.get("name") or ("" if uri.startswith("data:") else uri) or number)
-        file = f"{self._file.path}, image {title}"
-        if sum(other.get("name") == entry.get("name") for other in self._file.table("images")) > 1:
-            file = f"{file} ({number})"
-        self._pictures.give(file, self._file.picture(number))
-        return file
+        if number not in self._files:
+            file = f"{self._file.path}, image {title}"
+            while file in self._files.values():
+                file = f"{file} ({number})"
+            self._files[number] = file
+            self._pictures.give(file, self._file.picture(number))
+        return self._files[number]
 
 
 def _rgb(values: Sequence[float]) -> Rgb:
-    red, green, blue = (float(value) for value in values[:3])
+    red, green, blue = (_share(value) for value in values[:3])
     return red, green, blue
+
+
+def _share(value: float) -> float:
+    return within(float(value), 1.0)
 
 
 def _layout(info: Mapping[str, Any]) -> Layout:

@@ -5,7 +5,7 @@ from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Sdf, Usd, UsdGeom, UsdShade
+from pxr import Sdf, Usd, UsdShade
 
 from garage2usd.scenes.face_sets import face_sets
 from garage2usd.scenes.inheritance import NOTHING, Inherited
@@ -113,8 +113,8 @@ class MeshLooks:
         """Return the number of the triangles of some faces; None without triangles."""
         # prims made of the same opinions are the same
         if key not in self._triangles_of:
-            self._remark_coordinates(prim, look)
             self._triangles_of[key] = triangles_of(prim, sets=look.sets, colour_name=look.colour_name)
+            self._remark_coordinates(prim, look, self._triangles_of[key])
         triangles = self._triangles_of[key]
         if triangles is not None and faces is not None:
             triangles = triangles.of_faces(faces)
@@ -122,20 +122,19 @@ class MeshLooks:
             return None
         return self.meshes.number(triangles, triangles.key())
 
-    def _remark_coordinates(self, prim: Usd.Prim, look: SurfaceLook) -> None:
-        """Add a remark where a prim lacks texture coordinates, so that a texture shows one pixel."""
-        primvars = UsdGeom.PrimvarsAPI(prim)
-        for own in look.sets if look.has_textures else ():
-            if own.name and not primvars.FindPrimvarWithInheritance(own.name).HasValue():
+    def _remark_coordinates(self, prim: Usd.Prim, look: SurfaceLook, triangles: Triangles | None) -> None:
+        """Add a remark where textures show one pixel, as a prim has no coordinates that fit."""
+        for number, own in enumerate(look.sets if look.has_textures and triangles is not None else ()):
+            if own.name and triangles is not None and (triangles.coordinates[:, number] == own.fallback).all():
                 self.remarks.add(f"textures show one pixel without the coordinates {own.name}", prim.GetPath())
 
     def _remark_bindings(self, prim: Usd.Prim) -> None:
         """Add a remark where a prim is bound to a material that is not there."""
         stage = prim.GetStage()
         while prim and not prim.IsPseudoRoot():
-            targets = UsdShade.MaterialBindingAPI(prim).GetDirectBindingRel().GetTargets()
-            if any(not stage.GetPrimAtPath(target) for target in targets):
-                self.remarks.add("bound materials that are missing leave the colour of the mesh", targets[0])
+            for target in UsdShade.MaterialBindingAPI(prim).GetDirectBindingRel().GetTargets():
+                if not stage.GetPrimAtPath(target):
+                    self.remarks.add("bound materials that are missing leave the colour of the mesh", target)
             prim = prim.GetParent()
 
     def _surface(self, bound: Usd.Prim, prim: Usd.Prim) -> int:

@@ -26,6 +26,7 @@ _COLOURED = 3
 """Least number of channels of an 8-bit picture that is read as sRGB colours."""
 _WHOLE = {"I;16": 65535.0, "I;16B": 65535.0, "I;16L": 65535.0, "I": 65535.0, "F": 1.0}
 _OPAQUE_BYTE = 255
+_MOST_PX = 8192
 ALPHA = 3
 """Number of the alpha channel."""
 _KNEE, _SLOPE, _SHIFT, _POWER = 0.0031308, 12.92, 0.055, 2.4
@@ -91,17 +92,20 @@ class Pictures:
     def give(self, file: str, data: bytes) -> None:
         """Take the bytes of a picture that no file of its own holds, under a name of one's choice."""
         self._data[file] = data
+        for known in (self._faults, self._pixels):
+            known.pop(file, None)
 
     def give_values(self, file: str, values: NDArray[np.float64], *, is_srgb: bool = False) -> None:
         """Take linear values as a picture of bytes, shape (rows, columns) or (rows, columns, 3)."""
         buffer = io.BytesIO()
         Image.fromarray(_stored(values, is_srgb=is_srgb)).save(buffer, format="PNG")
-        self._data[file] = buffer.getvalue()
+        self.give(file, buffer.getvalue())
 
     def mosaic(self, tiles: Mapping[tuple[int, int], str]) -> str:
         """Compose pictures by their columns and rows, counted rightwards and upwards, into one; return its name.
 
-        All get the size of the largest, and places without a picture are black.
+        All get the size of the largest, or less where the whole would have over 8192 pixels a side, and places without
+        a picture are black.
         """
         names = [f"{column},{row}={tile}" for (column, row), tile in sorted(tiles.items())]
         file = f"mosaic of {' '.join(names)}"
@@ -111,6 +115,7 @@ class Pictures:
                 read[place] = Image.fromarray(np.rint(self._pixels_of(tile).values.clip(0, 1) * 255).astype(np.uint8))
             width, height = (max(sides) for sides in zip(*(picture.size for picture in read.values()), strict=True))
             columns, rows = (1 + max(place[axis] for place in tiles) for axis in (0, 1))
+            width, height = min(width, _MOST_PX // columns), min(height, _MOST_PX // rows)
             whole = Image.new("RGBA", (columns * width, rows * height))
             for (column, row), picture in read.items():
                 whole.paste(picture.resize((width, height)), (column * width, (rows - 1 - row) * height))
@@ -196,7 +201,7 @@ class Pictures:
             self._pixels[file] = _of_openexr(data) if data.startswith(_OPENEXR) else _of_pillow(data)
         return self._pixels[file]
 
-    def composed(self, bands: Bands, *, is_srgb: bool) -> Picture:
+    def composed(self, bands: Bands, *, is_srgb: bool, largest_px: int | None = None) -> Picture:
         """Compose a picture of some bands: the original file if it has them unchanged, else an 8-bit PNG.
 
         Parameters
@@ -206,6 +211,8 @@ class Pictures:
             them is a band.
         is_srgb
             True to store red, green and blue as sRGB.
+        largest_px
+            Pixels of the longer side to which a composed picture is reduced; a file that is taken as it is is not.
         """
         given = [band for band in bands if isinstance(band, Band)]
         package, packed = Ar.SplitPackageRelativePathInner(given[0].file)
@@ -215,7 +222,8 @@ class Pictures:
             return Picture(name, self.plain_kind(file), self.data(file))
         planes = [band if isinstance(band, float) else self.plane(band) if band else 1.0 for band in bands]
         rows, columns = max((plane.shape for plane in planes if not isinstance(plane, float)), key=math.prod)
-        size = columns, rows
+        share = min(1.0, (largest_px or columns) / max(columns, rows)) if largest_px else 1.0
+        size = max(1, round(share * columns)), max(1, round(share * rows))
         parts = [
             _stored(resized(plane, size), is_srgb=is_srgb and number != ALPHA) for number, plane in enumerate(planes)
         ]

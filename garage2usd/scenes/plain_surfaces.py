@@ -16,7 +16,7 @@ from garage2usd.scenes.textures import Layout, Texture
 
 __all__ = ["PlainPicture", "PlainSurface", "plain_surface_of"]
 
-_LARGEST_PX = 1024
+_LARGEST_PX, _MUCH_PX = 1024, 4096
 _KEPT_MODES, _KEPT_SUFFIXES = frozenset({"L", "RGB", "RGBA"}), {"PNG": ".png", "JPEG": ".jpg"}
 _WORD_TO_BYTE = 257
 _WHITE = (1.0, 1.0, 1.0)
@@ -162,7 +162,7 @@ class _Reduction:
             band = band._replace(scale=band.scale * opacity, bias=band.bias * opacity)
         if colour:
             return (red, green, blue), 1.0, (*bands, band)
-        return _WHITE, 1.0, (red, green, blue, band)
+        return (red, green, blue), 1.0, (*_WHITE, band)
 
     def _cut(self, band: Band, threshold: float) -> Band:
         """Return a band of 1 where another one reaches a threshold, and of 0 elsewhere."""
@@ -190,25 +190,29 @@ class _Reduction:
         return min(max(self._pictures.mean(texture.band()), 0.0), 1.0)
 
     def _picture(self, bands: Bands, *, is_srgb: bool = False) -> PlainPicture:
-        return _fitted(self._pictures.composed(bands, is_srgb=is_srgb).data)
+        made = self._pictures.composed(bands, is_srgb=is_srgb, largest_px=_LARGEST_PX)
+        return self._fitted(made.data, has_alpha=len(bands) > len(_WHITE))
 
-
-def _fitted(data: bytes) -> PlainPicture:
-    """Reduce a picture to what every reader of USD supports."""
-    with Image.open(io.BytesIO(data)) as picture:
-        picture.load()
-        suffix = _KEPT_SUFFIXES.get(picture.format or "", "")
-        is_byte = picture.mode in _KEPT_MODES and not has_sixteen_bits(data)
-        if suffix and is_byte and max(picture.size) <= _LARGEST_PX:
-            return PlainPicture(data, suffix)
-        grey = picture.mode.startswith("I")  # 16 bits, which `convert` would cut off at 255
-        whole = Image.fromarray((np.asarray(picture) // _WORD_TO_BYTE).astype(np.uint8)) if grey else picture
-        image = whole.convert("RGBA" if picture.has_transparency_data else "RGB")
-    scale = min(1.0, _LARGEST_PX / max(image.size))
-    width, height = (max(1, round(side * scale)) for side in image.size)
-    stream = io.BytesIO()
-    image.resize((width, height), Image.Resampling.BOX).save(stream, format="PNG", compress_level=6)
-    return PlainPicture(stream.getvalue(), ".png")
+    def _fitted(self, data: bytes, *, has_alpha: bool) -> PlainPicture:
+        """Reduce a picture to what every reader of USD supports."""
+        with Image.open(io.BytesIO(data)) as picture:
+            picture.load()
+            suffix = _KEPT_SUFFIXES.get(picture.format or "", "")
+            is_byte = picture.mode in _KEPT_MODES and not has_sixteen_bits(data)
+            if suffix and is_byte and max(picture.size) <= _LARGEST_PX:
+                return PlainPicture(data, suffix)
+            grey = picture.mode.startswith("I")  # 16 bits, which `convert` would cut off at 255
+            whole = Image.fromarray((np.asarray(picture) // _WORD_TO_BYTE).astype(np.uint8)) if grey else picture
+            image = whole.convert("RGBA" if has_alpha else "RGB")
+        if max(image.size) > _MUCH_PX:
+            self._remarks.add(
+                f"pictures of over {_MUCH_PX} pixels a side are reduced to {_LARGEST_PX}", self._look.name
+            )
+        scale = min(1.0, _LARGEST_PX / max(image.size))
+        width, height = (max(1, round(side * scale)) for side in image.size)
+        stream = io.BytesIO()
+        image.resize((width, height), Image.Resampling.BOX).save(stream, format="PNG", compress_level=6)
+        return PlainPicture(stream.getvalue(), ".png")
 
 
 def _metallic(look: SurfaceLook, pictures: Pictures, remarks: Remarks) -> SurfaceLook:
@@ -241,7 +245,10 @@ def _metallic(look: SurfaceLook, pictures: Pictures, remarks: Remarks) -> Surfac
     if first is None:
         red, green, blue = colour[0, 0].tolist()
         return replace(look, colour_rgb=(red, green, blue), metallic=float(metallic[0, 0]), specular_rgb=None)
-    names = [f"{kind} of {given[0]} and {given[1]}" for kind in ("colour", "metallic")]
+    files = " and ".join(texture.file for texture in given if texture)
+    factors = [texture and (texture.scale, texture.bias, texture.channel) for texture in given]
+    said = f"{files}, {look.colour_rgb}, {specular_rgb}, {factors}"
+    names = [f"{kind} of {said}" for kind in ("colour", "metallic")]
     pictures.give_values(names[0], colour, is_srgb=True)
     pictures.give_values(names[1], metallic)
     return replace(

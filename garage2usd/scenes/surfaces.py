@@ -25,7 +25,7 @@ from garage2usd.scenes.textures import (
 )
 from garage2usd.scenes.values import READ_AT, vector_of
 
-__all__ = ["Rgb", "SurfaceLook", "SurfaceReader", "stands_alone"]
+__all__ = ["Rgb", "SurfaceLook", "SurfaceReader", "stands_alone", "within"]
 
 Rgb = tuple[float, float, float]
 _PREVIEW = "UsdPreviewSurface"
@@ -148,7 +148,7 @@ class SurfaceReader:
         primvars = UsdGeom.PrimvarsAPI(prim)
         opacity = primvars.FindPrimvarWithInheritance("displayOpacity")
         shares = _rows(opacity, 1) if opacity and opacity.HasValue() else None
-        share = 1.0 if shares is None or not len(shares) else _within(float(shares.mean()), 1.0)
+        share = 1.0 if shares is None or not len(shares) else within(float(shares.mean()), 1.0)
         if shares is not None and len(np.unique(shares)) > 1:
             self._remarks.add("numbers by point are carried as their mean", prim.GetPath())
         colour = primvars.FindPrimvarWithInheritance("displayColor")
@@ -283,7 +283,7 @@ class _Inputs(NamedTuple):
 
     @staticmethod
     def _clipped(given: _Given, most: float) -> _Given:
-        return given._replace(values=tuple(_within(value, most) for value in given.values))
+        return given._replace(values=tuple(within(value, most) for value in given.values))
 
 
 def stands_alone(material: UsdShade.Material) -> bool:
@@ -314,6 +314,6 @@ def _rows(primvar: UsdGeom.Primvar, width: int) -> NDArray[np.float64] | None:
     return rows[:, :width] if len(rows) and rows.shape[1] >= width else None
 
 
-def _within(value: float, most: float) -> float:
+def within(value: float, most: float) -> float:
     """Clamp a number between 0 and a maximum; 0 for NaN."""
     return 0.0 if math.isnan(value) else min(max(value, 0.0), most)

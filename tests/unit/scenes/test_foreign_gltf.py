@@ -9,7 +9,7 @@ from PIL import Image
 from support.gltf_models import SQUARE, SQUARE_ST, Gltf
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.scenes.foreign_models import read_model
+from garage2usd.scenes.foreign_models import model_digest, read_model
 
 QUADRANTS = np.array([[(255, 0, 0), (0, 255, 0)], [(0, 0, 255), (255, 255, 255)]])
 """Red and green above, blue and white below."""
@@ -289,6 +289,116 @@ def test_pictures_of_webp_are_read_and_those_of_basis_universal_named(tmp_path):
     assert np.abs(picture(surfaces["webp"].picture)[..., :3].astype(int) - QUADRANTS).max() <= 1
     assert surfaces["basis"].picture is None
     assert "textures of KHR_texture_basisu are left out (1): basis" in model.remarks
+
+
+def test_large_opaque_pictures_keep_colours_below_a_clear_alpha(tmp_path):
+    gltf = Gltf()
+    pixels = np.zeros((1100, 8, 4), np.uint8)
+    pixels[..., 0] = 200
+    gltf.primitive(
+        material=gltf.material(pbrMetallicRoughness={"baseColorTexture": gltf.texture(pixels)}),
+        attributes={"TEXCOORD_0": gltf.numbers(SQUARE_ST)},
+    )
+    shown = picture(only(read(gltf, tmp_path)).surface.picture)
+    assert shown.shape[0] == 1024
+    assert shown[5, 0, :3].tolist() == [200, 0, 0]
+
+
+def test_glossy_materials_that_share_a_picture_differ_by_their_factors(tmp_path):
+    gltf = Gltf()
+    shared = gltf.texture(np.full((2, 2, 3), 128))
+    for name, specular in (("cloth", 0.04), ("steel", 0.9)):
+        given = {"diffuseTexture": shared, "specularFactor": [specular] * 3}
+        gltf.primitive(
+            material=gltf.material(name, extensions={"KHR_materials_pbrSpecularGlossiness": given}),
+            attributes={"TEXCOORD_0": gltf.numbers(SQUARE_ST)},
+        )
+    cloth, steel = (picture(part.surface.packed)[0, 0, 2] for part in read(gltf, tmp_path).parts)
+    assert cloth < 30
+    assert steel > 200
+
+
+def test_pictures_may_have_the_names_of_others_numbers(tmp_path):
+    gltf = Gltf()
+    for number, colour in enumerate([(200, 0, 0), (0, 200, 0)]):
+        info = gltf.texture(np.full((2, 2, 3), colour))
+        gltf.primitive(
+            material=gltf.material(str(number), pbrMetallicRoughness={"baseColorTexture": info}),
+            attributes={"TEXCOORD_0": gltf.numbers(SQUARE_ST)},
+        )
+    gltf.json["images"][0]["name"] = "1"
+    red, green = (picture(part.surface.picture)[0, 0].tolist() for part in read(gltf, tmp_path).parts)
+    assert (red, green) == ([200, 0, 0], [0, 200, 0])
+
+
+def test_opacities_by_point_are_named_where_they_count(tmp_path):
+    gltf = Gltf()
+    colours = np.tile(np.array([1, 1, 1, 0.3], np.float32), (4, 1))
+    gltf.primitive(material=gltf.material(alphaMode="BLEND"), attributes={"COLOR_0": gltf.numbers(colours)})
+    assert read(gltf, tmp_path).remarks == ("opacities by point are not used (1): /node/square",)
+
+
+@pytest.mark.parametrize("wrong", [float("nan"), float("inf"), -3.0, 7.0])
+def test_factors_are_shares(tmp_path, wrong):
+    gltf = Gltf()
+    reflection = {"roughnessFactor": wrong, "metallicFactor": wrong, "baseColorFactor": [wrong, 0.5, 0.5, 1]}
+    gltf.primitive(material=gltf.material(pbrMetallicRoughness=reflection))
+    if not np.isfinite(wrong):
+        with pytest.raises(ConfigError, match="a GLB whose first chunk is a JSON object"):
+            read(gltf, tmp_path)
+        return
+    surface = only(read(gltf, tmp_path)).surface
+    assert {surface.roughness, surface.metallic, surface.colour_rgb[0]} == {float(wrong > 0)}
+
+
+@pytest.mark.parametrize(
+    ("properties", "alpha"),
+    [
+        ({"alphaCutoff": 0}, 0.3),
+        ({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1.0}}}, 1.0),
+    ],
+)
+def test_what_is_cut_out_stays(tmp_path, properties, alpha):
+    gltf = Gltf()
+    base = {"baseColorFactor": [1, 1, 1, alpha]}
+    gltf.primitive(material=gltf.material(pbrMetallicRoughness=base, alphaMode="MASK", **properties))
+    assert only(read(gltf, tmp_path)).surface.opacity == 1.0
+
+
+HOSTILE = {
+    "extensions that are no list": {"extensionsRequired": 5},
+    "children that are no list": {"nodes": [{"mesh": 0, "children": None}]},
+    "an address that is none": {"images": [{"uri": "//[x"}]},
+}
+
+
+@pytest.mark.parametrize("about", HOSTILE)
+def test_hostile_tables_end_in_a_line(tmp_path, about):
+    gltf = Gltf()
+    gltf.primitive()
+    gltf.json |= HOSTILE[about]
+    path = gltf.write(tmp_path / "c.glb")
+    for reader in (model_digest, read_model):
+        with pytest.raises(ConfigError, match=r"c\.glb") as error:
+            reader(path, field="models")
+        assert "\n" not in str(error.value)
+
+
+def test_a_root_that_is_named_several_times_is_drawn_once(tmp_path):
+    gltf = Gltf()
+    gltf.primitive()
+    gltf.json["scenes"][0]["nodes"] = [0, 0, 0]
+    assert len(only(read(gltf, tmp_path)).st) == 2
+
+
+def test_copies_without_end_are_refused(tmp_path):
+    gltf = Gltf()
+    gltf.primitive()
+    gltf.json["accessors"].append({"componentType": 5126, "count": 10**7, "type": "VEC3"})
+    copies = {"attributes": {"TRANSLATION": len(gltf.json["accessors"]) - 1}}
+    gltf.json["nodes"][0]["extensions"] = {"EXT_mesh_gpu_instancing": copies}
+    with pytest.raises(ConfigError, match="with 10000000 copies of a mesh"):
+        read(gltf, tmp_path)
 
 
 def test_files_that_no_reading_needs_may_be_missing(tmp_path):

@@ -23,7 +23,6 @@ def Xform "Car" {{
     {looks}
     }}
 }}
-def Cube "Ground" {{ double size = 5000; }}
 """
 SQUARE = """
     def Mesh "{name}" (prepend apiSchemas = ["MaterialBindingAPI"]) {{
@@ -252,6 +251,21 @@ def test_faces_may_be_concave_or_holes_and_shapes_simple(tmp_path):
     }}
     """
     assert area_m2(read(tmp_path, points)) == pytest.approx(12)
+
+
+def test_what_stands_beside_the_default_prim_is_named(tmp_path):
+    ground = 'def Cube "Ground" { double size = 5000; }\n'
+    (tmp_path / "c.usda").write_text(STAGE.format(body=square(), looks="") + ground)
+    model = read_model(tmp_path / "c.usda", field="models")
+    assert area_m2(model) == pytest.approx(1)
+    assert model.remarks == ("what stands beside the default prim is left out (1): /Ground",)
+
+
+def test_coordinates_that_do_not_fit_are_named(tmp_path):
+    halves(tmp_path)
+    body = square(BOUND.replace(", (0, 1)]", "]"))  # three for four points
+    (line,) = read(tmp_path, body, paint(COLOURED, textured())).remarks
+    assert line == "textures show one pixel without the coordinates st (1): /Car/Body"
 
 
 def test_prims_that_are_not_read_are_named(tmp_path):
