@@ -185,8 +185,7 @@ def _check_pictures(path: Path, field: str, remarks: Remarks) -> None:
         raise ConfigError(field, f"{path} without {place}", "a model whose references lead to files")
     for reason, place in remarks.ending(LEFT_OUT):
         shown = place if place.startswith(str(path)) else f"{path}, {place}"
-        allowed = f"a picture of a known format, such as PNG or JPEG; {reason.replace('that', 'not those that', 1)}"
-        raise ConfigError(field, shown, allowed)
+        raise ConfigError(field, shown, f"a picture of a known format, such as PNG or JPEG, instead of {reason}")
 
 
 def _of_gltf(path: Path, field: str, remarks: Remarks, pictures: Pictures) -> Iterator[_Drawn]:
@@ -214,8 +213,8 @@ def _of_usd(path: Path, field: str, remarks: Remarks, pictures: Pictures) -> Ite
         pose_skins(stage)
         looks = MeshLooks(is_apart_by_name=True, remarks=remarks, pictures=pictures)
         root = _root(stage, remarks)
-        if stage.HasAuthoredTimeCodeRange():
-            remarks.add("animations are read at their first frame", path.name)
+        if any(len(layer.ListAllTimeSamples()) > 1 for layer in stage.GetUsedLayers()):
+            remarks.add("animations are read at rest or at their first frame", path.name)
         for placed in placed_objects(stage, metres_y_up(stage), within=root):
             for part in placed.parts:
                 name, kind = placed.path + part.path, part.prim.GetTypeName()

@@ -123,8 +123,9 @@ class GltfMeshes:
     def _roots(self) -> Sequence[int]:
         if self._file.table("scenes"):
             scene = self._file.entry("scenes", self._file.document.get("scene", 0))
-            return list(dict.fromkeys(number for number in scene.get("nodes", ()) if number not in self._below))
-        return [number for number in range(len(self._nodes)) if number not in self._below]
+            named = dict.fromkeys(scene.get("nodes", ()))
+            return [number for number in named if not any(above in named for above in self._above(number))]
+        return [number for number in range(len(self._nodes)) if number not in self._parents]
 
     def _drawn(self, number: int, above: str, matrix: Matrix) -> Iterator[GltfMesh]:
         node = self._file.entry("nodes", number)
@@ -216,10 +217,16 @@ class GltfMeshes:
         total[sums <= 0], sums[sums <= 0] = np.eye(4), 1.0
         return np.asarray(total / sums[:, None, None])
 
+    def _above(self, number: int) -> Iterator[int]:
+        """Yield the nodes that hold a node, from its parent upwards."""
+        while number in self._parents:
+            number = self._parents[number]
+            yield number
+
     @cached_property
-    def _below(self) -> frozenset[int]:
-        """Numbers of the nodes that other nodes hold."""
-        return frozenset(child for node in self._nodes for child in node.get("children", ()))
+    def _parents(self) -> Mapping[int, int]:
+        """Node that holds each node that is held."""
+        return {child: number for number, node in enumerate(self._nodes) for child in node.get("children", ())}
 
     def _counts_alpha(self, mesh: GltfMesh) -> bool:
         """Return True if the material of a primitive lets its opacity count."""
@@ -230,7 +237,7 @@ class GltfMeshes:
     def _places(self) -> dict[int, Matrix]:
         """Transforms of all nodes to the scene."""
         places: dict[int, Matrix] = {}
-        waiting = [(number, np.eye(4)) for number in range(len(self._nodes)) if number not in self._below]
+        waiting = [(number, np.eye(4)) for number in range(len(self._nodes)) if number not in self._parents]
         while waiting:
             number, above = waiting.pop()
             places[number] = _place(self._nodes[number]) @ above

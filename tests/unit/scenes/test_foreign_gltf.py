@@ -389,6 +389,10 @@ def test_a_root_that_is_named_several_times_is_drawn_once(tmp_path):
     gltf.primitive()
     gltf.json["scenes"][0]["nodes"] = [0, 0, 0]
     assert len(only(read(gltf, tmp_path)).st) == 2
+    above = gltf.node(children=[0])  # a scene may name a node below one that it does not name
+    assert len(only(read(gltf, tmp_path)).st) == 2
+    gltf.json["scenes"][0]["nodes"] = [0, above]
+    assert len(only(read(gltf, tmp_path)).st) == 2
 
 
 def test_copies_without_end_are_refused(tmp_path):
