@@ -14,7 +14,7 @@ WATCHED = [
     "tests/unit/checks/test_drive_of_a_file.py",
     "tests/unit/maps/test_heights.py",
     "tests/unit/planning/test_score.py",
-    "tests/unit/reading/test_looks.py",
+    "tests/unit/scenes/test_looks.py",
 ]
 WATCH = """
 import sys
