@@ -56,7 +56,7 @@ class GltfMeshes:
     def __init__(self, file: GltfFile, remarks: Remarks) -> None:
         self._file, self._remarks = file, remarks
         self._nodes = file.table("nodes")
-        self._read: dict[int, Triangles] = {}
+        self._read: dict[int | None, Triangles] = {}
 
     def drawn(self) -> Iterator[GltfMesh]:
         """Yield the primitives that the file's scene draws as triangles."""
@@ -75,7 +75,8 @@ class GltfMeshes:
         double_sided
             True if the back is visible.
         """
-        key = id(mesh.primitive)  # of the file's document, which stays
+        # skins and morphs differ between nodes; the file's document stays, and with it the ids of its parts
+        key = id(mesh.primitive) if mesh.matrix is not None and "weights" not in mesh.node else None
         if key in self._read:
             return self._read[key]
         attributes = self._attributes(mesh)
@@ -113,10 +114,10 @@ class GltfMeshes:
             corners.astype(np.uint32),
             np.arange(len(corners), dtype=np.int32),
             double_sided,
-            None if colours is None else _shares(colours[vertices][:, :3] * look.colour_rgb),
+            None if colours is None else _clamped(colours[vertices][:, :3] * look.colour_rgb),
             has_normals,
         ).moved(np.eye(4))  # with normals of unit length
-        if mesh.matrix is not None and "weights" not in mesh.node:
+        if key is not None:
             self._read[key] = placed
         return placed
 
@@ -284,7 +285,7 @@ def _place(node: Mapping[str, Any]) -> Matrix:
     return matrix
 
 
-def _shares(values: NDArray[np.floating[Any]]) -> NDArray[np.float32]:
+def _clamped(values: NDArray[np.floating[Any]]) -> NDArray[np.float32]:
     """Return values clamped between 0 and 1; 0 for NaN."""
     return np.clip(np.nan_to_num(values), 0, 1).astype(np.float32)
 

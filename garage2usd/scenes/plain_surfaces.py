@@ -11,7 +11,7 @@ from PIL import Image
 from garage2usd.scenes.base_colours import normal_bands_of
 from garage2usd.scenes.pictures import Band, Bands, Pictures, factored, has_sixteen_bits, resized
 from garage2usd.scenes.remarks import Remarks
-from garage2usd.scenes.surfaces import Rgb, SurfaceLook
+from garage2usd.scenes.surfaces import Rgb, SurfaceLook, within
 from garage2usd.scenes.textures import Layout, Texture
 
 __all__ = ["PlainPicture", "PlainSurface", "plain_surface_of"]
@@ -160,9 +160,7 @@ class _Reduction:
             band = self._cut(band, cut / max(opacity, _SMALLEST))
         else:
             band = band._replace(scale=band.scale * opacity, bias=band.bias * opacity)
-        if colour:
-            return (red, green, blue), 1.0, (*bands, band)
-        return (red, green, blue), 1.0, (*_WHITE, band)
+        return (red, green, blue), 1.0, (*(bands or _WHITE), band)
 
     def _cut(self, band: Band, threshold: float) -> Band:
         """Return a band of 1 where another one reaches a threshold, and of 0 elsewhere."""
@@ -187,7 +185,7 @@ class _Reduction:
             return value
         which = "" if name == "clearcoat" else " that lie unlike the colour's"
         self._remarks.add(f"textures of {name}{which} are carried as their mean", texture.file)
-        return min(max(self._pictures.mean(texture.band()), 0.0), 1.0)
+        return within(self._pictures.mean(texture.band()), 1.0)
 
     def _picture(self, bands: Bands, *, is_srgb: bool = False) -> PlainPicture:
         made = self._pictures.composed(bands, is_srgb=is_srgb, largest_px=_LARGEST_PX)

@@ -248,6 +248,17 @@ def test_skins_are_posed_by_their_joints_and_morphs_by_their_weights(tmp_path):
     assert points.tolist() == [[-1, 21, 1], [0, 21, 1], [9, 0, 1], [10, 0, 1]]
 
 
+def test_a_mesh_may_be_a_skin_at_one_node_and_none_at_another(tmp_path):
+    gltf = Gltf()
+    joints, weights = (np.tile(np.array(row, np.uint8), (4, 1)) for row in ((0, 0, 0, 0), (255, 0, 0, 0)))
+    gltf.primitive(attributes={"JOINTS_0": gltf.numbers(joints), "WEIGHTS_0": gltf.numbers(weights, normalized=True)})
+    joint = gltf.node(translation=[10, 0, 0])
+    gltf.json["skins"] = [{"joints": [joint]}]
+    gltf.json["scenes"][0]["nodes"] += [joint, gltf.node(mesh=0, skin=0)]
+    plain, posed = read(gltf, tmp_path).parts
+    assert (plain.triangles_m[..., 0].max(), posed.triangles_m[..., 0].max()) == (1, 11)
+
+
 def test_draco_is_decompressed(tmp_path):
     gltf = Gltf()
     made = gltf.primitive(attributes={"TEXCOORD_0": gltf.numbers(SQUARE_ST)})
