@@ -64,7 +64,7 @@ FAULTS = [
         "LaneBounds(road, lane, middle, left if lane == LEFT else right)",
         "LaneBounds(road, lane, *((left, middle) if lane == LEFT else (middle, right)))",
     ),
-    Fault("points of ways not shared", "osm_file", "in self._near.get(", "in {}.get("),
+    Fault("points of ways not shared", "osm_file", "min(found)[1] if found else None", "None"),
     Fault(
         "latitudes mirrored",
         "osm_file",
@@ -88,9 +88,9 @@ FAULTS = [
         ".reshape(-1, 4, 2)[:, [0, 2, 1, 3]]",
     ),
     Fault("spaces from rear to mouth", "lanelet2_parking", "mean(axis=2)", "mean(axis=2)[:, ::-1]"),
-    Fault("width of the side", "lanelet2_parking", "[stall.width_m for", "[stall.length_m for"),
+    Fault("width of the side", "lanelet2_parking", "number_text(stall.width_m)", "number_text(stall.length_m)"),
     Fault("occupied stalls free", "lanelet2_parking", '"yes" if is_taken else "no"', '"no" if is_taken else "yes"'),
-    Fault("a gap before the lane", "lanelet2_parking", "_Foot((x, y, 0.0)", "_Foot((x + 0.05, y + 0.05, 0.0)"),
+    Fault("a gap before the lane", "lanelet2_parking", "point.x, point.y, 0.0", "point.x + 0.05, point.y + 0.05, 0.0"),
     Fault("lots without lanes", "lanelet2_parking", "[shapely.union_all(_valid(level)), stalls]", "[stalls, stalls]"),
     Fault("lines behind what they are before", "lanelet2_stops", "_BEFORE_M = 1.0", "_BEFORE_M = -1.0"),
     Fault(

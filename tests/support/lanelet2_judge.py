@@ -15,6 +15,8 @@ from support.stage_lanes import judged_stage
 NEAR_M = 1e-3
 APART_M = 0.05
 """Least distance between two points of a map."""
+SAG_M = 2.5e-3
+"""How far a bound may lie off its bend: a millimetre, and more where points of others stand in the way of its own."""
 TIGHT_M = 0.02
 """How far a bound may lie off a bend whose points cannot be nearer to one another."""
 GROOVE_M = 0.012
@@ -103,7 +105,7 @@ class Lanelet2Judge:
                 for onward in [self.lanelets[n][side]["places"][1:] for n in following] or [[]]:
                     sags, shorter_m = _sags([*lanelet[side]["places"], *onward])
                     # no point lies 5 cm from two others that are less than 10 cm apart
-                    sag_m = sags[sags > np.where(shorter_m > 2 * APART_M, 1.5 * NEAR_M, TIGHT_M)]
+                    sag_m = sags[sags > np.where(shorter_m > 2 * APART_M, SAG_M, TIGHT_M)]
                     if len(sag_m):
                         yield f"the {side} bound of lanelet {number} cuts a bend by {sag_m.max():.4f} m"
             middle = self.middles[number]
