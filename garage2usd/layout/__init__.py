@@ -50,7 +50,7 @@ from garage2usd.layout.parking.tight import tight_stalls
 from garage2usd.layout.parking.zones import Zones, with_numbers
 from garage2usd.layout.placement import PlacedStall, Placement
 from garage2usd.layout.shell.boards import with_boards
-from garage2usd.layout.shell.building import columns, corner_columns, ground_inside, outer_walls
+from garage2usd.layout.shell.building import columns, corner_columns, outer_walls
 from garage2usd.layout.shell.fire_shutters import fire_shutters
 from garage2usd.layout.shell.mounts import mounted_objects
 from garage2usd.layout.shell.ramps import ramp_lights, with_barriers, with_ramps
@@ -360,7 +360,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     def parts() -> Iterator[Iterable[Placement]]:
         # what lies on the lanes decides what is painted there
         crossings = _crossings(grid, cores)
-        bumps = speed_bumps(grid, graph, fittings, config.standard, seed=seed, crossings=crossings)
+        bumps = speed_bumps(grid, fittings, config.standard, seed=seed, crossings=crossings)
         drawn = drawn_markings_of(grid, look.markings, draws)
         yield (floors := floor_panels(grid, look.markings, drawn, bumps=bumps, crossings=crossings, cores=core_on))
         yield (drained := list(drains(grid, floors, look.floor.drains)))
@@ -385,12 +385,12 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield ducts(grid, ceiling, levels, look.ceiling)
         yield cable_trays(grid, ceiling, levels)
         yield sprinklers(grid, ceiling, levels)
-        yield exit_signs(grid, graph, fittings, levels, well)
-        yield lane_signs(grid, graph, fittings, levels)
+        yield exit_signs(grid, fittings, levels, well)
+        yield lane_signs(grid, fittings, levels)
         yield level_signs(grid, graph, fittings, levels, well) if well else ()
         yield mirrors(grid, pillars, fittings, levels)
 
-        inner = with_ramps(shell, ground_inside(structure), fittings, look.walls)
+        inner = with_ramps(shell, grid.ground, fittings, look.walls)
         walls, gates = with_barriers(inner, fittings, girders)
         yield from (walls, gates)
         tubes = ramp_lights(walls, fittings)
@@ -403,7 +403,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield (blocks := core_placements(structure, built, ceiling, look.walls, wells))
         hung = mounted_objects(grid, pillars, walls, blocks, stalls, cores, [*closing, *signs], config)
         yield with_boards(pillars, hung)
-        yield zone_plates(pillars, walls, blocks, stalls, zones) if zones else ()
+        yield zone_plates(pillars, walls, blocks, stalls) if zones else ()
         yield level_plates(cores, well) if well else ()
         yield hung
         if kept_clear is not None:

@@ -88,9 +88,7 @@ def _before(ramp: Departure, grid: TileGrid, graph: LaneSquares) -> list[tuple[S
     found = []
     for junction, following in outs.items():
         (out,) = (edge for edge in Edge if edge.beyond(junction) == following)
-        found += [
-            (junction, edge, _HEADINGS[turn_at(edge, out)]) for edge in edges_in(grid.tiles[junction], graph, out)
-        ]
+        found += [(junction, edge, _HEADINGS[turn_at(edge, out)]) for edge in edges_in(grid.tiles[junction], grid, out)]
     return found
 
 
