@@ -192,7 +192,7 @@ class Tiles:
         places = self.stall_places.get(square, ())
         return bool(places) and all(place.row.shape.kind is StallKind.PERPENDICULAR for place in places)
 
-    def openings(self, tile: Tile) -> tuple[Polygon, ...]:
+    def openings(self, tile: Tile) -> tuple[Polygon, ...]:  # noqa: ARG002 - squares ask it
         """Outlines in a free piece's own coordinates where its floor is that of stalls; none without squares."""
         return ()
 
