@@ -19,7 +19,8 @@ from garage2usd.common.progress import Progress, silent
 from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
 from garage2usd.driving import DesignCar, StallProof, prove_stalls, with_clutter, with_truth_of_misparked
-from garage2usd.layout.surveyed import SurveyedLayout, lay_out_survey
+from garage2usd.layout import Layout
+from garage2usd.layout.surveyed import SurveyedFloor, lay_out_survey
 from garage2usd.reading.report import UnmetClause
 from garage2usd.stage import StageFormat, arrangement_of, shared_folder, write_labels, write_stage
 from garage2usd.survey.alignment import Alignment, aligned
@@ -43,7 +44,9 @@ class ImportedGarage:
     config
         Sizes, fittings, parking, look and seed.
     layout
-        The garage, with the parts that it lacks and why under `SurveyedLayout.unplaced`.
+        The garage.
+    source
+        The survey with its stalls, and the parts that the garage lacks with the reasons.
     alignment
         How the source was turned and shifted.
     proofs
@@ -58,7 +61,8 @@ class ImportedGarage:
     """
 
     config: GarageConfig
-    layout: SurveyedLayout
+    layout: Layout
+    source: SurveyedFloor
     alignment: Alignment
     proofs: tuple[StallProof, ...]
     stage: Path
@@ -115,8 +119,8 @@ def import_layout(
     truthful = with_truth_of_misparked(layout, config, progress=progress)
     if config.clutter.is_any:
         truthful = with_clutter(truthful, config, cars=(DesignCar(), design_car(config.standard)), progress=progress)
-    assert isinstance(truthful, SurveyedLayout)
-    layout = truthful
+    layout, surveyed = truthful, truthful.source
+    assert isinstance(surveyed, SurveyedFloor)
     proofs = prove_stalls(layout, progress=progress) if proves else ()
     findings, unmet = judged_layout(layout, config, with_ways=proves)
     metadata = _metadata(source, config)
@@ -136,7 +140,7 @@ def import_layout(
         labels, plan, report = (staging / f"{path.stem}_{name}" for name in ("labels.json", "plan.png", "report.json"))
         write_labels(layout, labels, arrangement=arrangement)
         write_png(to_image(draw_plan(layout)), plan)
-        facts = _report(metadata, config, layout, alignment, proofs, seconds=time.perf_counter() - start)
+        facts = _report(metadata, config, layout, surveyed, alignment, proofs, seconds=time.perf_counter() - start)
         report.write_text(json_text(facts), encoding="utf-8", newline="\n")
         progress("files", 0, 1)
         # the stage comes last: where it stands, all of it does
@@ -144,7 +148,17 @@ def import_layout(
         publish_at(place_of | {made.stage: path})
     beside = {file: path.with_name(file.name) for file in (report, labels, plan)}
     return ImportedGarage(
-        config, layout, alignment, proofs, path, beside[report], beside[labels], beside[plan], tuple(findings), unmet
+        config,
+        layout,
+        surveyed,
+        alignment,
+        proofs,
+        path,
+        beside[report],
+        beside[labels],
+        beside[plan],
+        tuple(findings),
+        unmet,
     )
 
 
@@ -165,7 +179,8 @@ def _metadata(source: str | Path | Survey, config: GarageConfig) -> dict[str, st
 def _report(
     metadata: Mapping[str, str | int],
     config: GarageConfig,
-    layout: SurveyedLayout,
+    layout: Layout,
+    surveyed: SurveyedFloor,
     alignment: Alignment,
     proofs: tuple[StallProof, ...],
     *,
@@ -173,7 +188,7 @@ def _report(
 ) -> Mapping[str, Any]:
     """The facts of an import; reproducible, except for ``seconds``."""
     proven = {proof.stall: proof for proof in proofs}
-    origin = layout.survey.origin_deg
+    origin = surveyed.survey.origin_deg
     return {
         **metadata,
         "config": config.model_dump(mode="json"),
@@ -183,9 +198,9 @@ def _report(
         "parking_stalls": layout.parking_stalls,
         "stall_kinds": dict(sorted(Counter(stall.kind.value for stall in layout.quads).items())),
         "stall_uses": dict(sorted(Counter(stall.use.value for stall in layout.quads).items())),
-        "unplaced": [{"id": part.name, "reason": part.reason} for part in layout.unplaced],
+        "unplaced": [{"id": part.name, "reason": part.reason} for part in surveyed.unplaced],
         "remarks": config.remarks(),
-        "changed": [{"id": stall.source.name, "change": stall.note} for stall in layout.fitted if stall.note],
+        "changed": [{"id": stall.source.name, "change": stall.note} for stall in surveyed.fitted if stall.note],
         "stalls": [
             {
                 "id": source_stall.source.name,
@@ -200,9 +215,9 @@ def _report(
                 **({} if stall.blocked_by is None else {"blocked_by": stall.blocked_by}),
                 **({"proof": proven[stall.name].outcome.value} if stall.name in proven else {}),
             }
-            for stall, source_stall in zip(layout.quads, layout.fitted, strict=True)
+            for stall, source_stall in zip(layout.quads, surveyed.fitted, strict=True)
         ],
-        "lane_m": round(sum(layout.network.length_m(edge.start, edge.end) for edge in layout.network.edges), 2),
+        "lane_m": round(sum(layout.lane_graph.length_m(edge.start, edge.end) for edge in layout.lane_graph.edges), 2),
         "object_counts": layout.counts(),
         "seconds": round(seconds, 4),
     }

@@ -69,12 +69,12 @@ def import_layout(
     echo_notices(settings.remarks())
     with Bars(sys.stderr) as progress:
         made = make(source, output, config=settings, proves=not no_proofs, progress=progress)
-    unplaced = made.layout.unplaced
+    unplaced = made.source.unplaced
     for name, reason in unplaced[:_MOST_NAMED]:
         click.echo(f"not placed: {printable(name)}: {printable(reason)}", err=True)
     if len(unplaced) > _MOST_NAMED:
         click.echo(f"not placed: {len(unplaced) - _MOST_NAMED} more, see {made.report}", err=True)
-    for stall in made.layout.fitted:
+    for stall in made.source.fitted:
         if stall.note:
             click.echo(f"changed: {printable(stall.source.name)}: {printable(stall.note)}", err=True)
     _describe(made)
@@ -88,7 +88,7 @@ def _describe(made: "ImportedGarage") -> None:
     of_kinds = ", ".join(f"{count} {kind}" for kind, count in kinds.most_common())
     rows = [
         ("stalls", f"{layout.parking_stalls} ({of_kinds}); {layout.uses_in_words()}"),
-        ("not placed", str(len(layout.unplaced))),
+        ("not placed", str(len(made.source.unplaced))),
     ]
     if made.proofs:
         outcomes = Counter(proof.outcome.value for proof in made.proofs)

@@ -47,10 +47,10 @@ def made(tmp_path_factory):
 
 
 def test_all_stalls_are_where_they_were_drawn(made):
-    assert made.layout.unplaced == ()
+    assert made.source.unplaced == ()
     drawn = {stall.name: shapely.Polygon(stall.corners) for stall in l_shaped().stalls}
-    assert len(made.layout.fitted) == len(drawn) == len(made.layout.quads)
-    for source, stall in zip(made.layout.fitted, made.layout.quads, strict=True):
+    assert len(made.source.fitted) == len(drawn) == len(made.layout.quads)
+    for source, stall in zip(made.source.fitted, made.layout.quads, strict=True):
         assert stall.polygon.hausdorff_distance(drawn[source.source.name]) < 1e-3
     assert Counter(stall.kind.value for stall in made.layout.quads) == {"perpendicular": 12, "parallel": 4}
 
@@ -63,7 +63,7 @@ def test_the_stage_is_found_to_be_what_the_import_said(made):
 
 
 def test_walls_and_doors_close_the_outline(made):
-    outline = shapely.Polygon(made.layout.survey.outline)
+    outline = shapely.Polygon(made.source.survey.outline)
     walls = [place for kind in ("wall", "portal") for place in made.layout.of_kind(kind)]
     solid = shapely.union_all([shapely.Polygon(ground) for wall in walls for ground in wall.outlines()])
     opened = outline.exterior.difference(solid.buffer(0.01))
@@ -80,7 +80,7 @@ def test_walls_and_doors_close_the_outline(made):
 
 
 def test_the_floor_is_one_sheet_inside_the_outline(made):
-    outline = shapely.Polygon(made.layout.survey.outline)
+    outline = shapely.Polygon(made.source.survey.outline)
     panels = []
     for place in [*made.layout.of_kind("floor"), *made.layout.of_kind("stall")]:
         ground = place.spec.ground.difference(
@@ -117,7 +117,7 @@ def test_the_stage_has_no_s_r_and_c_and_all_of_the_rest(made):
         tuple(pytest.approx(corner, abs=1e-4) for corner in stall.corners) for stall in made.layout.quads
     ]
     report = json.loads(made.report.read_text())
-    assert [stall["id"] for stall in report["stalls"]] == [stall.source.name for stall in made.layout.fitted]
+    assert [stall["id"] for stall in report["stalls"]] == [stall.source.name for stall in made.source.fitted]
     assert {stall["proof"] for stall in report["stalls"]} == {"reached"}
 
 

@@ -55,7 +55,7 @@ EACH = [name if name in QUICK else pytest.param(name, marks=pytest.mark.soak) fo
 @pytest.mark.parametrize("name", EACH)
 def test_it_has_every_kind_of_object(name):
     _, planned, surveyed = both(name)
-    assert not surveyed.unplaced
+    assert not surveyed.source.unplaced
     assert planned.counts().keys() == surveyed.counts().keys()
     off = {
         kind: (count, surveyed.counts()[kind])
