@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from garage2usd.checks import Finding, judged_layout
+from garage2usd.checks.swept_path import design_car
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.json_text import json_text
 from garage2usd.common.output import check_file, check_name, check_writable, publish_at, staging_folder
@@ -17,7 +18,7 @@ from garage2usd.common.processes import without_collector
 from garage2usd.common.progress import Progress, silent
 from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
-from garage2usd.driving import StallProof, prove_stalls, with_truth_of_misparked
+from garage2usd.driving import DesignCar, StallProof, prove_stalls, with_clutter, with_truth_of_misparked
 from garage2usd.layout.surveyed import SurveyedLayout, lay_out_survey
 from garage2usd.reading.report import UnmetClause
 from garage2usd.stage import StageFormat, arrangement_of, shared_folder, write_labels, write_stage
@@ -105,8 +106,6 @@ def import_layout(
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
     check_name(path, of_layer=True)
     check_file(path, with_it=(path.with_name(f"{path.stem}_{name}") for name in _NAMES_BESIDE))
-    if config.clutter.is_any:
-        raise ConfigError("clutter", "people and things", "none in an imported layout")
     if shared := shared_folder(path, config.stage):
         check_writable(shared)
     start = time.perf_counter()
@@ -114,6 +113,8 @@ def import_layout(
     survey, alignment = aligned(with_medial_lanes(survey))
     layout = lay_out_survey(survey, config)
     truthful = with_truth_of_misparked(layout, config, progress=progress)
+    if config.clutter.is_any:
+        truthful = with_clutter(truthful, config, cars=(DesignCar(), design_car(config.standard)), progress=progress)
     assert isinstance(truthful, SurveyedLayout)
     layout = truthful
     proofs = prove_stalls(layout, progress=progress) if proves else ()

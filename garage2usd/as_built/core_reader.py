@@ -1,5 +1,6 @@
 """Doors of stair cores, detected in meshes, and the lanes outside them."""
 
+import math
 from collections import defaultdict
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -91,7 +92,19 @@ def _lanes_beyond(part: Solid, step: Point, garage: BuiltGarage) -> Iterator[int
 
 
 def _lanes_at(place: Point, garage: BuiltGarage) -> Iterator[int]:
-    for number, node in enumerate(garage.lanes.nodes):
+    """Yield the lane nodes on whose ground a place lies, else the nearest one of a carriageway between nodes."""
+    lanes = garage.lanes
+    found = False
+    for number, node in enumerate(lanes.nodes):
         off_x, off_z = (abs(at - middle) for at, middle in zip(place, node.position, strict=True))
         if not node.is_portal and off_x <= node.widths_m[0] / 2 and off_z <= node.widths_m[1] / 2:
+            found = True
             yield number
+    if found:
+        return
+    for edge in lanes.edges:
+        ends = [number for number in (edge.start, edge.end) if not lanes.nodes[number].is_portal]
+        line = shapely.LineString([lanes.nodes[edge.start].position, lanes.nodes[edge.end].position])
+        if ends and line.distance(shapely.Point(place)) <= edge.width_m / 2:
+            yield min(ends, key=lambda number: math.dist(lanes.nodes[number].position, place))
+            return

@@ -13,50 +13,25 @@ from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, LookConfig
-from garage2usd.config.look import AISLE, FloorFinish
 from garage2usd.config.plan import DeadEnds, UnreachableStalls
 from garage2usd.garage import LaneGraph, Stall, StallUse
 from garage2usd.layout.ceiling.beams import beams, ceiling_levels
-from garage2usd.layout.ceiling.lamps import installed_lamps, ramp_lamps
-from garage2usd.layout.ceiling.level_signs import level_plates, level_signs
-from garage2usd.layout.ceiling.lighting import LightLevels, lane_points_of, light_up
-from garage2usd.layout.ceiling.services import cable_trays, ducts, sprinklers
-from garage2usd.layout.ceiling.signs_and_mirrors import exit_signs, lane_signs, mirrors
+from garage2usd.layout.ceiling.lighting import LightLevels
 from garage2usd.layout.clearance import check_carriageways
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress.cores import Core, core_placements
 from garage2usd.layout.egress.exits import Egress, plan_egress
 from garage2usd.layout.egress.shafts import LevelPlan
-from garage2usd.layout.fittings import cones, speed_bumps, tube_lights
-from garage2usd.layout.floor.drains import drains
-from garage2usd.layout.floor.panels import drawn_markings_of, floor_panels
-from garage2usd.layout.floor.puddles import puddles
-from garage2usd.layout.floor.repairs import floor_repairs
-from garage2usd.layout.floor.stains import floor_stains
-from garage2usd.layout.floor.stall_numbers import stall_numbers
 from garage2usd.layout.floor_area import FloorArea
+from garage2usd.layout.furnishing import Floor, furnished
 from garage2usd.layout.garage_stalls import garage_stalls
-from garage2usd.layout.parking.clutter import clutter
-from garage2usd.layout.parking.designation import chargers, with_designated_stalls
-from garage2usd.layout.parking.no_parking import no_parking_signs
-from garage2usd.layout.parking.number_plates import number_plates
-from garage2usd.layout.parking.open_boots import opened
-from garage2usd.layout.parking.own_cars import with_own_cars
-from garage2usd.layout.parking.parked_cars import park_cars
-from garage2usd.layout.parking.parked_motorbikes import park_motorbikes
+from garage2usd.layout.parking.designation import with_designated_stalls
 from garage2usd.layout.parking.stall_table import STALL_USES, StallTable
-from garage2usd.layout.parking.stalls import stall_panels, stalls_of, wheel_stops, with_turning_stalls
-from garage2usd.layout.parking.tight import tight_stalls
+from garage2usd.layout.parking.stalls import stalls_of, with_turning_stalls
 from garage2usd.layout.parking.zones import Zones, with_numbers
 from garage2usd.layout.placement import PlacedStall, Placement
-from garage2usd.layout.shell.boards import with_boards
-from garage2usd.layout.shell.building import columns, corner_columns, ground_inside, outer_walls
-from garage2usd.layout.shell.fire_shutters import fire_shutters
-from garage2usd.layout.shell.mounts import mounted_objects
-from garage2usd.layout.shell.ramps import ramp_lights, with_barriers, with_ramps
+from garage2usd.layout.shell.building import columns, corner_columns, outer_walls
 from garage2usd.layout.shell.well import Well
-from garage2usd.layout.shell.zone_plates import zone_plates
-from garage2usd.layout.signs import country_of, with_signs_of
 from garage2usd.layout.table import ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel
 from garage2usd.look import drawn_look
@@ -272,7 +247,7 @@ class Layout:
         return tuple(self.placements.at(self.placements.rows_of(kind)))
 
 
-def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
+def lay_out(
     structure: Structure,
     graph: LaneSquares,
     config: GarageConfig,
@@ -320,8 +295,8 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         If a lane or a door is too narrow for cars, a stall that is named is not there or takes no car, or all are
         left out.
     """
-    bay, fittings, seed, look = config.bay, config.fittings, config.seed, drawn_look(config.look, config.seed)
-    levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
+    bay, fittings, look = config.bay, config.fittings, drawn_look(config.look, config.seed)
+    ceiling, beam_depth_m = fittings.ceiling_height_m, ceiling_levels(fittings).beam_depth_m
     wells, no_ways_out = (well.squares, well.no_ways_out) if well else ((), ())
     compartments, cores, shafts = egress or plan_egress([LevelPlan(structure, graph, config)], wells)[0]
     built = [*cores, *shafts]
@@ -329,100 +304,41 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     if not grid.stall_places:
         raise ConfigError("plan.unreachable_stalls", "drop", "a plan that leaves a stall that cars get into")
     check_carriageways(grid)
-    shell = outer_walls(grid, fittings, look.walls)
-    pillars = columns(grid, bay, fittings, look.columns, levels.beam_depth_m)
-    draws = _draws(grid, config)
-
+    pillars = columns(grid, bay, fittings, look.columns, beam_depth_m)
     zones = Zones(structure) if fittings.zones else None
     stalls = with_numbers(_used_stalls(grid, graph, cores, config, unreachable, no_ways_out), zones)
-    core_on = {core.square: core for core in built if core.recess_m or not core.has_door}
-    installed = installed_lamps(tube_lights(grid, fittings, levels, core_on), look.lights, draws, seed=seed)
-    lamps, illuminance = light_up(
-        installed,
-        lane_points_of((tile.x_m, tile.z_m, tile.width_m, tile.depth_m) for tile in grid if tile.cell is Cell.LANE),
-        sum(tile.width_m * tile.depth_m for tile in grid),
-        stalls,
-        fittings,
+    storey_m = well.building.storey_m if well and not well.is_top else None
+    floor = Floor(
+        tiles=grid,
+        lanes=graph.lanes,
+        stalls=stalls,
+        quads=tuple(garage_stalls(stalls, graph)),
+        shell=outer_walls(grid, fittings, look.walls),
+        pillars=pillars,
+        blocks=core_placements(structure, built, ceiling, look.walls, wells),
+        ceilings=[ceiling_panel(tile, fittings, storey_m) for tile in grid],
+        beams=beams(structure, bay, ceiling, beam_depth_m, pillars),
+        cores=cores,
+        shafts=shafts,
+        area_m2=sum(tile.width_m * tile.depth_m for tile in grid),
+        draws=_draws(grid, config),
+        laid=lambda panels: panels,
+        well=well,
     )
-    country = country_of(look.signs, config.standard)
-    parked = with_own_cars(
-        park_cars(
-            stalls, config, draws, tight=tight_stalls(graph.lanes, garage_stalls(stalls, graph)), held_back=held_back
-        ),
-        stalls,
-        config.vehicles,
-        draws,
-    )
-
-    cars = [opened(car) if car.stall in open_boots else car for car in parked.cars]
-    motorbikes = park_motorbikes(stalls, config.parking, draws)
-
-    def parts() -> Iterator[Iterable[Placement]]:
-        # what lies on the lanes decides what is painted there
-        crossings = _crossings(grid, cores)
-        bumps = speed_bumps(grid, graph, fittings, config.standard, seed=seed, crossings=crossings)
-        drawn = drawn_markings_of(grid, look.markings, draws)
-        yield (floors := floor_panels(grid, look.markings, drawn, bumps=bumps, crossings=crossings, cores=core_on))
-        yield (drained := list(drains(grid, floors, look.floor.drains)))
-        yield floor_stains(grid, floors, stalls, fittings, draws, look.floor.dirt, drained)
-        if look.floor.finish is FloorFinish.PATCHED:
-            yield floor_repairs(floors, draws, drained)
-        yield puddles(grid, look.floor.wet, drained, bumps, draws)
-        # a coat on the stalls covers what was painted before it
-        yield stall_panels(stalls, look.markings, grid, drawn.ghosts if look.floor.bays == AISLE else {})
-        yield wheel_stops(stalls, fittings, config.standard)
-        yield [*cars, *motorbikes, *number_plates(stalls, cars, draws, country)]
-        yield (closing := cones(grid, stalls, parked.touched, fittings, draws, built_on=core_on))
-        yield stall_numbers(stalls, grid, look, fittings)
-        yield (charging := chargers(stalls))
-        yield bumps
-        yield (signs := no_parking_signs(grid, shell, built, fittings, seed=seed))
-
-        storey_m = well.building.storey_m if well and not well.is_top else None
-        yield (ceiling_panel(tile, fittings, storey_m) for tile in grid)
-        yield lamps
-        yield (girders := beams(structure, bay, ceiling, levels.beam_depth_m, pillars))
-        yield ducts(grid, ceiling, levels, look.ceiling)
-        yield cable_trays(grid, ceiling, levels)
-        yield sprinklers(grid, ceiling, levels)
-        yield exit_signs(grid, graph, fittings, levels, well)
-        yield lane_signs(grid, graph, fittings, levels)
-        yield level_signs(grid, graph, fittings, levels, well) if well else ()
-        yield mirrors(grid, pillars, fittings, levels)
-
-        inner = with_ramps(shell, ground_inside(structure), fittings, look.walls)
-        walls, gates = with_barriers(inner, fittings, girders)
-        yield from (walls, gates)
-        tubes = ramp_lights(walls, fittings)
-        if well:
-            yield (guards := well.walls(structure, fittings, look.walls))
-            yield [*well.ramps(structure, fittings), *well.ceilings(structure, fittings)]
-            yield fire_shutters(well, structure, fittings)
-            walls, tubes = [*walls, *well.beside_floors(guards)], [*tubes, *well.tubes(structure, fittings)]
-        yield ramp_lamps(tubes, look.lights, illuminance.luminance_nit, seed=seed)
-        yield (blocks := core_placements(structure, built, ceiling, look.walls, wells))
-        hung = mounted_objects(grid, pillars, walls, blocks, stalls, cores, [*closing, *signs], config)
-        yield with_boards(pillars, hung)
-        yield zone_plates(pillars, walls, blocks, stalls, zones) if zones else ()
-        yield level_plates(cores, well) if well else ()
-        yield hung
-        if kept_clear is not None:
-            standing = [*pillars, *walls, *blocks, *cars, *motorbikes, *closing, *charging, *signs, *gates]
-            yield clutter(grid, stalls, cores, standing, hung, config, kept_clear=kept_clear)
-
+    found = furnished(floor, config, look, held_back=held_back, kept_clear=kept_clear, open_boots=open_boots)
     return Layout(
         structure,
         graph,
-        ObjectTable(with_signs_of(country, parts())),
+        ObjectTable(found.objects),
         StallTable(stalls),
-        fittings.ceiling_height_m,
-        illuminance,
+        ceiling,
+        found.illuminance,
         cores,
         compartments,
         look,
         frozenset(unreachable),
-        parked.reaching,
-        parked.misparked,
+        found.reaching,
+        found.misparked,
         frozenset(held_back),
         well=well,
         shafts=shafts,
@@ -466,15 +382,6 @@ def _used_stalls(
         config.standard,
         ways_in_and_out=portals.union(*(graph.graph[portal] for portal in portals)),
     )
-
-
-def _crossings(grid: TileGrid, cores: Iterable[Core]) -> dict[Square, float]:
-    """Where the crossings to the doors of cores lie on their lanes, in metres along these from the middle."""
-    crossings: dict[Square, float] = {}
-    for core in cores:
-        is_beside = grid.tiles[core.lane].axis_is_x is core.along_x
-        crossings.setdefault(core.lane, core.along_m if is_beside else 0.0)
-    return crossings
 
 
 def _foot_exits(grid: TileGrid, cores: Iterable[Core], no_ways_out: Collection[Square]) -> list[Point]:

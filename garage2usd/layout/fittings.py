@@ -13,13 +13,14 @@ from garage2usd.layout.ceiling.lamps import TUBE
 from garage2usd.layout.ceiling.services import LINES_REACH_M
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress.cores import Core
-from garage2usd.layout.placement import PlacedStall, Placement, StallUse, placed
-from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.layout.placement import PlacedStall, Placement, StallUse, sum_of_yaws
+from garage2usd.layout.tiles import Tile, Tiles
 from garage2usd.objects.cone import ConeSpec
 from garage2usd.objects.speed_bump import SPEED_BUMP_HEIGHT_M, SpeedBumpSpec
 from garage2usd.profiles import Profile
 from garage2usd.structure.grid import Cell
-from garage2usd.structure.lane_graph import LaneSquares, Square
+from garage2usd.structure.lane_graph import Square
+from garage2usd.structure.stalls import Edge
 
 __all__ = ["TUBE_DEPTH_M", "cones", "speed_bumps", "tube_lights"]
 
@@ -35,7 +36,7 @@ _LOWEST_BUMP_M = 0.02
 
 
 def tube_lights(
-    grid: TileGrid, fittings: FittingsConfig, levels: CeilingLevels, cores: Mapping[Square, Core] | None = None
+    grid: Tiles, fittings: FittingsConfig, levels: CeilingLevels, cores: Mapping[Square, Core] | None = None
 ) -> list[Placement]:
     """Place tube lights under the ceiling: in line along lanes, one over each square with stalls or a portal.
 
@@ -45,7 +46,7 @@ def tube_lights(
     lights: list[Placement] = []
     for tile in grid:
         core = cores.get(tile.square) if cores else None
-        if core is not None and tile.square not in grid.stall_places:
+        if core is not None and grid.row_along_x(tile) is None:
             continue
         beside_m = core.beside_m(tile.half_x_m if core.along_x else tile.half_z_m) if core else 0.0
         along_x = _tube_along_x(tile, grid)
@@ -61,24 +62,20 @@ def tube_lights(
             pitch = min(pitch, 2 * _JUNCTION_TUBE_OFFSET_M)
         for index in range(count):
             offset = along_m + (index - (count - 1) / 2) * max(pitch, least_pitch)
-            x = tile.x_m + (offset if along_x else across_m)
-            z = tile.z_m + (across_m if along_x else offset)
+            point = (offset, across_m) if along_x else (across_m, offset)
             yaw, height = 0.0 if along_x else _QUARTER_TURN, fittings.ceiling_height_m
-            name = f"Tube_{index + 1}"
-            lights.append(placed(name, TUBE, (x, z), height_m=height, yaw_rad=yaw, square=tile.square))
+            lights.append(tile.placed(f"Tube_{index + 1}", TUBE, point, height_m=height, yaw_rad=yaw))
     return lights
 
 
-def _tube_along_x(tile: Tile, grid: TileGrid) -> bool:
+def _tube_along_x(tile: Tile, grid: Tiles) -> bool:
     if tile.cell is Cell.FREE:
-        places = grid.stall_places.get(tile.square)
-        return not places or places[0].row.edge.along_x
+        return grid.row_along_x(tile) is not False
     return tile.axis_is_x is not False
 
 
 def speed_bumps(
-    grid: TileGrid,
-    graph: LaneSquares,
+    grid: Tiles,
     fittings: FittingsConfig,
     profile: Profile,
     *,
@@ -96,22 +93,21 @@ def speed_bumps(
     rng = generator(seed, Step.SPEED_BUMPS)
     bumps: dict[Square, Placement] = {}
     for tile in grid:
-        straight = tile.cell is Cell.LANE and graph.kind(tile.square) is LaneKind.STRAIGHT
+        straight = tile.cell is Cell.LANE and tile.kind is LaneKind.STRAIGHT
         if not straight or tile.axis_is_x is None or sum(tile.drivable) != 2:  # noqa: PLR2004
             continue
-        row, col = tile.square
         wanted = rng.random() < fittings.speed_bump_rate
-        if not wanted or tile.square in crossings or (row - 1, col) in bumps or (row, col - 1) in bumps:
+        beside = (grid.neighbour(tile, edge) for edge in Edge)
+        if not wanted or tile.square in crossings or any(other and other.square in bumps for other in beside):
             continue
-        clear_m = graph.lanes.nodes[graph.number_of[tile.square]].widths_m[int(tile.axis_is_x)]
-        spec = SpeedBumpSpec(round(clear_m - 0.2, 3), height_m)
-        yaw = _QUARTER_TURN if tile.axis_is_x else 0.0
+        spec = SpeedBumpSpec(round(tile.clear_m[int(tile.axis_is_x)] - 0.2, 3), height_m)
+        yaw = sum_of_yaws(_QUARTER_TURN if tile.axis_is_x else 0.0, tile.yaw_rad)
         bumps[tile.square] = Placement("SpeedBump", spec, (tile.x_m, 0.0, tile.z_m), yaw, tile.square)
     return list(bumps.values())
 
 
 def cones(
-    grid: TileGrid,
+    grid: Tiles,
     stalls: tuple[PlacedStall, ...],
     taken: Container[str],
     fittings: FittingsConfig,
@@ -135,7 +131,6 @@ def cones(
         x, z = tile.half_x_m - _CONES_FROM_EDGE_M, tile.half_z_m - _CONES_FROM_EDGE_M
         is_hatched = tile.square not in built_on and grid.is_bare(tile)
         if is_hatched and min(x, z) > _CONES_FROM_EDGE_M and numbers[tile.square][0] < fittings.cone_rate:
-            for number, (right, down) in enumerate(((-x, -z), (x, -z), (-x, z), (x, z)), start=1):
-                place = tile.x_m + right, tile.z_m + down
-                found.append(placed(f"Cone_{number}", ConeSpec(), place, square=tile.square))
+            for number, point in enumerate(((-x, -z), (x, -z), (-x, z), (x, z)), start=1):
+                found.append(tile.placed(f"Cone_{number}", ConeSpec(), point))
     return found

@@ -27,6 +27,7 @@ __all__ = [
     "point_inside",
     "rounded",
     "stall_name",
+    "sum_of_yaws",
     "to_world",
     "turned_yaw_rad",
 ]
@@ -267,14 +268,21 @@ def turned_yaw_rad(edge: Edge, turn: int, angle_deg: float) -> float:
     """Yaw of a car in a stall with an angle to an edge of a square; exact for multiples of 90 degrees."""
     if angle_deg == PERPENDICULAR_DEG:
         return _EDGE_YAWS_RAD[edge]
-    turned = math.remainder(_EDGE_YAWS_RAD[edge] + turn * math.radians(PERPENDICULAR_DEG - angle_deg), math.tau)
-    quarter = next((yaw for yaw in _EXACT_QUARTER if abs(math.remainder(turned - yaw, math.tau)) < _QUARTER_RAD), None)
-    return round(turned, 9) if quarter is None else quarter
+    return sum_of_yaws(_EDGE_YAWS_RAD[edge], turn * math.radians(PERPENDICULAR_DEG - angle_deg))
 
 
 _QUARTER_RAD = 1e-9
 _EDGE_YAWS_RAD = {Edge.UP: math.pi, Edge.DOWN: 0.0, Edge.LEFT: -math.pi / 2, Edge.RIGHT: math.pi / 2}
 _EXACT_QUARTER = {math.pi: (-1.0, 0.0), 0.0: (1.0, 0.0), -math.pi / 2: (0.0, -1.0), math.pi / 2: (0.0, 1.0)}
+
+
+def sum_of_yaws(yaw_rad: float, turn_rad: float) -> float:
+    """Add a turn to a yaw; within half a turn, and exact for multiples of 90 degrees."""
+    if not turn_rad:
+        return yaw_rad
+    turned = math.remainder(yaw_rad + turn_rad, math.tau)
+    quarter = next((yaw for yaw in _EXACT_QUARTER if abs(math.remainder(turned - yaw, math.tau)) < _QUARTER_RAD), None)
+    return round(turned, 9) if quarter is None else quarter
 
 
 def cos_sin(yaw_rad: float) -> tuple[float, float]:

@@ -1,28 +1,46 @@
-"""Tiles: squares in metres with their surroundings, and their ceiling slabs."""
+"""Tiles: pieces of a floor in metres with what lies around them, and the squares of a plan as such pieces."""
 
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import shapely
 
 from garage2usd.config import BayConfig, FittingsConfig
-from garage2usd.garage import StallKind
-from garage2usd.layout.placement import Placement, box_inside, stall_name
+from garage2usd.garage import LaneKind, StallKind
+from garage2usd.layout.placement import (
+    PlacedStall,
+    Placement,
+    box_inside,
+    placed,
+    stall_name,
+    sum_of_yaws,
+    to_world,
+)
 from garage2usd.objects.ceiling import CeilingSpec
+from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Point, Polygon, rectangle
 from garage2usd.structure.doors import door_edges
-from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.grid import Cell, Structure, outside_squares
 from garage2usd.structure.lane_graph import LaneSquares, Square
 from garage2usd.structure.stalls import Edge, StallRow
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+if TYPE_CHECKING:
+    import networkx as nx
 
 __all__ = [
     "StallPlace",
     "Tile",
     "TileGrid",
+    "Tiles",
     "ceiling_panel",
+    "ground_inside",
     "lane_edges",
     "row_point",
     "row_rectangle",
@@ -36,24 +54,30 @@ _LEAST_OPENING_M2 = 1e-6
 
 @dataclass(frozen=True)
 class Tile:
-    """One square inside the contour.
+    """A rectangular piece of the floor: a square inside the contour of a plan, or a cut of a floor without squares.
 
     Attributes
     ----------
     square
-        (row, col).
+        (row, col), or another pair of numbers by which the piece is known.
     cell
-        Content of the square in S.
+        What it is, as in S.
     x_m, z_m
         Its centre.
     width_m, depth_m
-        Extent along X and Z.
+        Extent along its own axes, which are X and Z unless it is turned.
     drivable
         For each `Edge`, whether cars cross it.
     stall_mouths
         For each `Edge`, whether stalls open across it (lanes only).
     way
         Edge over which cars leave a straight one-way lane, else None.
+    kind
+        Kind of the lane or portal on it, else None.
+    clear_m
+        Width between the columns across X and across Z (lanes and portals only).
+    yaw_rad
+        Rotation of its own axes about +Y.
     """
 
     square: Square
@@ -65,6 +89,24 @@ class Tile:
     drivable: tuple[bool, bool, bool, bool]
     stall_mouths: tuple[bool, bool, bool, bool]
     way: Edge | None = None
+    kind: LaneKind | None = None
+    clear_m: tuple[float, float] = (0.0, 0.0)
+    yaw_rad: float = 0.0
+
+    def at(self, point: Point) -> Point:
+        """Transform a point relative to its centre, along its own axes, to (x, z) in the garage."""
+        return to_world(point, (self.x_m, self.z_m), self.yaw_rad)
+
+    def local(self, point: Point) -> Point:
+        """Transform a point (x, z) in the garage to its own coordinates."""
+        return to_world((point[0] - self.x_m, point[1] - self.z_m), (0.0, 0.0), -self.yaw_rad + 0.0)
+
+    def placed(
+        self, name: str, spec: Spec, point: Point = (0.0, 0.0), *, height_m: float = 0.0, yaw_rad: float = 0.0
+    ) -> Placement:
+        """Place an object at a point and a yaw in its own coordinates."""
+        yaw_rad = sum_of_yaws(yaw_rad, self.yaw_rad)
+        return placed(name, spec, self.at(point), height_m=height_m, yaw_rad=yaw_rad, square=self.square)
 
     @property
     def middle_m(self) -> Point:
@@ -114,8 +156,82 @@ class StallPlace(NamedTuple):
     is_last: bool
 
 
-class TileGrid:
-    """Grid of all tiles of a structure, by square."""
+class Tiles:
+    """The pieces of a floor: what the placers of objects along lanes, at stalls and on free ground work on.
+
+    Attributes
+    ----------
+    tiles
+        All pieces by their `Tile.square`, in reading order.
+    bay
+        Sizes of stalls and columns.
+    setback_m
+        Distance between the carriageway and the edges of a lane's piece that cars do not cross.
+    doors
+        Edge of the vehicle door of each portal's piece.
+    stall_places
+        Stalls of each square with stalls, in the order of their numbers; none without squares.
+    """
+
+    tiles: Mapping[Square, Tile]
+    bay: BayConfig
+    setback_m: float
+    doors: Mapping[Square, Edge]
+    stall_places: Mapping[Square, list[StallPlace]]
+
+    def __iter__(self) -> Iterator[Tile]:
+        """Iterate over the pieces in reading order."""
+        return iter(self.tiles.values())
+
+    def neighbour(self, tile: Tile, *edges: Edge) -> Tile | None:
+        """Piece beyond one edge, or beyond a corner between two edges; None outside and on obstacles."""
+        raise NotImplementedError
+
+    def has_upright_stalls(self, square: Square) -> bool:
+        """True if a square has stalls, and all of them are perpendicular."""
+        places = self.stall_places.get(square, ())
+        return bool(places) and all(place.row.shape.kind is StallKind.PERPENDICULAR for place in places)
+
+    def openings(self, tile: Tile) -> tuple[Polygon, ...]:  # noqa: ARG002 - squares ask it
+        """Outlines in a free piece's own coordinates where its floor is that of stalls; none without squares."""
+        return ()
+
+    def is_bare(self, tile: Tile) -> bool:
+        """True if a piece is free, and no stalls cover it."""
+        raise NotImplementedError
+
+    def row_along_x(self, tile: Tile) -> bool | None:
+        """True if the stalls of a free piece stand in a row along its X, False for one along its Z; None without."""
+        raise NotImplementedError
+
+    def stalls_on(self, stalls: Iterable[PlacedStall]) -> Mapping[Square, list[PlacedStall]]:
+        """Group stalls by the free pieces that they stand on."""
+        raise NotImplementedError
+
+    def opening_on(
+        self, tile: Tile, edge: Edge, stalls_on: Mapping[Square, list[PlacedStall]]
+    ) -> Sequence[PlacedStall]:
+        """Return the stalls that open onto a lane's piece over one of its edges."""
+        raise NotImplementedError
+
+    @property
+    def ways(self) -> "nx.DiGraph[Square]":
+        """The steps that cars may drive between the pieces of lanes and portals, with ``length_m``."""
+        raise NotImplementedError
+
+    @property
+    def one_way_stretches(self) -> Sequence[Sequence[Square]]:
+        """The one-way stretches of lane between junctions, each as its pieces in the direction of driving."""
+        raise NotImplementedError
+
+    @property
+    def ground(self) -> shapely.Geometry:
+        """The ground (x, z) inside the walls, including obstacles."""
+        raise NotImplementedError
+
+
+class TileGrid(Tiles):
+    """The squares of a plan as pieces of its floor."""
 
     def __init__(
         self, structure: Structure, graph: LaneSquares, bay: BayConfig, *, left_out: Collection[str] = ()
@@ -124,6 +240,7 @@ class TileGrid:
         self.structure, self.bay = structure, bay
         self.setback_m = bay.carriageway_setback_m
         self.doors = door_edges(structure.cells)
+        self._lanes = graph
         self.stall_places = _stall_places(graph.stall_rows, left_out)
         mouths = {
             (*place.row.edge.beyond(square), place.row.edge.opposite)
@@ -142,13 +259,14 @@ class TileGrid:
                 drivable=_by_edge(row, col, lambda square, edge: graph.graph.has_edge(square, edge.beyond(square))),
                 stall_mouths=_by_edge(row, col, lambda square, edge: (*square, edge) in mouths),
                 way=_way((row, col), graph),
+                kind=graph.kind((row, col)) if (row, col) in graph.graph else None,
+                clear_m=(
+                    float(structure.column_widths_mm[col]) / 1000 - 2 * graph.setback_m,
+                    float(structure.row_depths_mm[row]) / 1000 - 2 * graph.setback_m,
+                ),
             )
             for row, col in np.argwhere(structure.cells != Cell.OBSTACLE).tolist()
         }
-
-    def __iter__(self) -> Iterator[Tile]:
-        """Iterate over the tiles in reading order."""
-        return iter(self.tiles.values())
 
     def neighbour(self, tile: Tile, *edges: Edge) -> Tile | None:
         """Tile beyond one edge, or beyond a corner between two edges; None outside and on obstacles."""
@@ -157,14 +275,44 @@ class TileGrid:
             square = edge.beyond(square)
         return self.tiles.get(square)
 
-    def has_upright_stalls(self, square: Square) -> bool:
-        """True if a square has stalls, and all of them are perpendicular."""
-        places = self.stall_places.get(square, ())
-        return bool(places) and all(place.row.shape.kind is StallKind.PERPENDICULAR for place in places)
-
     def is_bare(self, tile: Tile) -> bool:
         """True if a tile is free, and neither its own stalls nor angled stalls of adjacent tiles cover it."""
         return tile.cell is Cell.FREE and not self.stall_places.get(tile.square) and not self.openings(tile)
+
+    def row_along_x(self, tile: Tile) -> bool | None:
+        """True if the stalls of a square stand in a row along X, False for one along Z; None without."""
+        places = self.stall_places.get(tile.square)
+        return places[0].row.edge.along_x if places else None
+
+    def stalls_on(self, stalls: Iterable[PlacedStall]) -> dict[Square, list[PlacedStall]]:
+        """Group stalls by their squares."""
+        found: dict[Square, list[PlacedStall]] = {}
+        for stall in stalls:
+            found.setdefault(stall.square, []).append(stall)
+        return found
+
+    def opening_on(self, tile: Tile, edge: Edge, stalls_on: Mapping[Square, list[PlacedStall]]) -> list[PlacedStall]:
+        """Return the stalls that open onto a lane square over one of its edges."""
+        beyond = stalls_on.get(edge.beyond(tile.square), [])
+        return [stall for stall in beyond if stall.access_square == tile.square]
+
+    @cached_property
+    def ways(self) -> "nx.DiGraph[Square]":
+        """The steps that cars may drive between the squares of lanes and portals, with ``length_m``."""
+        ways = self._lanes.graph.to_directed()
+        allows = self._lanes.directions.allows
+        ways.remove_edges_from([step for step in ways.edges if not allows(*step)])
+        return ways
+
+    @property
+    def one_way_stretches(self) -> tuple[tuple[Square, ...], ...]:
+        """The one-way stretches of lane between junctions, each as its squares in the direction of driving."""
+        return self._lanes.directions.stretches(self.structure)
+
+    @cached_property
+    def ground(self) -> shapely.Geometry:
+        """The ground (x, z) inside the contour, including obstacles."""
+        return ground_inside(self.structure)
 
     def openings(self, tile: Tile) -> tuple[Polygon, ...]:
         """Outlines of the stalls on a tile in its coordinates, including parts of angled stalls of adjacent tiles."""
@@ -188,6 +336,13 @@ class TileGrid:
             for part in parts
             if part.area > _LEAST_OPENING_M2
         )
+
+
+def ground_inside(structure: Structure) -> shapely.Geometry:
+    """Return the ground (x, z) inside the contour, including obstacles."""
+    x, z = structure.column_edges_m, structure.row_edges_m
+    squares = np.argwhere(~outside_squares(structure.cells)).tolist()
+    return shapely.union_all([shapely.box(x[col], z[row], x[col + 1], z[row + 1]) for row, col in squares])
 
 
 def _way(square: Square, graph: LaneSquares) -> Edge | None:

@@ -1,16 +1,18 @@
 """Widths of lanes of a survey, from the ground between what stands beside them."""
 
+import math
 from collections import defaultdict
 from dataclasses import replace
 
 import shapely
 
-from garage2usd.garage import LaneGraph
+from garage2usd.garage import LaneGraph, Point
 
 __all__ = ["with_clear_widths"]
 
 _LEAST_CLEAR_M, _MOST_CLEAR_M = 2.0, 12.0
 _APART_M, _AXIS_M = 0.02, 0.08
+_COLUMN_M = 1.0
 _DIGITS = 4
 
 
@@ -26,7 +28,7 @@ def with_clear_widths(network: LaneGraph, standing: shapely.Geometry) -> LaneGra
 
     Notes
     -----
-    The width is twice the distance of a stretch from what stands nearest to it. The given width stays where that is
+    The width is twice the distance of a stretch from what stands nearest beside it. The given width stays where that is
     over twelve metres, on open ground, and where it is less than two, as centre lines of maps may cross stalls.
     """
     portals = {number for number, node in enumerate(network.nodes) if node.is_portal}
@@ -35,7 +37,9 @@ def with_clear_widths(network: LaneGraph, standing: shapely.Geometry) -> LaneGra
     for edge in network.edges:
         if not portals & {edge.start, edge.end}:
             ends = [network.nodes[number].position for number in (edge.start, edge.end)]
-            clear_m = round(2 * standing.distance(shapely.LineString(ends)), _DIGITS)
+            line = _longer(*ends)
+            beside = standing.intersection(line.buffer(_MOST_CLEAR_M, cap_style="flat"))
+            clear_m = math.inf if beside.is_empty else round(2 * beside.distance(line), _DIGITS)
             if _LEAST_CLEAR_M <= clear_m <= _MOST_CLEAR_M:
                 edge = edge._replace(width_m=clear_m)  # noqa: PLW2901 - the same edge with its width
             for number in (edge.start, edge.end):
@@ -54,6 +58,13 @@ def with_clear_widths(network: LaneGraph, standing: shapely.Geometry) -> LaneGra
         widths_m = _along_its_lane(network, number, side_m) if number not in portals else (side_m, side_m)
         nodes.append(replace(node, widths_m=widths_m, sides_m=widths_m))
     return LaneGraph(tuple(nodes), tuple(edges))
+
+
+def _longer(start: Point, end: Point) -> shapely.LineString:
+    """Return a stretch that is longer at both ends, as columns beside its ends count."""
+    share = _COLUMN_M / (math.dist(start, end) or 1.0)
+    off_x, off_z = share * (end[0] - start[0]), share * (end[1] - start[1])
+    return shapely.LineString([(start[0] - off_x, start[1] - off_z), (end[0] + off_x, end[1] + off_z)])
 
 
 def _along_its_lane(network: LaneGraph, number: int, side_m: float) -> tuple[float, float]:

@@ -56,13 +56,13 @@ def with_medial_lanes(survey: Survey) -> Survey:
 
 
 def _ground(survey: Survey) -> shapely.Geometry:
-    """Return the ground between stalls and columns."""
+    """Return the ground between stalls, columns and blocks."""
     stalls = shapely.union_all([ground.buffer(_STALL_MARGIN_M) for ground in survey.stall_polygons()])
     if survey.outline is not None:
         inside = shapely.Polygon(survey.outline)
     else:
         inside = stalls.buffer(_CLOSED_M, join_style="mitre").buffer(-_CLOSED_M, join_style="mitre")
-    return shapely.difference(inside, shapely.union_all([stalls, *survey.column_polygons()]))
+    return shapely.difference(inside, shapely.union_all([stalls, *survey.column_polygons(), *survey.solid_polygons()]))
 
 
 def _axis(ground: shapely.Geometry) -> "nx.Graph[Point]":

@@ -35,6 +35,7 @@ _MOST_CROSSED = 0.01
 _DIGITS = 6
 _COLUMN_DIGITS = 2
 _MOST_OF_NUMBER = 40
+_LEAST_SOLID_M2 = 0.01
 _LEAST_HALF_M = 1.25
 """Half the width of the narrowest lane; stalls that are nearer to its centre line lie on it."""
 
@@ -44,7 +45,7 @@ class SurveyParts:
 
     Attributes
     ----------
-    stalls, lanes, columns, portals, unread
+    stalls, lanes, columns, portals, solids, unread
         As in `Survey`.
     """
 
@@ -53,6 +54,7 @@ class SurveyParts:
         self.lanes: list[SurveyedLane] = []
         self.columns: list[SurveyedColumn] = []
         self.portals: list[SurveyedPortal] = []
+        self.solids: list[tuple[Point, ...]] = []
         self.unread: list[Unplaced] = []
         self._outlines: list[tuple[str, tuple[Point, ...]]] = []
         self._named: Counter[str] = Counter()
@@ -134,6 +136,14 @@ class SurveyParts:
         else:
             self.columns.append(SurveyedColumn(_point(polygon.centroid.coords[0]), float(polygon.area) ** 0.5))
 
+    def add_solid(self, name: str, corners: Sequence[Point]) -> None:
+        """Add a block on the floor; one without area, or that crosses itself, is unread."""
+        polygon = shapely.Polygon(corners) if len(corners) > 2 else shapely.Polygon()  # noqa: PLR2004 - a triangle
+        if polygon.is_empty or not polygon.is_valid or polygon.area < _LEAST_SOLID_M2:
+            self.unread.append(Unplaced(name, "a block without area, or one that crosses itself"))
+        else:
+            self.solids.append(tuple(map(_point, corners)))
+
     def add_square_column(self, centre: Point, size_m: float) -> None:
         """Add a column by its middle (x, z) and its side."""
         self.columns.append(SurveyedColumn(_point(centre), size_m))
@@ -203,6 +213,7 @@ class SurveyParts:
             outline,
             tuple(self.unread),
             origin_deg,
+            tuple(self.solids),
         )
 
 

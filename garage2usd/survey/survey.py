@@ -115,6 +115,8 @@ class Survey:
         Parts of the source that are not in the survey.
     origin_deg
         Latitude and longitude of (0, 0) if the source has geographic coordinates.
+    solids
+        Corners (x, z) of each block on the floor, as of stairs, lifts and rooms.
     """
 
     stalls: tuple[SurveyedStall, ...]
@@ -124,6 +126,7 @@ class Survey:
     outline: tuple[Point, ...] | None = None
     unread: tuple[Unplaced, ...] = field(default=(), repr=False)
     origin_deg: tuple[float, float] | None = None
+    solids: tuple[tuple[Point, ...], ...] = ()
 
     def moved(self, turn_rad: float, shift_m: Point) -> "Survey":
         """Return the survey turned about (0, 0), from x towards z, and then shifted."""
@@ -147,11 +150,16 @@ class Survey:
             columns=tuple(column._replace(centre=place(column.centre)) for column in self.columns),
             portals=tuple(portal._replace(position=place(portal.position)) for portal in self.portals),
             outline=None if self.outline is None else places(self.outline),
+            solids=tuple(map(places, self.solids)),
         )
 
     def stall_polygons(self) -> list[shapely.Polygon]:
         """Return the ground of each stall."""
         return [shapely.Polygon(stall.corners) for stall in self.stalls]
+
+    def solid_polygons(self) -> list[shapely.Polygon]:
+        """Return the ground of each block."""
+        return [shapely.Polygon(corners) for corners in self.solids]
 
     def column_polygons(self) -> list[shapely.Polygon]:
         """Return the ground of each column."""

@@ -23,6 +23,7 @@ __all__ = [
     "DrawnLane",
     "DrawnPortal",
     "DrawnRun",
+    "DrawnSolid",
     "DrawnStall",
     "read_toml_survey",
 ]
@@ -199,6 +200,15 @@ class DrawnPortal(Settings):
     """'entrance', 'exit' or 'both'."""
 
 
+class DrawnSolid(Settings):
+    """A block on the floor that cars and people go around: stairs, a lift, a room for machines."""
+
+    id: str = ""
+    """Name in messages; left out, its place in the file."""
+    corners: tuple[Place, ...] = Field(min_length=3)
+    """(x, z) of its corners in order."""
+
+
 class DrawnGarage(Settings):
     """The drawing of an existing garage in metres, seen from above: x to the right, z downwards."""
 
@@ -214,6 +224,8 @@ class DrawnGarage(Settings):
     """Columns."""
     portals: tuple[DrawnPortal, ...] = ()
     """Entrances and exits."""
+    solids: tuple[DrawnSolid, ...] = ()
+    """Blocks on the floor; those beside a lane that are large enough are stair cores."""
 
 
 def read_toml_survey(path: Path) -> Survey:
@@ -231,6 +243,21 @@ def read_toml_survey(path: Path) -> Survey:
             raise
         raise ConfigError(f"{path.name}: {error.field}", error.value, error.allowed) from None
     parts = SurveyParts()
+    _add_stalls(parts, drawing)
+    for index, lane in enumerate(drawing.lanes):
+        parts.add_lane(lane.id or f"lanes.{index}", lane.points, lane.width_m, one_way=lane.one_way)
+    for column in drawing.columns:
+        parts.add_square_column(column.at, column.size_m)
+    for portal in drawing.portals:
+        parts.add_portal(portal.at, portal.kind)
+    for index, solid in enumerate(drawing.solids):
+        parts.add_solid(solid.id or f"solids.{index}", solid.corners)
+    if drawing.outline is not None:
+        parts.add_outline("outline", drawing.outline)
+    return parts.survey()
+
+
+def _add_stalls(parts: SurveyParts, drawing: DrawnGarage) -> None:
     for index, stall in enumerate(drawing.stalls):
         corners = stall.corners or _rectangle(stall)
         mouth = 0 if stall.corners is None else stall.mouth
@@ -252,15 +279,6 @@ def read_toml_survey(path: Path) -> Survey:
                 size=run.size,
                 number="" if run.number is None else str(run.number + place),
             )
-    for index, lane in enumerate(drawing.lanes):
-        parts.add_lane(lane.id or f"lanes.{index}", lane.points, lane.width_m, one_way=lane.one_way)
-    for column in drawing.columns:
-        parts.add_square_column(column.at, column.size_m)
-    for portal in drawing.portals:
-        parts.add_portal(portal.at, portal.kind)
-    if drawing.outline is not None:
-        parts.add_outline("outline", drawing.outline)
-    return parts.survey()
 
 
 def _rectangle(stall: DrawnStall) -> tuple[Point, Point, Point, Point]:

@@ -3,6 +3,8 @@
 from collections import defaultdict
 from collections.abc import Iterable
 
+import networkx as nx
+
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.ceiling.beams import CeilingLevels
 from garage2usd.layout.ceiling.signs_and_mirrors import JUNCTIONS, SIGN_FROM_EDGE_M, edges_in, turn_at
@@ -10,12 +12,12 @@ from garage2usd.layout.egress.cores import Core
 from garage2usd.layout.fittings import TUBE_DEPTH_M
 from garage2usd.layout.placement import Placement, edge_yaw_rad, placed, to_world
 from garage2usd.layout.shell.well import Departure, Well
-from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.layout.tiles import Tile, Tiles
 from garage2usd.objects.exit_sign import EXIT_SIGN_WIDTH_M, Turn
 from garage2usd.objects.lane_sign import LaneSignSpec, LaneSignText
 from garage2usd.objects.level_plate import LEVEL_PLATE_WIDTH_M, LevelPlateSpec
 from garage2usd.objects.level_sign import Heading, LevelSignSpec
-from garage2usd.structure.lane_graph import LaneSquares, Square
+from garage2usd.structure.lane_graph import Square
 from garage2usd.structure.stalls import Edge
 
 __all__ = ["level_plates", "level_signs"]
@@ -31,9 +33,7 @@ _PLATE_FROM_DOOR_M = 0.68
 _HEADINGS = {Turn.LEFT: Heading.LEFT, Turn.AHEAD: Heading.UP, Turn.RIGHT: Heading.RIGHT}
 
 
-def level_signs(
-    grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, levels: CeilingLevels, well: Well
-) -> list[Placement]:
+def level_signs(grid: Tiles, fittings: FittingsConfig, levels: CeilingLevels, well: Well) -> list[Placement]:
     """Place signs that name the levels, for drivers.
 
     Over the landing before a ramp a sign names the level that it leads to, with an arrow up or down; signs over the
@@ -65,7 +65,7 @@ def level_signs(
         return signs
     taken: dict[tuple[Square, Edge], int] = defaultdict(int)
     for ramp in well.departures:
-        for junction, edge, heading in _before(ramp, grid, graph):
+        for junction, edge, heading in _before(ramp, grid):
             spec = LevelSignSpec(ramp.to, heading, levels.sign_top_m, height_m)
             # on the reader's left; that of the other ramp on the right
             side = 1 if taken[junction, edge] else -1
@@ -75,33 +75,31 @@ def level_signs(
     return signs
 
 
-def _before(ramp: Departure, grid: TileGrid, graph: LaneSquares) -> list[tuple[Square, Edge, Heading]]:
+def _before(ramp: Departure, grid: Tiles) -> list[tuple[Square, Edge, Heading]]:
     """Return the junctions before a ramp with each edge over which drivers enter them, and their way to the ramp.
 
     Lanes may lead to a landing from the side too. From a junction with several ways the first one counts.
     """
     outs: dict[Square, Square] = {}
-    for square in sorted(graph.graph[ramp.landing]):
-        way = _back_to_junction(ramp.landing, square, graph)
+    for square in sorted({*nx.all_neighbors(grid.ways, ramp.landing)}):
+        way = _back_to_junction(ramp.landing, square, grid)
         if way is not None:
             outs.setdefault(*way)
     found = []
     for junction, following in outs.items():
         (out,) = (edge for edge in Edge if edge.beyond(junction) == following)
-        found += [
-            (junction, edge, _HEADINGS[turn_at(edge, out)]) for edge in edges_in(grid.tiles[junction], graph, out)
-        ]
+        found += [(junction, edge, _HEADINGS[turn_at(edge, out)]) for edge in edges_in(grid.tiles[junction], grid, out)]
     return found
 
 
-def _back_to_junction(landing: Square, square: Square, graph: LaneSquares) -> tuple[Square, Square] | None:
+def _back_to_junction(landing: Square, square: Square, grid: Tiles) -> tuple[Square, Square] | None:
     """Return the junction from which a lane leads over a square to a landing, and the next square; None without one."""
     last, seen = landing, {landing}
-    while graph.directions.allows(square, last):
-        if graph.kind(square) in JUNCTIONS:
+    while grid.ways.has_edge(square, last):
+        if grid.tiles[square].kind in JUNCTIONS:
             return square, last
         seen.add(square)
-        others = [other for other in graph.graph[square] if other != last]
+        others = [*{*nx.all_neighbors(grid.ways, square)} - {last}]
         if len(others) != 1 or others[0] in seen:
             break
         last, square = square, others[0]

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from garage2usd.config.look import CeilingLook
 from garage2usd.layout.ceiling.beams import (
@@ -15,8 +14,8 @@ from garage2usd.layout.ceiling.beams import (
     TRAY_WIDTH_M,
     CeilingLevels,
 )
-from garage2usd.layout.placement import Placement, placed
-from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.layout.placement import Placement
+from garage2usd.layout.tiles import Tile, Tiles
 from garage2usd.objects.cable_tray import CableTraySpec
 from garage2usd.objects.duct import DuctSpec
 from garage2usd.objects.kind import Spec
@@ -30,6 +29,8 @@ __all__ = ["LINES_REACH_M", "cable_trays", "ducts", "sprinklers"]
 _QUARTER_TURN = np.pi / 2
 _LEAST_SQUARE_M = 4.8
 """Least side of a square with room for all services beside each other."""
+_LEAST_JOIN_M = 0.3
+"""Least distance of a perpendicular service from a square that is joined to it."""
 _HEAD_PITCH_M = 3.3
 _HANGER_FROM_BEAM_M = 0.1
 _FREE_OF_LINES_M = 1.65
@@ -74,6 +75,8 @@ class _ServicePiece:
 
     Attributes
     ----------
+    middle_m
+        Its middle, in the coordinates of its tile.
     half_square_m
         Half the extent of the square below, along the piece.
     step
@@ -92,7 +95,7 @@ class _ServicePiece:
     joins: bool = False
 
 
-def ducts(grid: TileGrid, ceiling_m: float, levels: CeilingLevels, look: CeilingLook) -> list[Placement]:
+def ducts(grid: Tiles, ceiling_m: float, levels: CeilingLevels, look: CeilingLook) -> list[Placement]:
     """Place ventilation ducts along the aisles, on the side without pipes."""
     if levels.duct_top_m is None:
         return []
@@ -106,7 +109,7 @@ def ducts(grid: TileGrid, ceiling_m: float, levels: CeilingLevels, look: Ceiling
     return lines
 
 
-def sprinklers(grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
+def sprinklers(grid: Tiles, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
     """Place sprinkler pipes along the aisles, on the side without ducts; pipes cross above ducts."""
     if levels.pipe_drop_m is None:
         return []
@@ -119,7 +122,7 @@ def sprinklers(grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[
     return lines
 
 
-def cable_trays(grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
+def cable_trays(grid: Tiles, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
     """Place cable trays along the aisles, beside the pipes; trays cross above pipes and ducts."""
     if levels.tray_drop_m is None:
         return []
@@ -133,16 +136,20 @@ def cable_trays(grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list
 
 def _place(piece: _ServicePiece, spec: Spec, height_m: float) -> Placement:
     """Place a piece of a service at a height over the floor."""
-    yaw, square = _QUARTER_TURN if piece.along_x else 0.0, piece.tile.square
-    return placed(piece.name, spec, piece.middle_m, height_m=round(height_m, 6), yaw_rad=yaw, square=square)
+    tile, yaw = piece.tile, _QUARTER_TURN if piece.along_x else 0.0
+    return tile.placed(piece.name, spec, piece.middle_m, height_m=round(height_m, 6), yaw_rad=yaw)
 
 
-def _service_pieces(line: _Service, grid: TileGrid) -> Iterator[_ServicePiece]:
+def _service_pieces(line: _Service, grid: Tiles) -> Iterator[_ServicePiece]:
     """Yield the piece of a service over each lane square: along X if a lane is beside it in its row, else along Z.
 
     A service along a column of squares continues to those of the rows above and below.
     """
-    in_row = _beside_lane_in_row(grid.structure.cells == Cell.LANE)
+
+    def in_row(tile: Tile) -> bool:
+        """Return True if a lane is beside a lane's piece along its X."""
+        beside = (grid.neighbour(tile, edge) for edge in (Edge.LEFT, Edge.RIGHT))
+        return any(other is not None and other.cell is Cell.LANE for other in beside)
 
     def from_middle_m(half_m: float) -> float:
         """Return the distance of the service from the middle of an aisle."""
@@ -151,28 +158,25 @@ def _service_pieces(line: _Service, grid: TileGrid) -> Iterator[_ServicePiece]:
     for tile in grid:
         if tile.cell is not Cell.LANE or not _has_room(tile):
             continue
-        if in_row[tile.square]:
-            z = tile.z_m + line.side * from_middle_m(tile.half_z_m)
-            yield _ServicePiece(line.name, tile, (tile.x_m, z), round(tile.width_m, 6), True, tile.half_x_m, 1)
+        if in_row(tile):
+            middle = 0.0, line.side * from_middle_m(tile.half_z_m)
+            yield _ServicePiece(line.name, tile, middle, round(tile.width_m, 6), True, tile.half_x_m, 1)
             continue
-        x = tile.x_m - line.side * from_middle_m(tile.half_x_m)
-        yield _ServicePiece(line.name, tile, (x, tile.z_m), round(tile.depth_m, 6), False, tile.half_z_m, 1)
-        for name, edge, step in (("Up", Edge.UP, -1), ("Down", Edge.DOWN, 1)):
+        x = -line.side * from_middle_m(tile.half_x_m)
+        yield _ServicePiece(line.name, tile, (x, 0.0), round(tile.depth_m, 6), False, tile.half_z_m, 1)
+        for turn, edge, step in (("Up", Edge.UP, -1), ("Down", Edge.DOWN, 1)):
             other = grid.neighbour(tile, edge)
-            if other is None or not in_row[other.square] or not _has_room(other):
+            if other is None or other.cell is not Cell.LANE or not in_row(other) or not _has_room(other):
                 continue
-            start = tile.z_m + step * tile.half_z_m
-            end = other.z_m + line.side * from_middle_m(other.half_z_m) - step * line.half_width_m
-            middle = (x, (start + end) / 2)
-            length = round(abs(end - start), 6)
-            yield _ServicePiece(f"{line.name}{name}", tile, middle, length, False, other.half_z_m, step, joins=True)
-
-
-def _beside_lane_in_row(lane: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return a mask of the lane squares with an adjacent lane square in their row."""
-    padded = np.pad(lane, ((0, 0), (1, 1)))
-    run: NDArray[np.bool_] = lane & (padded[:, :-2] | padded[:, 2:])
-    return run
+            start = step * tile.half_z_m
+            beside = line.side * from_middle_m(other.half_z_m) - step * line.half_width_m
+            end = tile.local(other.at((0.0, beside)))[1]
+            length = round(step * (end - start), 6)
+            if length < _LEAST_JOIN_M:
+                continue
+            yield _ServicePiece(
+                f"{line.name}{turn}", tile, (x, (start + end) / 2), length, False, other.half_z_m, step, joins=True
+            )
 
 
 def _has_room(tile: Tile) -> bool:

@@ -1,25 +1,27 @@
 """Exit signs and one-way signs over the aisles, and mirrors at junctions."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Sequence
 
 import networkx as nx
+import numpy as np
 
 from garage2usd.assets.mesh import pascal_case
 from garage2usd.config import FittingsConfig
 from garage2usd.garage import LaneKind
 from garage2usd.layout.ceiling.beams import CeilingLevels
 from garage2usd.layout.fittings import TUBE_DEPTH_M
-from garage2usd.layout.placement import Placement, box_inside, edge_yaw_rad, of_spec, placed
+from garage2usd.layout.nearness import Points
+from garage2usd.layout.placement import Placement, box_inside, edge_yaw_rad, of_spec, rounded
 from garage2usd.layout.shell.well import Well
-from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
+from garage2usd.layout.tiles import Tile, Tiles, lane_edges
 from garage2usd.objects.column import ColumnSpec
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
 from garage2usd.objects.lane_sign import LaneSignSpec, LaneSignText
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.outline import Point
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
-from garage2usd.structure.lane_graph import LaneSquares, Square
+from garage2usd.structure.lane_graph import Square
 from garage2usd.structure.stalls import Edge
 
 __all__ = ["JUNCTIONS", "SIGN_FROM_EDGE_M", "edges_in", "exit_signs", "lane_signs", "mirrors", "turn_at"]
@@ -34,6 +36,8 @@ _MIRROR_GAP_M = 0.05
 _MIRROR_FROM_COLUMN_M, _MIRROR_FROM_WALL_M = 0.07, 0.22
 _ARM_TO_COLUMN_M, _ARM_TO_EDGE_M, _ARM_TO_WALL_M = 0.12, 0.099, 0.29
 """Lengths along the diagonal: to a column's bevelled edge, to the sharp edge of a core, to the meeting of two walls."""
+_COLUMN_FROM_CORNER_M = 0.3
+"""Greatest distance of a column from the corner that it stands in."""
 _INTO_COLUMN_M = 0.025
 """Depth to which an arm enters a column that it meets at an angle."""
 _CORNERS = tuple((vertical, side) for vertical in (Edge.DOWN, Edge.UP) for side in (Edge.LEFT, Edge.RIGHT))
@@ -41,8 +45,7 @@ JUNCTIONS = {LaneKind.CROSSROADS, LaneKind.T_JUNCTION}
 
 
 def exit_signs(
-    grid: TileGrid,
-    graph: LaneSquares,
+    grid: Tiles,
     fittings: FittingsConfig,
     levels: CeilingLevels,
     well: Well | None = None,
@@ -53,8 +56,8 @@ def exit_signs(
 
     Parameters
     ----------
-    grid, graph, fittings, levels
-        The squares, their lanes, the heights and what hangs at them.
+    grid, fittings, levels
+        The pieces of the floor, the heights and what hangs at them.
     well
         The ramps to other levels. Only the one up leads out; where cars arrive over a ramp and have several ways, a
         sign hangs over the landing too.
@@ -62,11 +65,10 @@ def exit_signs(
     foot = fittings.ceiling_height_m - levels.sign_top_m - _SIGN_HEIGHT_M
     if not fittings.exit_signs or foot < fittings.clear_height_m:
         return []
-    exits = {square for square, kind in graph.graph.nodes(data="kind") if kind is LaneKind.EXIT}
-    ways_back = graph.graph.to_directed()
-    ways_back.remove_edges_from(list(graph.directions.one_way))  # search back from exits
+    exits = {tile.square for tile in grid if tile.kind is LaneKind.EXIT}
+    ways_back = grid.ways.reverse()
     if well:
-        entrances = [square for square, kind in graph.graph.nodes(data="kind") if kind is LaneKind.ENTRANCE]
+        entrances = [tile.square for tile in grid if tile.kind is LaneKind.ENTRANCE]
         ways_back.remove_nodes_from({*well.no_ways_out, *entrances})
         exits -= well.no_ways_out
     if not exits:
@@ -75,14 +77,13 @@ def exit_signs(
     arrivals = well.arrivals if well else {}
     signs: list[Placement] = []
     for tile in grid:
-        is_junction = tile.cell is Cell.LANE and graph.kind(tile.square) in JUNCTIONS and tile.square in distance
+        is_junction = tile.cell is Cell.LANE and tile.kind in JUNCTIONS and tile.square in distance
         if not is_junction and tile.square not in arrivals:
             continue
+        beyond = {edge: other.square for edge in lane_edges(tile) if (other := grid.neighbour(tile, edge))}
         ways = {
-            edge: distance.get(edge.beyond(tile.square), math.inf)
-            if graph.directions.allows(tile.square, edge.beyond(tile.square))
-            else math.inf
-            for edge in lane_edges(tile)
+            edge: distance.get(square, math.inf) if grid.ways.has_edge(tile.square, square) else math.inf
+            for edge, square in beyond.items()
         }
         out = min(ways, key=lambda edge: (round(ways[edge], 6), edge))
         if tile.square in arrivals:
@@ -91,19 +92,18 @@ def exit_signs(
             continue
         signs += [
             _exit_sign(tile, edge, out, fittings.ceiling_height_m, levels.sign_top_m)
-            for edge in edges_in(tile, graph, out)
+            for edge in edges_in(tile, grid, out)
         ]
     return signs
 
 
-def edges_in(tile: Tile, graph: LaneSquares, out: Edge) -> list[Edge]:
+def edges_in(tile: Tile, grid: Tiles, out: Edge) -> list[Edge]:
     """Return the edges over which drivers enter a junction that they leave over another one."""
+    beyond = [(edge, grid.neighbour(tile, edge)) for edge in lane_edges(tile) if edge is not out]
     return [
         edge
-        for edge in lane_edges(tile)
-        if edge is not out
-        and graph.kind(edge.beyond(tile.square)) is not LaneKind.EXIT
-        and graph.directions.allows(edge.beyond(tile.square), tile.square)
+        for edge, other in beyond
+        if other is not None and other.kind is not LaneKind.EXIT and grid.ways.has_edge(other.square, tile.square)
     ]
 
 
@@ -117,14 +117,13 @@ def turn_at(edge: Edge, out: Edge) -> Turn:
 def _exit_sign(tile: Tile, edge: Edge, out: Edge, ceiling_m: float, top_m: float) -> Placement:
     """Sign over one edge of a junction, facing the drivers who enter there."""
     dr, dc = NEIGHBOUR_STEPS[edge]
-    x = tile.x_m + dc * (tile.half_x_m - SIGN_FROM_EDGE_M)
-    z = tile.z_m + dr * (tile.half_z_m - SIGN_FROM_EDGE_M)
+    point = dc * (tile.half_x_m - SIGN_FROM_EDGE_M), dr * (tile.half_z_m - SIGN_FROM_EDGE_M)
     spec = ExitSignSpec(turn_at(edge, out), top_m, _SIGN_HEIGHT_M)
     name = f"ExitSign_{edge.name.capitalize()}"
-    return placed(name, spec, (x, z), height_m=ceiling_m, yaw_rad=edge_yaw_rad(edge), square=tile.square)
+    return tile.placed(name, spec, point, height_m=ceiling_m, yaw_rad=edge_yaw_rad(edge))
 
 
-def lane_signs(grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, levels: CeilingLevels) -> list[Placement]:
+def lane_signs(grid: Tiles, fittings: FittingsConfig, levels: CeilingLevels) -> list[Placement]:
     """Place signs over both ends of one-way lanes: one-way signs at the start, no-entry signs at the end.
 
     Each hangs over the right half of the lane's first square, as seen by its reader. There are none without space above
@@ -135,14 +134,14 @@ def lane_signs(grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, lev
     if not fittings.exit_signs or height_m < _LEAST_LANE_SIGN_M:
         return []
     signs: list[Placement] = []
-    for stretch in graph.directions.stretches(grid.structure):
+    for stretch in grid.one_way_stretches:
         for (junction, first), says in (
             ((stretch[0], stretch[1]), LaneSignText.ONE_WAY),
             ((stretch[-1], stretch[-2]), LaneSignText.NO_ENTRY),
         ):
             if len(stretch) > 2:  # noqa: PLR2004 - not a step between two junctions
                 spec = LaneSignSpec(says, levels.sign_top_m, height_m)
-                signs.append(_lane_sign(grid.tiles[first], _edge_towards(first, junction), spec, fittings))
+                signs.append(_lane_sign(grid.tiles[first], _edge_towards(first, junction, grid), spec, fittings))
     return signs
 
 
@@ -153,17 +152,16 @@ def _lane_sign(tile: Tile, edge: Edge, spec: LaneSignSpec, fittings: FittingsCon
     to_right = _LANE_SIGN_ASIDE_M if edge in {Edge.DOWN, Edge.LEFT} else -_LANE_SIGN_ASIDE_M
     x, z, *_ = box_inside(edge, half, (to_right, to_right), (SIGN_FROM_EDGE_M, SIGN_FROM_EDGE_M))
     name = f"{pascal_case(spec.says)}Sign_{edge.name.capitalize()}"
-    place = tile.x_m + x, tile.z_m + z
-    yaw = edge_yaw_rad(edge)
-    return placed(name, spec, place, height_m=fittings.ceiling_height_m, yaw_rad=yaw, square=tile.square)
+    return tile.placed(name, spec, (x, z), height_m=fittings.ceiling_height_m, yaw_rad=edge_yaw_rad(edge))
 
 
-def _edge_towards(square: Square, other: Square) -> Edge:
-    return next(edge for edge in Edge if edge.beyond(square) == other)
+def _edge_towards(square: Square, other: Square, grid: Tiles) -> Edge:
+    tile, beyond = grid.tiles[square], grid.tiles[other]
+    return next(edge for edge in Edge if grid.neighbour(tile, edge) == beyond)
 
 
 def mirrors(
-    grid: TileGrid,
+    grid: Tiles,
     columns: Iterable[Placement],
     fittings: FittingsConfig,
     levels: CeilingLevels,
@@ -179,34 +177,31 @@ def mirrors(
     highest = fittings.ceiling_height_m - max(levels.beam_depth_m, TUBE_DEPTH_M) - _MIRROR_GAP_M - _MIRROR_RADIUS_M
     if not fittings.mirrors or highest - _MIRROR_RADIUS_M < fittings.clear_height_m:
         return []
-    feet = {
-        (round(place.position_m[0], 4), round(place.position_m[2], 4)): spec
-        for place, spec in of_spec(columns, ColumnSpec)
-    }
+    feet = [((place.position_m[0], place.position_m[2]), spec) for place, spec in of_spec(columns, ColumnSpec)]
+    nearest = Points([foot for foot, _ in feet])
     height = round(min(fittings.clear_height_m + _MIRROR_RADIUS_M + _MIRROR_GAP_M, highest), 6)
     found: list[Placement] = []
     for tile in grid:
         if tile.cell is not Cell.LANE or tile.axis_is_x is not None:
             continue
         unserved = {edge for edge in lane_edges(tile) if _is_blind(edge, tile, grid)}
-        mounts = {corner: mount for corner in _CORNERS if (mount := _mount_m(corner, tile, grid, feet))}
+        mounts = {corner: mount for corner in _CORNERS if (mount := _mount_m(corner, tile, grid, feet, nearest))}
         while mounts:
             corner = max(mounts, key=lambda corner: len(unserved.intersection(_served(corner))))
-            inset, arm = mounts.pop(corner)
+            (inset_x, inset_z), arm = mounts.pop(corner)
             if not unserved.intersection(_served(corner)):
                 break
             unserved.difference_update(_served(corner))
             side_z, side_x = (sum(NEIGHBOUR_STEPS[edge]) for edge in corner)
-            x = tile.x_m + side_x * (tile.half_x_m - inset)
-            z = tile.z_m + side_z * (tile.half_z_m - inset)
+            point = side_x * (tile.half_x_m - inset_x), side_z * (tile.half_z_m - inset_z)
             name = "Mirror_" + "".join(edge.name.capitalize() for edge in corner)
             yaw = round(math.atan2(-side_x, -side_z), 6)
             spec = MirrorSpec(_MIRROR_RADIUS_M, arm)
-            found.append(placed(name, spec, (x, z), height_m=height, yaw_rad=yaw, square=tile.square))
+            found.append(tile.placed(name, spec, point, height_m=height, yaw_rad=yaw))
     return found
 
 
-def _is_blind(edge: Edge, tile: Tile, grid: TileGrid) -> bool:
+def _is_blind(edge: Edge, tile: Tile, grid: Tiles) -> bool:
     """True if a driver who enters over an edge sees a side lane only from inside the square."""
     between = (grid.neighbour(tile, edge, side) for side in edge.ends if tile.drivable[side])
     return any(other is None or other.cell is Cell.FREE for other in between)
@@ -218,21 +213,31 @@ def _served(corner: tuple[Edge, Edge]) -> set[Edge]:
 
 
 def _mount_m(
-    corner: tuple[Edge, Edge], tile: Tile, grid: TileGrid, feet: Mapping[Point, ColumnSpec]
-) -> tuple[float, float] | None:
-    """Distance of a mirror's centre from both sides of a corner, and length of its arm; None without a support."""
+    corner: tuple[Edge, Edge],
+    tile: Tile,
+    grid: Tiles,
+    feet: Sequence[tuple[Point, ColumnSpec]],
+    beside: Points,
+) -> tuple[Point, float] | None:
+    """Distances of a mirror's centre from the sides of a corner along X and Z, and length of its arm.
+
+    None without a support.
+    """
     side_z, side_x = (sum(NEIGHBOUR_STEPS[edge]) for edge in corner)
-    point = (round(tile.x_m + side_x * tile.half_x_m, 4), round(tile.z_m + side_z * tile.half_z_m, 4))
-    column = feet.get(point)
-    if column is not None:
+    point = tile.at((side_x * tile.half_x_m, side_z * tile.half_z_m))
+    _, near, far_m = beside.within(_COLUMN_FROM_CORNER_M, np.array([point]))
+    if len(near):
+        foot, column = feet[near[np.argmin(far_m)]]
         # mirrors around one column must not touch: a thin column needs longer arms
         nearest = column.size_m / 2 + _MIRROR_FROM_COLUMN_M
         inset = max(nearest, _MIRROR_RADIUS_M)
         usual_m = ColumnSpec(column.size_m, column.height_m).diagonal_m
         beyond = 0.0 if column.fills_square else usual_m - column.diagonal_m + _INTO_COLUMN_M
-        return round(inset, 6), round(_ARM_TO_COLUMN_M + (inset - nearest) * math.sqrt(2) + beyond, 6)
+        x, z = tile.local(foot)
+        insets = inset + tile.half_x_m - side_x * x, inset + tile.half_z_m - side_z * z
+        return rounded(insets), round(_ARM_TO_COLUMN_M + (inset - nearest) * math.sqrt(2) + beyond, 6)
     if any(grid.neighbour(tile, edge) is None for edge in corner):
-        return _MIRROR_FROM_WALL_M, _ARM_TO_WALL_M
+        return (_MIRROR_FROM_WALL_M, _MIRROR_FROM_WALL_M), _ARM_TO_WALL_M
     if grid.neighbour(tile, *corner) is None:
-        return _MIRROR_FROM_COLUMN_M, _ARM_TO_EDGE_M
+        return (_MIRROR_FROM_COLUMN_M, _MIRROR_FROM_COLUMN_M), _ARM_TO_EDGE_M
     return None

@@ -2,7 +2,7 @@
 # Over 300 lines: candidates among perpendicular, angled and parallel stalls share their geometry.
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,7 +21,7 @@ from garage2usd.layout.placement import (
     stall_name,
     to_world,
 )
-from garage2usd.layout.tiles import Tile
+from garage2usd.layout.tiles import Tile, Tiles
 from garage2usd.objects.obstacle import ObstacleSpec
 from garage2usd.objects.outline import Box, Point
 from garage2usd.profiles import Profile
@@ -31,10 +31,13 @@ from garage2usd.structure.stall_shapes import StallShape
 from garage2usd.structure.stalls import Edge, StallRow
 
 __all__ = [
+    "FROM_COLUMN_M",
+    "MOST_WIDTH_M",
     "RECESS_M",
     "Core",
     "core_candidates",
     "core_placements",
+    "crossings_to",
     "gap_to_stalls_m",
     "is_wide_enough",
     "names_of_rows",
@@ -44,9 +47,9 @@ __all__ = [
 RECESS_M = 0.5
 """Least setback of a core's door from the lane, so that nobody steps into traffic."""
 _FROM_REAR_M = 0.2
-_FROM_COLUMN_M = 0.08
+FROM_COLUMN_M = 0.08
 """Gap for the zone plates of the adjacent column."""
-_LEAST_WIDTH_M, _MOST_WIDTH_M = 2.6, 4.6
+_LEAST_WIDTH_M, MOST_WIDTH_M = 2.6, 4.6
 _LEAST_DEPTH_M = 3.0
 _MOST_STALLS = 2
 _WALL_CLEARANCE_M = 0.6
@@ -76,6 +79,8 @@ class Core:
         Ids of the stalls that it replaces.
     has_door
         False where a shaft passes a level without a door.
+    lane_square
+        `Tile.square` of the piece of lane in front of its door, where that is not the square beyond its edge.
     """
 
     square: Square
@@ -87,11 +92,12 @@ class Core:
     recess_m: float = 0.0
     stalls: tuple[str, ...] = ()
     has_door: bool = True
+    lane_square: Square | None = None
 
     @property
     def lane(self) -> Square:
         """(row, col) of the lane square in front of its door."""
-        return self.edge.beyond(self.square)
+        return self.lane_square or self.edge.beyond(self.square)
 
     @property
     def along_x(self) -> bool:
@@ -148,18 +154,24 @@ def _blocks(structure: Structure, wells: Collection[Square]) -> list[Square]:
 
 
 def core_placements(
-    structure: Structure, cores: list[Core], height_m: float, look: WallsLook, wells: Collection[Square] = ()
+    structure: Structure | None,
+    cores: list[Core],
+    height_m: float,
+    look: WallsLook,
+    wells: Collection[Square] = (),
 ) -> list[Placement]:
-    """Place all cores and shafts, and a concrete block on every other obstacle inside the contour.
+    """Place all cores and shafts, and a concrete block on every other obstacle inside the contour of a plan.
 
     The squares of ramps' wells have none.
     """
     dado_m = None if look.dado == NATURAL else look.dado_m
-    x, z = structure.column_edges_m, structure.row_edges_m
     by_square = {core.square: core for core in cores}
     placements = []
-    for row, col in _blocks(structure, wells):
-        if (row, col) not in by_square:
+    if structure is not None:
+        x, z = structure.column_edges_m, structure.row_edges_m
+        for row, col in _blocks(structure, wells):
+            if (row, col) in by_square:
+                continue
             width, depth = round(float(x[col + 1] - x[col]), 6), round(float(z[row + 1] - z[row]), 6)
             spec = ObstacleSpec(width, depth, height_m, has_door=False, dado_m=dado_m)
             position = (float(x[col] + x[col + 1]) / 2, 0.0, float(z[row] + z[row + 1]) / 2)
@@ -167,7 +179,8 @@ def core_placements(
     for core in cores:
         row, col = core.square
         kind = "Core" if core.recess_m else "Obstacle" if core.has_door else "Shaft"
-        name = f"{kind}_r{row:02d}_c{col:02d}" + (f"_{core.edge.name.capitalize()}" if core.recess_m else "")
+        place = f"r{row:02d}_c{col:02d}" if core.lane_square is None else f"{col:03d}"
+        name = f"{kind}_{place}" + (f"_{core.edge.name.capitalize()}" if core.recess_m else "")
         spec = ObstacleSpec(core.width_m, core.depth_m, height_m, has_door=core.has_door, dado_m=dado_m)
         placements.append(placed(name, spec, core.centre_m, yaw_rad=edge_yaw_rad(core.edge)))
     return placements
@@ -247,7 +260,7 @@ def _in_row(structure: Structure, row: StallRow, names: tuple[str, ...], config:
             (-start - taken * width_m + gap, high, names[-taken:]),
         )
     for left, right, stalls in spans:
-        width = min(right - left, _MOST_WIDTH_M)
+        width = min(right - left, MOST_WIDTH_M)
         if width < _LEAST_WIDTH_M:
             continue
         # against the column or the wall, or centred if no stall is left
@@ -266,7 +279,7 @@ def _across_rows(
     if room is None:
         return
     low, high, depth_m = room
-    width = min(high - low, _MOST_WIDTH_M)
+    width = min(high - low, MOST_WIDTH_M)
     if width < _LEAST_WIDTH_M:
         return
     gap = gap_to_stalls_m(row.shape.width_m, config.standard)
@@ -304,7 +317,7 @@ def _room_m(structure: Structure, row: StallRow, config: GarageConfig) -> tuple[
     depth_m = min(bay.stall_length_m, across_m) - RECESS_M - _FROM_REAR_M
     if depth_m < _LEAST_DEPTH_M:
         return None
-    beside_column_m = bay.column_size_m / 2 + _FROM_COLUMN_M
+    beside_column_m = bay.column_size_m / 2 + FROM_COLUMN_M
     kept_low_m, kept_high_m = (
         0.0 if structure.cell_at(edge.beyond(row.square)) is Cell.OBSTACLE else beside_column_m
         for edge in row.edge.ends
@@ -316,6 +329,16 @@ def _core(structure: Structure, row: StallRow, place: tuple[float, float, float]
     middle, width, depth = place
     centre = rounded(point_inside(structure, row.square, row.edge, middle, RECESS_M + depth / 2))
     return Core(row.square, row.edge, centre, round(width, 6), round(depth, 6), round(middle, 6), RECESS_M, stalls)
+
+
+def crossings_to(cores: Iterable[Core], tiles: Tiles) -> dict[Square, float]:
+    """Return where the crossings to the doors of cores lie, in metres along their lanes from the middle of a piece."""
+    crossings: dict[Square, float] = {}
+    for core in cores:
+        lane = tiles.tiles[core.lane]
+        at = lane.local(core.door_m)[0 if core.along_x else 1]
+        crossings.setdefault(core.lane, round(at, 6) if lane.axis_is_x is core.along_x else 0.0)
+    return crossings
 
 
 def gap_to_stalls_m(stall_width_m: float, profile: Profile) -> float:

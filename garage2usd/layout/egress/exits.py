@@ -13,12 +13,12 @@ from garage2usd.layout.egress.compartments import compartments_of
 from garage2usd.layout.egress.cores import Core, obstacle_cores
 from garage2usd.layout.egress.shafts import LevelPlan, Shaft, has_doors, shaft_candidates, squares_of
 from garage2usd.layout.placement import point_inside
-from garage2usd.profiles import Length
+from garage2usd.profiles import Profile
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneSquares, Square
 from garage2usd.structure.stalls import Edge, StallRow
 
-__all__ = ["Egress", "plan_egress"]
+__all__ = ["Egress", "exits_asked", "plan_egress", "price_off_straight_m", "reach_to_exits_m"]
 
 _EXITS = 2
 """Number of exits per compartment if the profile has no clause for it."""
@@ -79,15 +79,14 @@ def plan_egress(levels: Sequence[LevelPlan], wells: Collection[Square] = ()) -> 
     shafts: list[list[Core]] = [[] for _ in levels]
     if not config.fittings.stair_cores:
         return [Egress(compartments, tuple(own)) for own in cores]
-    exits = profile.personnel_exits.amount if profile.personnel_exits else _EXITS
-    reach = profile.way_out(sprinklered=sprinklered)
+    exits, reach_m = exits_asked(profile), reach_to_exits_m(profile, sprinklered=sprinklered)
     stalls = [_stalls_by_compartment(level, compartments) for level in levels]
     places = _places_by_compartment(levels, compartments)
     budget = sum(len(points) for own in stalls for points in own.values()) // _STALLS_FOR_ONE
     for compartment in sorted(set().union(*stalls)):
         points = [own.get(compartment, np.empty((0, 2))) for own in stalls]
         fixed = _fixed_doors(cores, compartments, compartment)
-        for shaft in chosen_shafts(points, places.get(compartment), fixed, int(exits), _reach_m(reach), budget):
+        for shaft in chosen_shafts(points, places.get(compartment), fixed, exits, reach_m, budget):
             if _replaced(shaft) <= budget:
                 budget -= _replaced(shaft)
                 for number, core in enumerate(shaft):
@@ -103,8 +102,20 @@ def _fixed_doors(cores: list[list[Core]], compartments: NDArray[np.int32], numbe
     return np.array([[own[square] for square in shared] for own in doors]).reshape(len(cores), -1, 2)
 
 
-def _reach_m(clause: Length | None) -> float:
+def exits_asked(profile: Profile) -> int:
+    """Return how many exits on foot a fire compartment needs."""
+    return int(profile.personnel_exits.amount) if profile.personnel_exits else _EXITS
+
+
+def reach_to_exits_m(profile: Profile, *, sprinklered: bool) -> float:
+    """Return the greatest distance in metres from a stall to an exit on foot; infinite where the profile has none."""
+    clause = profile.way_out(sprinklered=sprinklered)
     return np.inf if clause is None else clause.amount - _SLACK_M
+
+
+def price_off_straight_m(*, is_straight: bool) -> float:
+    """Return the detour in metres that a place before a straight lane is worth."""
+    return _OFF_STRAIGHT_M * (not is_straight)
 
 
 def _stalls_by_compartment(level: LevelPlan, compartments: NDArray[np.int32]) -> dict[int, Points]:
@@ -155,7 +166,7 @@ def _price_m(levels: Sequence[LevelPlan], shaft: Shaft) -> float:
     """Detour that a cheaper shaft is worth, as the mean of all levels."""
     prices = [
         _STALL_WORTH_M * len(core.stalls)
-        + _OFF_STRAIGHT_M * (core.has_door and not _is_straight(level.graph, core.lane, core.edge))
+        + price_off_straight_m(is_straight=not core.has_door or _is_straight(level.graph, core.lane, core.edge))
         for level, core in zip(levels, shaft, strict=True)
         if core is not None
     ]

@@ -5,8 +5,8 @@ from collections.abc import Iterable, Iterator
 import shapely
 
 from garage2usd.config.look import Drains
-from garage2usd.layout.placement import Placement, box_inside, placed
-from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.layout.placement import Placement, box_inside
+from garage2usd.layout.tiles import Tile, Tiles
 from garage2usd.objects.drain import CHANNEL_WIDTH_M, GULLY_SIDE_M, DrainSpec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.panel import PanelSpec
@@ -27,7 +27,7 @@ _FROM_DOOR_M = 0.35
 _QUARTER_TURN = 1.5707963267948966
 
 
-def drains(grid: TileGrid, floors: Iterable[Placement], wanted: Drains) -> Iterator[Placement]:
+def drains(grid: Tiles, floors: Iterable[Placement], wanted: Drains) -> Iterator[Placement]:
     """Place the drains of all squares.
 
     Parameters
@@ -57,10 +57,7 @@ def _gully(tile: Tile, panel: Placement) -> Iterator[Placement]:
         for aside in _GULLY_ASIDE_M:
             x, z = (along, aside) if along_x else (aside, along)
             if not paint.intersects(shapely.box(x - half, z - half, x + half, z + half)):
-                point = tile.x_m + x, tile.z_m + z
-                yield placed(
-                    "Gully", DrainSpec(GULLY_SIDE_M, GULLY_SIDE_M), point, height_m=_LIFT_M, square=tile.square
-                )
+                yield tile.placed("Gully", DrainSpec(GULLY_SIDE_M, GULLY_SIDE_M), (x, z), height_m=_LIFT_M)
                 return
 
 
@@ -91,6 +88,5 @@ def _door_channel(tile: Tile, door: Edge, setback_m: float) -> Placement:
 
 def _channel(tile: Tile, length_m: float, offset: Point, *, along_x: bool) -> Placement:
     """Return a channel of a length, `offset` (x, z) from the middle of its tile."""
-    point, yaw = (tile.x_m + offset[0], tile.z_m + offset[1]), _QUARTER_TURN if along_x else 0.0
     spec = DrainSpec(CHANNEL_WIDTH_M, round(length_m, 6))
-    return placed("Channel", spec, point, height_m=_LIFT_M, yaw_rad=yaw, square=tile.square)
+    return tile.placed("Channel", spec, offset, height_m=_LIFT_M, yaw_rad=_QUARTER_TURN if along_x else 0.0)

@@ -29,7 +29,7 @@ from garage2usd.layout.placement import Placement
 from garage2usd.layout.tiles import (
     StallPlace,
     Tile,
-    TileGrid,
+    Tiles,
     lane_edges,
     row_strip,
 )
@@ -63,7 +63,7 @@ class DrawnMarkings(NamedTuple):
     zebras: frozenset[Square]
 
 
-def drawn_markings_of(grid: TileGrid, look: MarkingsLook, draws: SquareDraws) -> DrawnMarkings:
+def drawn_markings_of(grid: Tiles, look: MarkingsLook, draws: SquareDraws) -> DrawnMarkings:
     """Draw older lines and crossings from independent numbers of each square, so that squares stay independent."""
     if not look.ghosts and not look.zebra:
         return DrawnMarkings({}, frozenset())
@@ -82,7 +82,7 @@ def drawn_markings_of(grid: TileGrid, look: MarkingsLook, draws: SquareDraws) ->
 class _Panels:
     """Common inputs of all floor panels of a garage."""
 
-    grid: TileGrid
+    grid: Tiles
     bay: BayConfig
     look: MarkingsLook
     drawn: DrawnMarkings
@@ -178,7 +178,8 @@ class _Panels:
     def _ghosts(self, tile: Tile) -> Iterator[Marking]:
         """Ghost lines in front of the stalls at a lane square's edges."""
         for edge in Edge:
-            beyond = edge.beyond(tile.square)
+            other = self.grid.neighbour(tile, edge)
+            beyond = other.square if other is not None else None
             if not tile.stall_mouths[edge] or beyond not in self.drawn.ghosts:
                 continue
             count = max(place.row.count for place in self.grid.stall_places[beyond])
@@ -189,7 +190,7 @@ class _Panels:
 
 
 def floor_panels(
-    grid: TileGrid,
+    grid: Tiles,
     look: MarkingsLook,
     drawn: DrawnMarkings,
     *,
@@ -220,7 +221,7 @@ def floor_panels(
             tile, has_bump=square in with_bump, crossing_m=crossings.get(square), core=cores.get(square)
         )
         spec = FloorSpec(tile.width_m, tile.depth_m, Surface.LANE, markings, panels.openings(tile))
-        placements.append(Placement("Floor", spec, (tile.x_m, 0.0, tile.z_m), square=square))
+        placements.append(Placement("Floor", spec, (tile.x_m, 0.0, tile.z_m), tile.yaw_rad, square))
     return placements
 
 

@@ -5,8 +5,8 @@ from collections.abc import Iterable, Mapping
 
 from garage2usd.common.randomness import Step
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.placement import Placement, of_spec, placed, to_world
-from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.layout.placement import Placement, of_spec, sum_of_yaws, to_world
+from garage2usd.layout.tiles import Tile, Tiles
 from garage2usd.native import elementary
 from garage2usd.objects.drain import DrainSpec
 from garage2usd.objects.floor_stain import PuddleSpec
@@ -29,7 +29,7 @@ _LEAST_DRAW = 1e-12
 
 
 def puddles(
-    grid: TileGrid,
+    grid: Tiles,
     wet: float,
     drains: Iterable[Placement],
     bumps: Iterable[Placement],
@@ -71,13 +71,13 @@ def puddles(
     return [_puddle(tile, drain_on, grid, numbers[tile.square].tolist()) for tile in lanes if tile.square in wettest]
 
 
-def _is_before_ramp(tile: Tile, grid: TileGrid) -> bool:
+def _is_before_ramp(tile: Tile, grid: Tiles) -> bool:
     around = (grid.neighbour(tile, edge) for edge in Edge if tile.drivable[edge])
     return any(other is not None and other.cell in {Cell.ENTRANCE, Cell.EXIT} for other in around)
 
 
 def _puddle(
-    tile: Tile, drain_on: Mapping[Square | None, tuple[Placement, DrainSpec]], grid: TileGrid, drawn: list[float]
+    tile: Tile, drain_on: Mapping[Square | None, tuple[Placement, DrainSpec]], grid: Tiles, drawn: list[float]
 ) -> Placement:
     """Puddle of one square, with the drawn size or the greatest that fits."""
     _, shape, size, turn, across, along = drawn
@@ -93,15 +93,15 @@ def _puddle(
     if tile.square in drain_on:
         drain, grating = drain_on[tile.square]
         # centred on a gully, or at a random position along a channel
-        drain_x, drain_z = drain.position_m[0] - tile.x_m, drain.position_m[2] - tile.z_m
+        drain_x, drain_z = tile.local((drain.position_m[0], drain.position_m[2]))
+        is_along_x = bool(sum_of_yaws(drain.yaw_rad, -tile.yaw_rad))
         aside_x, aside_z = (2 * across - 1) * _AROUND_DRAIN_M, (2 * along - 1) * _AROUND_DRAIN_M
-        if not (grating.is_channel and drain.yaw_rad):
+        if not (grating.is_channel and is_along_x):
             x = min(max(drain_x + aside_x, -room_x), room_x)
-        if not grating.is_channel or drain.yaw_rad:
+        if not grating.is_channel or is_along_x:
             z = min(max(drain_z + aside_z, -room_z), room_z)
     spec = PuddleSpec(variant, width, depth)
-    point = tile.x_m + x, tile.z_m + z
-    return placed("Puddle", spec, point, height_m=_LIFT_M, yaw_rad=yaw, square=tile.square)
+    return tile.placed("Puddle", spec, (x, z), height_m=_LIFT_M, yaw_rad=yaw)
 
 
 def _reach(width_m: float, depth_m: float, yaw_rad: float) -> tuple[float, float]:

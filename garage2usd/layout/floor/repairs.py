@@ -1,6 +1,7 @@
 """Repairs of patched asphalt: cracks sealed with bitumen, and patches, at places that the seed draws."""
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -8,7 +9,7 @@ import shapely
 from garage2usd.common.randomness import Step
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.floor.stains import drain_box, drawn_yaw, overlap, overlaps_paint, stain_box
-from garage2usd.layout.placement import Placement, of_spec, placed
+from garage2usd.layout.placement import Placement, of_spec, placed, sum_of_yaws, to_world
 from garage2usd.objects.drain import DrainSpec
 from garage2usd.objects.floor_stain import StainMark, StainSpec
 from garage2usd.objects.outline import Box
@@ -50,9 +51,8 @@ def floor_repairs(
     for floor, panel in of_spec(floors, PanelSpec):
         if floor.square is None:
             continue
-        x, _, z = floor.position_m
         # in the coordinates of the panel, as all that follows
-        taken = [(x0 - x, z0 - z, x1 - x, z1 - z) for x0, z0, x1, z1 in drained.get(floor.square, [])]
+        taken = [_in_panel(floor, drain, spec) for drain, spec in drained.get(floor.square, [])]
         openings = shapely.union_all([shapely.Polygon(opening) for opening in panel.openings])
         half_x, half_z = panel.width_m / 2, panel.depth_m / 2
         for number, ((mark, share), tries) in enumerate(zip(_SLOTS, numbers[floor.square].tolist(), strict=True), 1):
@@ -74,14 +74,22 @@ def floor_repairs(
                     continue
                 taken.append(box)
                 name = f"{mark.value.capitalize()}_{number}"
-                point = x + place[0], z + place[1]
-                yield placed(name, spec, point, height_m=_LIFT_M, yaw_rad=yaw, square=floor.square)
+                yaw = sum_of_yaws(yaw, floor.yaw_rad)
+                yield placed(name, spec, floor.to_world(place), height_m=_LIFT_M, yaw_rad=yaw, square=floor.square)
                 break
 
 
-def _drains_by_square(drains: Iterable[Placement]) -> dict[Square | None, list[Box]]:
-    """Return the bounding boxes of the drains on each square."""
-    found: dict[Square | None, list[Box]] = {}
+def _in_panel(floor: Placement, drain: Placement, spec: DrainSpec) -> Box:
+    """Return the bounding box of a drain along an axis of a panel, in the coordinates of the panel."""
+    (x, _, z), (left, _, top) = drain.position_m, floor.position_m
+    x, z = to_world((x - left, z - top), (0.0, 0.0), -floor.yaw_rad + 0.0)
+    turned = replace(drain, position_m=(x, 0.0, z), yaw_rad=sum_of_yaws(drain.yaw_rad, -floor.yaw_rad))
+    return drain_box(turned, spec)
+
+
+def _drains_by_square(drains: Iterable[Placement]) -> dict[Square | None, list[tuple[Placement, DrainSpec]]]:
+    """Group the drains by square."""
+    found: dict[Square | None, list[tuple[Placement, DrainSpec]]] = {}
     for drain, spec in of_spec(drains, DrainSpec):
-        found.setdefault(drain.square, []).append(drain_box(drain, spec))
+        found.setdefault(drain.square, []).append((drain, spec))
     return found

@@ -6,7 +6,7 @@ A stain stays inside its square. Equal squares with equal random numbers therefo
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
@@ -16,15 +16,14 @@ from garage2usd.common.randomness import Step
 from garage2usd.config import FittingsConfig
 from garage2usd.config.look import Dirt
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.placement import PlacedStall, Placement, StallUse, edge_yaw_rad, of_spec, placed, to_world
-from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.layout.placement import PlacedStall, Placement, StallUse, edge_yaw_rad, of_spec, sum_of_yaws, to_world
+from garage2usd.layout.tiles import Tile, Tiles
 from garage2usd.objects.drain import DrainSpec
 from garage2usd.objects.floor_stain import DirtSpec, StainMark, StainSpec, TyreMarkSpec
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.panel import PanelSpec
 from garage2usd.structure.grid import Cell
-from garage2usd.structure.lane_graph import Square
 from garage2usd.structure.stalls import Edge
 
 __all__ = ["drain_box", "drawn_yaw", "floor_stains", "overlap", "overlaps_paint", "stain_box"]
@@ -95,12 +94,11 @@ class _SquareStains:
         self.boxes.append((lift_m, box))
         if lift_m == _CONCRETE_LIFT_M and self.drain is not None and overlap(box, self.drain):
             return
-        point = self.tile.x_m + place[0], self.tile.z_m + place[1]
-        self.placed.append(placed(name, spec, point, height_m=lift_m, yaw_rad=yaw_rad, square=self.tile.square))
+        self.placed.append(self.tile.placed(name, spec, place, height_m=lift_m, yaw_rad=yaw_rad))
 
 
 def floor_stains(
-    grid: TileGrid,
+    grid: Tiles,
     floors: Iterable[Placement],
     stalls: Iterable[PlacedStall],
     fittings: FittingsConfig,
@@ -130,16 +128,12 @@ def floor_stains(
     rate = fittings.floor_stain_rate
     if not rate:
         return
-    stalls_on: dict[Square, list[PlacedStall]] = {}
-    for stall in stalls:
-        stalls_on.setdefault(stall.square, []).append(stall)
+    stalls_on = grid.stalls_on(stalls)
     most = max((len(row) for row in stalls_on.values()), default=0)
     numbers = draws.of_step(Step.FLOOR_STAINS, max(_LANE_SLOTS + most, 2 * most), _DRAWS)
     drain_on = {drain.square: (drain, spec) for drain, spec in of_spec(drains, DrainSpec)}
     for tile, panel in zip(grid, floors, strict=True):
-        floor = _SquareStains(
-            tile, _local(tile, drain_box(*drain_on[tile.square])) if tile.square in drain_on else None
-        )
+        floor = _SquareStains(tile, _drain_box(tile, *drain_on[tile.square]) if tile.square in drain_on else None)
         drawn = numbers[tile.square]
         if tile.cell is Cell.FREE:
             _stain_stalls(floor, stalls_on.get(tile.square, []), drawn, rate)
@@ -147,7 +141,7 @@ def floor_stains(
             _wear_lane(floor, drawn, dirt)
         if tile.cell is Cell.LANE:
             _stain_lane(floor, panel.spec, grid.setback_m, drawn, rate)
-            mouths = [stall for edge in Edge for stall in _stalls_opening_on(tile, edge, stalls_on)]
+            mouths = [(edge, stall) for edge in Edge for stall in grid.opening_on(tile, edge, stalls_on)]
             _mark_turns(floor, mouths, grid.setback_m, drawn, rate)
         yield from floor.placed
 
@@ -165,7 +159,7 @@ def _stain_stalls(floor: _SquareStains, stalls: list[PlacedStall], drawn: NDArra
             tail = max(stall.length_m - _STALL_MARK_M - 1.2, 0.0)
             place = _to_tile(floor.tile, stall, ((2 * aside - 1) * room, rear + 1.1 + end * tail))
             spec = TyreMarkSpec(int(tyre * 2), _STALL_MARK_M)
-            floor.put(f"TyreMarks_{number}", spec, place, stall.yaw_rad, _TYRE_LIFT_M)
+            floor.put(f"TyreMarks_{number}", spec, place, sum_of_yaws(stall.yaw_rad, -floor.tile.yaw_rad), _TYRE_LIFT_M)
         if there < rate * _LEAKED_SHARE:
             first, last = _ENGINE_FROM_REAR_M
             local = (2 * across - 1) * _ENGINE_ASIDE_M, rear + first + (last - first) * along
@@ -175,8 +169,7 @@ def _stain_stalls(floor: _SquareStains, stalls: list[PlacedStall], drawn: NDArra
 
 def _to_tile(tile: Tile, stall: PlacedStall, local: Point) -> Point:
     """Convert a point from the coordinates of a stall to those of a tile."""
-    x, z = stall.to_world(local)
-    return x - tile.x_m, z - tile.z_m
+    return tile.local(stall.to_world(local))
 
 
 def _wear_lane(floor: _SquareStains, drawn: NDArray[np.float64], dirt: Dirt) -> None:
@@ -249,33 +242,35 @@ def drain_box(drain: Placement, spec: DrainSpec) -> Box:
     return x - half_x, z - half_z, x + half_x, z + half_z
 
 
-def _local(tile: Tile, box: Box) -> Box:
-    """Return a box in the coordinates of a tile."""
-    return box[0] - tile.x_m, box[1] - tile.z_m, box[2] - tile.x_m, box[3] - tile.z_m
-
-
-def _stalls_opening_on(tile: Tile, edge: Edge, stalls_on: dict[Square, list[PlacedStall]]) -> Iterator[PlacedStall]:
-    """Return the stalls that open onto one edge of a lane square."""
-    return (stall for stall in stalls_on.get(edge.beyond(tile.square), []) if stall.access_square == tile.square)
+def _drain_box(tile: Tile, drain: Placement, spec: DrainSpec) -> Box:
+    """Return the bounding box of a drain along an axis of its tile, in the coordinates of that tile."""
+    x, z = tile.local((drain.position_m[0], drain.position_m[2]))
+    turned = replace(drain, position_m=(x, 0.0, z), yaw_rad=sum_of_yaws(drain.yaw_rad, -tile.yaw_rad))
+    return drain_box(turned, spec)
 
 
 def _mark_turns(
-    floor: _SquareStains, stalls: list[PlacedStall], setback_m: float, drawn: NDArray[np.float64], rate: float
+    floor: _SquareStains,
+    stalls: list[tuple[Edge, PlacedStall]],
+    setback_m: float,
+    drawn: NDArray[np.float64],
+    rate: float,
 ) -> None:
-    """Add the curved tyre marks of cars that turned into stalls, on the lane square."""
+    """Add the curved tyre marks of cars that turned into stalls over edges of a lane square."""
     tile = floor.tile
-    for index, (stall, numbers) in enumerate(zip(stalls, drawn[_LANE_SLOTS:].tolist(), strict=False)):
+    for index, ((mouth, stall), numbers) in enumerate(zip(stalls, drawn[_LANE_SLOTS:].tolist(), strict=False)):
         there, variant, size, *_ = numbers
         if there >= rate * _TURNED_SHARE:
             continue
         turn = _TURN_RAD if size < 1 / 2 else -_TURN_RAD
         place = _to_tile(tile, stall, (0.0, stall.length_m / 2 + 0.02))
+        yaw = sum_of_yaws(stall.yaw_rad, -tile.yaw_rad)
         for signed in (turn, -turn):
             spec = TyreMarkSpec(int(variant * 2), _TURN_LENGTH_M, round(signed, 6))
-            x0, z0, x1, z1 = stain_box(spec, place, stall.yaw_rad)
+            x0, z0, x1, z1 = stain_box(spec, place, yaw)
             # the mark ends at the mouth's edge and keeps the cars' distance from the other edges
-            if _lies_within(tile, (x0, z0, x1, z1), setback_m, stall.edge):
-                floor.put(f"TurnMarks_{index + 1}", spec, place, stall.yaw_rad, _TYRE_LIFT_M)
+            if _lies_within(tile, (x0, z0, x1, z1), setback_m, mouth):
+                floor.put(f"TurnMarks_{index + 1}", spec, place, yaw, _TYRE_LIFT_M)
                 break
 
 
@@ -287,7 +282,7 @@ def _lies_within(tile: Tile, box: Box, setback_m: float, mouth: Edge) -> bool:
         Edge.RIGHT: tile.half_x_m - box[2],
         Edge.DOWN: tile.half_z_m - box[3],
     }
-    return all(room >= (0.0 if edge is mouth.opposite else setback_m) for edge, room in limits.items())
+    return all(room >= (0.0 if edge is mouth else setback_m) for edge, room in limits.items())
 
 
 def _stain(mark: StainMark, variant: float) -> StainSpec:

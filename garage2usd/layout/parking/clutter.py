@@ -13,9 +13,8 @@ from garage2usd.config import GarageConfig
 from garage2usd.layout.egress.cores import Core
 from garage2usd.layout.grounds import grounds_of
 from garage2usd.layout.placement import PlacedStall, Placement, placed
-from garage2usd.layout.shell.building import ground_inside
 from garage2usd.layout.shell.mounts import carriageway, core_and_landing
-from garage2usd.layout.tiles import TileGrid
+from garage2usd.layout.tiles import Tiles
 from garage2usd.objects.bag import BagSort, BagSpec
 from garage2usd.objects.bicycle import BICYCLE_COLOURS, BicycleSpec
 from garage2usd.objects.cardboard_box import BOX_SIZES_M, BoxSpec
@@ -91,7 +90,7 @@ _CLUTTER_KINDS: tuple[_ClutterKind, ...] = (
 
 
 def clutter(
-    grid: TileGrid,
+    grid: Tiles,
     stalls: Sequence[PlacedStall],
     cores: Iterable[Core],
     standing: Iterable[Placement],
@@ -139,7 +138,7 @@ def clutter(
 
 
 def _free_grounds(
-    grid: TileGrid,
+    grid: Tiles,
     stalls: Sequence[PlacedStall],
     cores: Iterable[Core],
     standing: Iterable[Placement],
@@ -160,7 +159,7 @@ def _free_grounds(
         *shapely.buffer(touched, _CLEARANCE_M),
         *shapely.buffer(reached, _BEFORE_EQUIPMENT_M),
     ]
-    free = ground_inside(grid.structure).difference(shapely.union_all(used))
+    free = grid.ground.difference(shapely.union_all(used))
     return sorted(_wide_pieces(free), key=lambda piece: piece.bounds)
 
 

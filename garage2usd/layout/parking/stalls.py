@@ -16,7 +16,7 @@ from garage2usd.layout.floor.markings import hatching
 from garage2usd.layout.floor.stall_lines import stall_lines
 from garage2usd.layout.parking.designation import use_symbol
 from garage2usd.layout.placement import PlacedStall, Placement, StallUse, turned_yaw_rad
-from garage2usd.layout.tiles import Tile, TileGrid, stall_outline
+from garage2usd.layout.tiles import Tile, TileGrid, Tiles, stall_outline
 from garage2usd.objects.outline import Point
 from garage2usd.objects.panel import Marking, Surface
 from garage2usd.objects.stall import StallSpec
@@ -29,7 +29,6 @@ from garage2usd.structure.stall_shapes import kind_of_angle, slope_of_angle
 
 __all__ = [
     "WHEEL_STOP_FROM_REAR_M",
-    "bare_stall_panels",
     "stall_panels",
     "stalls_of",
     "wheel_stops",
@@ -120,23 +119,13 @@ def with_turning_stalls(
 
 
 def stall_panels(
-    stalls: tuple[PlacedStall, ...], look: MarkingsLook, grid: TileGrid, ghosts: Mapping[Square, int]
+    stalls: tuple[PlacedStall, ...], look: MarkingsLook, grid: Tiles, ghosts: Mapping[Square, int]
 ) -> list[Placement]:
     """Make the floor panel of each stall with its lines, and ghost lines of older rows by square."""
     return [stall.placement("Stall", _with_ghosts(stall, look, grid, ghosts)) for stall in stalls]
 
 
-def bare_stall_panels(stalls: Iterable[PlacedStall], look: MarkingsLook) -> list[Placement]:
-    """The floor of each stall with its lines alone."""
-    return [
-        stall.placement(
-            "Stall", _stall_panel(stall.width_m, stall.length_m, stall.angle_deg, stall.turn, stall.use, look)
-        )
-        for stall in stalls
-    ]
-
-
-def _with_ghosts(stall: PlacedStall, look: MarkingsLook, grid: TileGrid, ghosts: Mapping[Square, int]) -> StallSpec:
+def _with_ghosts(stall: PlacedStall, look: MarkingsLook, grid: Tiles, ghosts: Mapping[Square, int]) -> StallSpec:
     panel = _stall_panel(stall.width_m, stall.length_m, stall.angle_deg, stall.turn, stall.use, look)
     number = ghosts.get(stall.square)
     if number is None or stall.use in _COATINGS:

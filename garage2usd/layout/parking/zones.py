@@ -10,7 +10,7 @@ from garage2usd.layout.placement import PlacedStall
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import Square
 
-__all__ = ["Zone", "Zones", "with_numbers"]
+__all__ = ["Zone", "Zones", "with_numbers", "zone_of"]
 
 _LETTERS = "".join(letter for letter in string.ascii_uppercase if letter not in "IO")
 _MAX_NUMBER = 99
@@ -39,6 +39,12 @@ class Zones:
         """Return the zone of a square (row, col)."""
         row, col = square
         return Zone(_LETTERS[col // self._side], row // self._side + 1)
+
+
+def zone_of(number: str) -> str:
+    """Return the name of the zone in a stall's number, ``B2`` of ``B2-07``; empty without one."""
+    zone = number.rpartition("-")[0]
+    return zone if len(zone) > 1 and zone[0] in string.ascii_uppercase and zone[1:].isdecimal() else ""
 
 
 def with_numbers(stalls: Iterable[PlacedStall], zones: Zones | None) -> tuple[PlacedStall, ...]:

@@ -22,7 +22,7 @@ from garage2usd.structure.doors import door_edges
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure, outside_squares
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["DOOR_FRAME_M", "columns", "corner_columns", "ground_inside", "outer_walls"]
+__all__ = ["DOOR_FRAME_M", "columns", "corner_columns", "outer_walls"]
 
 _MAX_DOOR_WIDTH_M = 6.0
 _DOOR_HEAD_M = 0.3
@@ -125,13 +125,6 @@ def _stalls_along_x(grid: TileGrid, row: int, col: int) -> bool:
     around = [(row + down, col + right) for down, right in product((-1, 0), (-1, 0))]
     edges = [place.row.edge for square in around for place in grid.stall_places.get(square, ())]
     return sum(1 if edge.along_x else -1 for edge in edges) < 0
-
-
-def ground_inside(structure: Structure) -> shapely.Geometry:
-    """Return the ground (x, z) inside the contour, including obstacles."""
-    x, z = structure.column_edges_m, structure.row_edges_m
-    squares = np.argwhere(~outside_squares(structure.cells)).tolist()
-    return shapely.union_all([shapely.box(x[col], z[row], x[col + 1], z[row + 1]) for row, col in squares])
 
 
 def outer_walls(grid: TileGrid, fittings: FittingsConfig, look: WallsLook) -> list[Placement]:

@@ -22,7 +22,7 @@ from garage2usd.layout.placement import (
     rounded,
     to_world,
 )
-from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.layout.tiles import Tile, Tiles
 from garage2usd.objects import MOUNTED, Mounted
 from garage2usd.objects.column import ColumnSpec
 from garage2usd.objects.obstacle import ObstacleSpec
@@ -65,7 +65,7 @@ class _MountPlace(NamedTuple):
 
 
 def mounted_objects(
-    grid: TileGrid,
+    grid: Tiles,
     pillars: Iterable[Placement],
     walls: Iterable[Placement],
     blocks: Iterable[Placement],
@@ -273,4 +273,5 @@ def carriageway(tile: Tile, setback_m: float) -> shapely.Polygon:
     margin = 0.0 if tile.cell in {Cell.ENTRANCE, Cell.EXIT} else setback_m
     up, down, left, right = (0.0 if drivable else margin for drivable in tile.drivable)
     x, z = tile.half_x_m, tile.half_z_m
-    return shapely.box(tile.x_m - x + left, tile.z_m - z + up, tile.x_m + x - right, tile.z_m + z - down)
+    ground = shapely.box(left - x, up - z, x - right, z - down)
+    return shapely.Polygon([tile.at(corner) for corner in shapely.get_coordinates(ground.exterior)[:-1].tolist()])

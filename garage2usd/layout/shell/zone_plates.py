@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from garage2usd.layout.grounds import Grounds, grounds_of
 from garage2usd.layout.nearness import distances_m
-from garage2usd.layout.parking.zones import Zones
+from garage2usd.layout.parking.zones import zone_of
 from garage2usd.layout.placement import PlacedStall, Placement, cos_sin, edge_yaw_rad, of_spec, placed, to_world
 from garage2usd.objects.column import ColumnSpec
 from garage2usd.objects.outline import Point
@@ -66,16 +66,14 @@ def zone_plates(
     walls: Iterable[Placement],
     blocks: Iterable[Placement],
     stalls: Iterable[PlacedStall],
-    zones: Zones,
 ) -> list[Placement]:
     """Place zone plates on columns and walls, so that the nearest plate to each stall shows the stall's zone.
 
     Parameters
     ----------
     columns, walls, blocks, stalls
-        Parts of the garage; blocks are its obstacles and stair cores.
-    zones
-        Parking zones of the stalls.
+        Parts of the garage; blocks are its obstacles and stair cores. The zone of a stall is the first part of its
+        number, ``B2`` of ``B2-07``; there are no plates where numbers have none.
 
     Notes
     -----
@@ -83,10 +81,10 @@ def zone_plates(
     if no stall is in sight, or if stalls of two zones are in front of it; the adjacent sides show one zone each. A
     stall with the plate of another zone as the nearest gets a plate on a wall.
     """
-    numbered = [stall for stall in stalls if stall.number]
+    numbered = [stall for stall in stalls if zone_of(stall.number)]
     if not numbered:
         return []
-    shown = [str(zones.of(stall.square)) for stall in numbered]
+    shown = [zone_of(stall.number) for stall in numbered]
     grounds = grounds_of([stall.corners_m() for stall in numbered])
     middles = np.array([stall.centre_m for stall in numbered])
     columns = list(columns)

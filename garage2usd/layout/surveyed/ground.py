@@ -1,7 +1,9 @@
 """The floor of a surveyed garage: its outline, divided into tiles that group the objects over them."""
 
 import math
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -9,14 +11,19 @@ import numpy as np
 import shapely
 
 from garage2usd.common.errors import ConfigError
+from garage2usd.layout.placement import Placement
+from garage2usd.layout.surveyed.lines import structural_lines
 from garage2usd.objects.outline import Point, Polygon
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import Square
+from garage2usd.survey.survey import SurveyedColumn
 
 __all__ = ["GroundTile", "SurveyedGround"]
 
-_TILE_M = 8.1
-"""Greatest side of a tile in metres."""
+_MOST_SPAN_M = 25.0
+"""Greatest distance between two lines that beams span."""
+_FIELD = 0.9
+"""Share of a field between lines from which it lies inside the outline."""
 _MOST_SIDE_M = 2000.0
 _LEAST_M2 = 1e-3
 _DIGITS = 6
@@ -54,6 +61,8 @@ class SurveyedGround:
     ----------
     outline
         Inner faces of the outer walls, (x, z) in metres; its least x and z are 0.
+    columns
+        The columns, by whose rows the floor is cut into tiles.
 
     Raises
     ------
@@ -61,7 +70,7 @@ class SurveyedGround:
         If the outline crosses itself or is too large.
     """
 
-    def __init__(self, outline: tuple[Point, ...]) -> None:
+    def __init__(self, outline: tuple[Point, ...], columns: Sequence[SurveyedColumn] = ()) -> None:
         polygon = shapely.Polygon(outline)
         if len(outline) < 3 or not polygon.is_valid or polygon.area < 1.0:  # noqa: PLR2004 - a triangle
             raise ConfigError("outline", list(outline), "three corners or more around an area, without crossings")
@@ -69,14 +78,22 @@ class SurveyedGround:
         if max(width_m, depth_m) > _MOST_SIDE_M:
             raise ConfigError("outline", f"{width_m:.1f} by {depth_m:.1f} m", f"at most {_MOST_SIDE_M:g} m a side")
         self.polygon = shapely.orient_polygons(polygon)
-        columns, rows = _sides_mm(width_m), _sides_mm(depth_m)
-        cells = np.full((len(rows), len(columns)), Cell.FREE, np.int8)
-        self.structure = Structure.from_arrays(cells, np.array(columns) / 1000, np.array(rows) / 1000)
-        outside = [square for square, tile in self._all.items() if tile.box.intersection(polygon).area < _LEAST_M2]
-        for square in outside:
-            cells[square] = Cell.OBSTACLE
-        self.structure = Structure.from_arrays(cells, np.array(columns) / 1000, np.array(rows) / 1000)
-        self.tiles = {square: tile for square, tile in self._all.items() if square not in set(outside)}
+        self.lines = structural_lines(self.polygon, columns)
+        spans_m = [float(np.diff(lines).max()) for lines in self.lines]
+        self.fields = self._structure(self.lines.x_m, self.lines.z_m, _FIELD) if max(spans_m) < _MOST_SPAN_M else None
+        """The fields between its lines, those outside being obstacles; None where lines are too far apart for beams."""
+        x_m = self.lines.cuts_m((0.0, 0.0), (self.lines.x_m[-1], 0.0))
+        self.structure = self._structure(x_m, self.lines.cuts_m((0.0, 0.0), (0.0, self.lines.z_m[-1])), 0.0)
+        cells = self.structure.cells
+        self.tiles = {square: tile for square, tile in self._all.items() if cells[square] != Cell.OBSTACLE}
+
+    def _structure(self, x_m: Sequence[float], z_m: Sequence[float], least: float) -> Structure:
+        """Return rectangles between lines, as obstacles where at most a share of them lies inside the outline."""
+        x, z = (np.round(np.array(lines) * 1000) / 1000 for lines in (x_m, z_m))
+        boxes = shapely.box(x[:-1], z[:-1, None], x[1:], z[1:, None])
+        inside = shapely.area(shapely.intersection(boxes, self.polygon))
+        cells = np.where(inside >= np.maximum(least * shapely.area(boxes), _LEAST_M2), Cell.FREE, Cell.OBSTACLE)
+        return Structure.from_arrays(cells.astype(np.int8), np.diff(x), np.diff(z))
 
     @cached_property
     def _all(self) -> dict[Square, GroundTile]:
@@ -107,10 +124,20 @@ class SurveyedGround:
             return row, col
         return min(self.tiles, key=lambda square: (round(math.dist(self.tiles[square].middle_m, point), 6), square))
 
+    def on_tiles(self, parts: Iterable[Iterable[Placement]]) -> Iterator[Iterable[Placement]]:
+        """Return groups of objects with those of pieces of the floor on the tiles that they stand over.
 
-def _sides_mm(side_m: float) -> list[int]:
-    """Divide a side into equal tiles, in whole millimetres; the last one is as much longer as is left."""
-    side_mm = math.ceil(round(side_m * 1000, 3))
-    count = max(1, math.ceil(side_mm / (_TILE_M * 1000)))
-    each = side_mm // count
-    return [each] * (count - 1) + [side_mm - each * (count - 1)]
+        Names stay unique on each tile.
+        """
+        used: Counter[tuple[Square, str]] = Counter()
+        return ([self._on_tile(place, used) for place in part] for part in parts)
+
+    def _on_tile(self, place: Placement, used: "Counter[tuple[Square, str]]") -> Placement:
+        if place.square is None or place.square in self.tiles:
+            return place
+        x, _, z = place.position_m
+        square = self.square_at((x, z))
+        used[square, place.name] += 1
+        count = used[square, place.name]
+        name = place.name if count == 1 else f"{place.name}_{count}x"
+        return replace(place, square=square, name=name)

@@ -12,30 +12,22 @@ import shapely
 from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.config import GarageConfig
-from garage2usd.config.look import FloorFinish
+from garage2usd.config import GarageConfig, LookConfig
 from garage2usd.garage import LaneGraph, LaneKind, Stall
 from garage2usd.layout import Layout
-from garage2usd.layout.ceiling.lamps import TUBE, installed_lamps, ramp_lamps
-from garage2usd.layout.ceiling.lighting import lane_points_of, light_up
+from garage2usd.layout.ceiling.beams import ceiling_levels
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.floor.repairs import floor_repairs
-from garage2usd.layout.floor.stall_numbers import stall_numbers
 from garage2usd.layout.floor_area import FloorArea
+from garage2usd.layout.furnishing import Floor, furnished
 from garage2usd.layout.garage_stalls import stall_quads
-from garage2usd.layout.parking.designation import chargers
-from garage2usd.layout.parking.number_plates import number_plates
-from garage2usd.layout.parking.own_cars import with_own_cars
-from garage2usd.layout.parking.parked_cars import park_cars
 from garage2usd.layout.parking.stall_table import StallTable
-from garage2usd.layout.parking.stalls import bare_stall_panels, wheel_stops
-from garage2usd.layout.parking.tight import tight_stalls
 from garage2usd.layout.placement import Placement, placed
-from garage2usd.layout.shell.ramps import ramp_lights, with_barriers, with_ramps
-from garage2usd.layout.signs import country_of, with_signs_of
+from garage2usd.layout.surveyed.beams import surveyed_beams
+from garage2usd.layout.surveyed.cores import surveyed_blocks, surveyed_cores
 from garage2usd.layout.surveyed.floor import surveyed_floor
 from garage2usd.layout.surveyed.ground import SurveyedGround
 from garage2usd.layout.surveyed.stalls import placed_stalls
+from garage2usd.layout.surveyed.tiles import SurveyedTiles
 from garage2usd.layout.surveyed.walls import gates_of, surveyed_walls
 from garage2usd.layout.table import ObjectTable
 from garage2usd.layout.tiles import CEILING_THICKNESS_M
@@ -50,8 +42,6 @@ from garage2usd.survey.lane_network import lane_network
 from garage2usd.survey.survey import Survey, Unplaced
 
 __all__ = ["SurveyedLayout", "lay_out_survey"]
-
-_TUBE_ASIDE_M = 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,6 +125,8 @@ def lay_out_survey(
     *,
     unreachable: Collection[str] = (),
     held_back: Collection[str] = (),
+    kept_clear: shapely.Geometry | None = None,
+    open_boots: Collection[str] = (),
     **_of_plans: Any,  # noqa: ANN401 - what only layouts of plans take
 ) -> SurveyedLayout:
     """Place every object of a surveyed garage.
@@ -149,6 +141,8 @@ def lay_out_survey(
         Names of stalls that cars do not get into; they stay as they are.
     held_back
         Names of stalls whose cars do not stand over a line.
+    kept_clear, open_boots
+        As for `garage2usd.layout.lay_out`.
 
     Raises
     ------
@@ -156,9 +150,9 @@ def lay_out_survey(
         If the survey has no lane or no place for a door, or none of its stalls can be placed.
     """
     assert survey.outline is not None
-    fittings, seed, look = config.fittings, config.seed, drawn_look(config.look, config.seed)
+    fittings, look = config.fittings, drawn_look(config.look, config.seed)
     keeps_left = config.standard.drives_on_left
-    ground = SurveyedGround(survey.outline)
+    ground = SurveyedGround(survey.outline, survey.columns)
     if not survey.lanes:
         raise ConfigError("lanes", [], "a lane or more")
     gates = gates_of(
@@ -169,58 +163,54 @@ def lay_out_survey(
         keeps_left=keeps_left,
     )
     network = lane_network(survey.lanes, gates, survey.stall_polygons())
-    standing = shapely.union_all([*survey.stall_polygons(), *survey.column_polygons(), ground.polygon.boundary])
+    standing = shapely.union_all(
+        [
+            *survey.stall_polygons(),
+            *survey.column_polygons(),
+            *survey.solid_polygons(),
+            ground.polygon.boundary,
+        ]
+    )
     network = with_clear_widths(network, standing)
     found, unplaced = fitted_stalls(survey, network, keeps_left=keeps_left)
     if not found:
         reasons = ", ".join(dict.fromkeys(each.reason for each in unplaced)) or "it has none"
         raise ConfigError("stalls", reasons, "one stall or more that can be placed")
     stalls, fitted = placed_stalls(found, ground)
-    draws = SquareDraws(ground.tiles, seed=seed)
-    shell = surveyed_walls(ground.polygon, gates, fittings, look.walls)
-    pillars = _columns(survey, config)
-    lamps, illuminance = light_up(
-        installed_lamps(list(_tubes(ground, config)), look.lights, draws, seed=seed),
-        _lane_points(network),
-        ground.polygon.area,
-        stalls,
-        fittings,
+    tiles = SurveyedTiles(ground, network, stalls, config.bay, survey.solid_polygons())
+    pillars = _columns(survey, config, look)
+    cores = surveyed_cores(tiles, stalls, pillars, config)
+    depth_m = ceiling_levels(fittings).beam_depth_m
+    floor = Floor(
+        tiles=tiles,
+        lanes=network,
+        stalls=stalls,
+        quads=tuple(stall_quads(stalls, _access(fitted), network)),
+        shell=surveyed_walls(ground, gates, fittings, look.walls),
+        pillars=pillars,
+        blocks=surveyed_blocks(tiles, cores, fittings.ceiling_height_m, look.walls),
+        ceilings=list(_ceiling(ground, config)),
+        beams=surveyed_beams(ground, config.bay, fittings.ceiling_height_m, depth_m, pillars),
+        cores=cores,
+        shafts=(),
+        area_m2=ground.polygon.area,
+        draws=SquareDraws([*ground.tiles, *tiles.tiles], seed=config.seed),
+        laid=lambda panels: surveyed_floor(ground, panels, stalls),
     )
-    country = country_of(look.signs, config.standard)
-    tight = tight_stalls(network, tuple(stall_quads(stalls, _access(fitted), network)))
-    parked = with_own_cars(
-        park_cars(stalls, config, draws, tight=tight, held_back=held_back), stalls, config.vehicles, draws
-    )
-
-    def parts() -> Iterator[Iterable[Placement]]:
-        yield (floors := list(surveyed_floor(ground, network, stalls)))
-        if look.floor.finish is FloorFinish.PATCHED:
-            yield floor_repairs(floors, draws)
-        yield bare_stall_panels(stalls, look.markings)
-        yield wheel_stops(stalls, fittings, config.standard)
-        yield [*parked.cars, *number_plates(stalls, parked.cars, draws, country)]
-        yield stall_numbers(stalls, None, look, fittings)
-        yield chargers(stalls)
-        yield _ceiling(ground, config)
-        yield lamps
-        walls, gates = with_barriers(with_ramps(shell, ground.polygon, fittings, look.walls), fittings)
-        yield from (walls, gates)
-        yield ramp_lamps(ramp_lights(walls, fittings), look.lights, illuminance.luminance_nit, seed=seed)
-        yield pillars
-
+    furnishing = furnished(floor, config, look, held_back=held_back, kept_clear=kept_clear, open_boots=open_boots)
     return SurveyedLayout(
         ground.structure,
         LaneSquares(ground.structure, 0.0, nx.freeze(nx.Graph()), {}, ()),
-        ObjectTable(with_signs_of(country, parts())),
+        ObjectTable(ground.on_tiles(furnishing.objects)),
         StallTable(stalls),
         fittings.ceiling_height_m,
-        illuminance,
-        (),
+        furnishing.illuminance,
+        cores,
         np.zeros(ground.structure.shape, np.int32),
         look,
         frozenset(unreachable),
-        parked.reaching,
-        parked.misparked,
+        furnishing.reaching,
+        furnishing.misparked,
         frozenset(held_back),
         survey=survey,
         network=network,
@@ -233,10 +223,15 @@ def _access(fitted: Iterable[FittedStall]) -> Iterator[int]:
     return (stall.access for stall in fitted)
 
 
-def _columns(survey: Survey, config: GarageConfig) -> list[Placement]:
-    height_m = config.fittings.ceiling_height_m
+def _columns(survey: Survey, config: GarageConfig, look: LookConfig) -> list[Placement]:
+    """Place the columns as they were measured, with the guards of the look."""
+    height_m, guard = config.fittings.ceiling_height_m, look.columns
     return [
-        placed(f"Column_{number:03d}", ColumnSpec(round(column.size_m, 3), height_m), column.centre)
+        placed(
+            f"Column_{number:03d}",
+            ColumnSpec(round(column.size_m, 3), height_m, guard=guard.guard, guard_height_m=guard.guard_height_m),
+            column.centre,
+        )
         for number, column in enumerate(survey.columns, start=1)
     ]
 
@@ -248,23 +243,3 @@ def _ceiling(ground: SurveyedGround, config: GarageConfig) -> Iterator[Placement
         spec = CeilingSpec(round(right - left, 6), round(front - back, 6), CEILING_THICKNESS_M)
         place = (left + right) / 2, (back + front) / 2
         yield placed("Ceiling", spec, place, height_m=config.fittings.ceiling_height_m, square=tile.square)
-
-
-def _tubes(ground: SurveyedGround, config: GarageConfig) -> Iterator[Placement]:
-    """Yield tube lights under the ceiling of each tile whose middle is inside the outline."""
-    count = config.fittings.tubes_per_cell
-    for tile in ground:
-        x, z = tile.middle_m
-        if not count or not ground.polygon.contains(shapely.Point(x, z)):
-            continue
-        aside = (-_TUBE_ASIDE_M, _TUBE_ASIDE_M) if count > 1 else (0.0,)
-        for number, along in enumerate(aside, start=1):
-            height_m = config.fittings.ceiling_height_m
-            yield placed(f"Tube_{number}", TUBE, (x + along, z), height_m=height_m, square=tile.square)
-
-
-def _lane_points(network: LaneGraph) -> NDArray[np.float64]:
-    """Return points on the lanes at which their illuminance is computed."""
-    return lane_points_of(
-        (*node.position, *(node.sides_m or node.widths_m)) for node in network.nodes if not node.is_portal
-    )

@@ -61,8 +61,12 @@ def _noted(stall: FittedStall, number: str) -> FittedStall:
 
 
 def _numbers(fitted: Iterable[FittedStall]) -> list[str]:
-    """Return the number of each stall: that of the survey, or counted through where some lack one or share it."""
+    """Return the number of each stall: that of the survey, or counted through where some lack one or share it.
+
+    Stalls in which nobody parks need none.
+    """
     given = [stall.source.number for stall in fitted]
-    if all(given) and len(set(given)) == len(given):
+    asked = [stall.source.number for stall in fitted if stall.source.use.is_parked_in]
+    if all(asked) and len(set(asked)) == len(asked):
         return given
     return [f"{number:02d}" for number in range(1, len(given) + 1)]

@@ -14,9 +14,10 @@ from garage2usd.config.look import WallsLook
 from garage2usd.config.site import DOOR_FRAME_M, DOOR_JAMB_M
 from garage2usd.garage import LaneKind
 from garage2usd.layout.placement import Placement, placed
+from garage2usd.layout.surveyed.ground import SurveyedGround
 from garage2usd.objects.outline import Point
 from garage2usd.objects.portal import PortalSpec
-from garage2usd.objects.wall import WallSpec
+from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.survey.lane_network import Gate
 from garage2usd.survey.survey import PortalKind, SurveyedLane, SurveyedPortal
 
@@ -32,6 +33,7 @@ _KINDS = {
     PortalKind.BOTH: (LaneKind.ENTRANCE, LaneKind.EXIT),
 }
 _DIGITS = 6
+_TURN_TOLERANCE = 1e-6
 
 
 class _Side(NamedTuple):
@@ -112,38 +114,57 @@ def gates_of(
 
 
 def surveyed_walls(
-    outline: shapely.Polygon, gates: Iterable[Gate], fittings: FittingsConfig, look: WallsLook
+    ground: SurveyedGround, gates: Iterable[Gate], fittings: FittingsConfig, look: WallsLook
 ) -> list[Placement]:
-    """Place a wall outside every side of the outline, and a vehicle door at each gate.
+    """Place walls outside every side of the outline, and a vehicle door at each gate.
 
-    Each wall is longer at its end by the thickness of the next one where they meet in a convex corner, and shorter in a
-    reflex one.
+    Walls are cut at the lines of columns. Posts stand in convex right-angled corners. At others the last wall of a side
+    is longer by the thickness of the next side's in a convex corner, and shorter in a reflex one.
     """
     walls: list[Placement] = []
-    gates, sides = list(gates), _sides(outline)
+    gates, sides = list(gates), _sides(ground.polygon)
     for number, side in enumerate(sides):
         following = sides[(number + 1) % len(sides)]
         turn = side.along[0] * following.along[1] - side.along[1] * following.along[0]
-        corner_m = fittings.wall_thickness_m * turn
+        is_square = turn > 1 - _TURN_TOLERANCE
+        corner_m = 0.0 if is_square else fittings.wall_thickness_m * turn
+        if is_square:
+            walls.append(_post(number, side, following, fittings))
         doors = sorted(
             (_run_m(side, gate.foot), gate)
             for gate in gates
             if _distance_m(side, gate.foot) < _LEAST_WALL_M and gate.outwards == side.outwards
         )
-        cuts = [0.0]
+        bounds = [0.0]
         for run, gate in doors:
-            cuts += [run - gate.wall_m / 2, run + gate.wall_m / 2]
-        cuts.append(side.length_m + corner_m)
-        for piece, (start, end) in enumerate(pairwise(cuts)):
+            bounds += [run - gate.wall_m / 2, run + gate.wall_m / 2]
+        bounds.append(side.length_m)
+        cuts: list[tuple[float, Gate | None]] = [(0.0, None)]
+        for index, (low, high) in enumerate(pairwise(bounds)):
+            if index % 2:
+                cuts.append((high, doors[index // 2][1]))
+            else:
+                cuts += [(low + cut, None) for cut in ground.lines.cuts_m(side.at(low), side.at(high))[1:]]
+        cuts[-1] = side.length_m + corner_m, None
+        for piece, ((start, _), (end, door)) in enumerate(pairwise(cuts)):
             if end - start < _LEAST_WALL_M:
                 continue
-            door = doors[piece // 2][1] if piece % 2 else None
             spec = _spec(end - start, fittings, look, door)
             name = f"{'Wall' if door is None else 'Portal'}_{number + 1:02d}_{piece + 1}"
             # the inner face looks to +Z, which is inwards
             inwards = -side.outwards[0], -side.outwards[1]
             walls.append(placed(name, spec, side.at((start + end) / 2), yaw_rad=_yaw_rad(inwards)))
     return walls
+
+
+def _post(number: int, side: _Side, following: _Side, fittings: FittingsConfig) -> Placement:
+    """Return the post in the convex right-angled corner at the end of a side."""
+    half_m = fittings.wall_thickness_m / 2
+    (x, z), (out_x, out_z), (next_x, next_z) = side.end, side.outwards, following.outwards
+    place = x + half_m * (out_x + next_x), z + half_m * (out_z + next_z)
+    spec = WallPostSpec(fittings.wall_thickness_m, fittings.ceiling_height_m)
+    yaw_rad = math.remainder(_yaw_rad(side.outwards), math.pi / 2)
+    return placed(f"Post_{number + 1:02d}", spec, place, yaw_rad=0.0 if abs(yaw_rad) < _TURN_TOLERANCE else yaw_rad)
 
 
 def _spec(length_m: float, fittings: FittingsConfig, look: WallsLook, door: Gate | None) -> WallSpec | PortalSpec:

@@ -20,7 +20,7 @@ from garage2usd.config.clutter import ClutterConfig
 from garage2usd.driving.layout_garage import prove_stalls
 from garage2usd.layout import ObjectTable
 from garage2usd.layout.placement import placed
-from garage2usd.layout.shell.building import ground_inside
+from garage2usd.layout.tiles import ground_inside
 from garage2usd.objects.car import OpenCarSpec
 from garage2usd.objects.person import PersonSpec
 from garage2usd.pipeline import generate
