@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from garage2usd.common.errors import ConfigError, Garage2UsdError, GenerationError, UnreachableStallError
     from garage2usd.config import GarageConfig, load_config
     from garage2usd.exports import export
+    from garage2usd.imports import import_layout
     from garage2usd.pipeline import Build, Garage, build, generate
     from garage2usd.planning.optimum import Optimum, find_optimum
     from garage2usd.structure.grid import Structure
@@ -31,6 +32,7 @@ __all__ = [
     "export",
     "find_optimum",
     "generate",
+    "import_layout",
     "load_config",
 ]
 
@@ -48,6 +50,7 @@ _HOME = {
     "export": "exports",
     "find_optimum": "planning.optimum",
     "generate": "pipeline",
+    "import_layout": "imports",
     "load_config": "config",
 }
 __getattr__ = on_first_use(__name__, _HOME)
