@@ -1,4 +1,5 @@
 """Tiles: pieces of a floor in metres with what lies around them, and the squares of a plan as such pieces."""
+# Over 300 lines: what a piece of floor is asked, and the squares of a plan that answer it.
 
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence

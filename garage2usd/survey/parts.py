@@ -1,4 +1,5 @@
 """Parts of a survey as a reader finds them: stalls checked for four corners, unique names, one outline of many."""
+# Over 300 lines: each kind of part is read with what can be wrong with it.
 
 import math
 from collections import Counter

@@ -1,4 +1,5 @@
 """The lanes of a floor without squares, cut into pieces: junctions, bends, portals and what lies between them."""
+# Over 300 lines: junctions and the stretches between them are cut at common edges.
 
 import math
 from collections.abc import Iterator, Mapping, Sequence

@@ -1,4 +1,5 @@
 """The pieces of a floor without squares: cuts of its lanes, rows of stalls, and the free ground between them."""
+# Over 300 lines: lanes, rows and free ground are cut one after the other, each from what the others leave.
 
 import math
 from collections import defaultdict
