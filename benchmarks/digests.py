@@ -159,7 +159,7 @@ def _made(settings: Mapping[str, Any], folder: Path) -> _Made:
             source = folder / "drawing.toml"
             source.write_text(settings["survey"])
         imported = import_layout(source, place, config=config_from_mapping(low))
-        return _Made(imported.stage, imported.report, imported.labels, [imported.layout])
+        return _Made(imported.stage, imported.report, imported.labels, [imported.garage.layout])
     config = config_from_mapping(low | dict(settings))
     built = build(config, place)
     levels = built.garage.levels

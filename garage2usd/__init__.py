@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from garage2usd.config import GarageConfig, load_config
     from garage2usd.exports import export
     from garage2usd.garage_sources import check_file
+    from garage2usd.imports import import_layout
     from garage2usd.pipeline import Build, Garage, build, generate
     from garage2usd.planning.optimum import Optimum, find_optimum
     from garage2usd.structure.grid import Structure
@@ -33,6 +34,7 @@ __all__ = [
     "export",
     "find_optimum",
     "generate",
+    "import_layout",
     "load_config",
 ]
 
@@ -51,6 +53,7 @@ _HOME = {
     "export": "exports",
     "find_optimum": "planning.optimum",
     "generate": "pipeline",
+    "import_layout": "imports",
     "load_config": "config",
 }
 __getattr__ = on_first_use(__name__, _HOME)

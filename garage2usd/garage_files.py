@@ -136,15 +136,14 @@ def draw_pictures(
 
 
 def _pictures(level: GarageLevel, *, learning_curve: bool, best_plans: int) -> dict[str, Image.Image]:
-    plan = level.plan
     pictures = {"plan": to_image(draw_plan(level.layout))}
     if learning_curve:
-        pictures["learning"] = draw_learning_curve(plan.learning_curve)
+        pictures["learning"] = draw_learning_curve(level.plan.learning_curve)
     if best_plans:
         pictures["best"] = draw_structures(
             [
                 (entry.structure, f"{entry.score.value:.2f} {'polished' if entry.is_polished else 'learnt'}")
-                for entry in plan.archive[:best_plans]
+                for entry in level.plan.archive[:best_plans]
             ]
         )
     return pictures

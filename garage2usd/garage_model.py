@@ -1,8 +1,9 @@
-"""A generated garage as a value: its building, and each level with its site, plan, lanes and layout."""
+"""A garage as a value: its building, and each level with its layout and, where one was made, its plan."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,11 +19,29 @@ from garage2usd.structure.building import Building
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneSquares
 
-__all__ = ["TAPE_JOINT", "Garage", "GarageLevel"]
+__all__ = ["TAPE_JOINT", "Garage", "GarageLevel", "PlannedParts"]
 
 TAPE_JOINT = "/"
 """Stands between the tapes of the ramps and of the levels."""
 _DECIMALS = 6
+
+
+class PlannedParts(NamedTuple):
+    """What a level was planned from, and as.
+
+    Attributes
+    ----------
+    site
+        Static objects only, as its lanes were planned on.
+    plan
+        The structure with its lanes, its score, and the archive of other plans.
+    graph
+        The lane graph in squares; every stall is reached from an entrance and reaches an exit.
+    """
+
+    site: Structure
+    plan: Plan
+    graph: LaneSquares
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,26 +56,41 @@ class GarageLevel:
         Height of its floor; the top one lies at 0.
     config
         The settings of this level alone; those of the garage where it is the only one.
-    site
-        Static objects only, as its lanes were planned on.
-    plan
-        The structure with its lanes, its score, and the archive of other plans.
-    graph
-        The lane graph in squares; every stall is reached from an entrance and reaches an exit.
     layout
         Every object in metres, with the floor at 0. Landings of ramps are portals of the level.
     is_only
         True if the garage has no other level. Then names of stalls and files do without that of the level.
+    planned
+        What it was planned from and as; None for a level that was surveyed. ``site``, ``plan`` and ``graph`` are its
+        parts, and raise an error there.
     """
 
     name: str
     floor_m: float
     config: GarageConfig
-    site: Structure
-    plan: Plan
-    graph: LaneSquares
     layout: Layout
     is_only: bool
+    planned: PlannedParts | None
+
+    @property
+    def site(self) -> Structure:
+        """Static objects only."""
+        return self._planned("site").site
+
+    @property
+    def plan(self) -> Plan:
+        """The structure with its lanes, its score, and the archive of other plans."""
+        return self._planned("plan").plan
+
+    @property
+    def graph(self) -> LaneSquares:
+        """The lane graph in squares."""
+        return self._planned("graph").graph
+
+    def _planned(self, field: str) -> PlannedParts:
+        if self.planned is None:
+            raise Garage2UsdError(f"{field}: a garage that was imported has none")
+        return self.planned
 
     def in_whole(self, name: str, *, joint: str = "/") -> str:
         """Return the name in the whole garage of a stall or file of this level: ``U2/A1-08``, ``U2_plan``."""
@@ -65,13 +99,13 @@ class GarageLevel:
     @property
     def metadata(self) -> dict[str, str | int]:
         """Description of the making of the level, for its stage."""
-        digest = self.plan.structure.digest()
-        return _metadata(self.config) | {"structureDigest": digest, "profile": self.config.standard.name}
+        digest = {} if self.planned is None else {"structureDigest": self.planned.plan.structure.digest()}
+        return _metadata(self.config) | digest | {"profile": self.config.standard.name}
 
 
 @dataclass(frozen=True, eq=False)
 class Garage:
-    """A generated garage of one level or several.
+    """A garage of one level or several, generated or imported.
 
     Attributes
     ----------
@@ -81,6 +115,8 @@ class Garage:
         S of each level, R and C of all, and the ramps between levels.
     levels
         The levels, the top one first.
+    origin
+        Name and digest of the file that it was imported from; empty for others.
 
     Notes
     -----
@@ -91,6 +127,7 @@ class Garage:
     config: GarageConfig
     building: Building
     levels: tuple[GarageLevel, ...]
+    origin: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def site(self) -> Structure:
@@ -114,8 +151,8 @@ class Garage:
 
     @property
     def plans(self) -> tuple[Plan, ...]:
-        """Plan of each level."""
-        return tuple(level.plan for level in self.levels)
+        """Plan of each level; empty for a garage that was imported."""
+        return tuple(level.planned.plan for level in self.levels if level.planned is not None)
 
     @property
     def lanes(self) -> LaneGraph:
@@ -154,7 +191,7 @@ class Garage:
     def metadata(self) -> dict[str, str | int]:
         """Description of the making of the garage, for its stage."""
         if self.building.ramps is None:
-            return self.levels[0].metadata
+            return {**self.levels[0].metadata, **self.origin}
         return _metadata(self.config) | {"profile": self.config.standard.name}
 
     @cached_property

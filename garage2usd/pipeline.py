@@ -3,26 +3,30 @@
 
 import logging
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import Any
+
+from PIL import Image
 
 from garage2usd.as_built.levels import laid_out_levels
 from garage2usd.checks import Finding, judged_layout
 from garage2usd.checks.swept_path import design_car
 from garage2usd.common.errors import ConfigError, GenerationError
+from garage2usd.common.json_text import json_text
 from garage2usd.common.output import check_file, check_name, check_writable, publish_at, staging_folder
 from garage2usd.common.processes import run_in_forks, without_collector
 from garage2usd.common.progress import Progress, silent
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import UnreachableStalls
-from garage2usd.driving import DesignCar, with_clutter, with_truth_of_misparked, without_unreachable
+from garage2usd.driving import DesignCar, StallProof, with_clutter, with_truth_of_misparked, without_unreachable
 from garage2usd.driving.refusal import refuse_undrivable
 from garage2usd.garage.joined_levels import unreached_stalls
 from garage2usd.garage_files import draw_pictures, make_garage_report, write_garage_labels, write_garage_stage
-from garage2usd.garage_model import Garage, GarageLevel
+from garage2usd.garage_model import Garage, GarageLevel, PlannedParts
 from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.egress.exits import Egress, plan_egress
 from garage2usd.layout.egress.shafts import LevelPlan
@@ -32,7 +36,6 @@ from garage2usd.level_plans import ATTEMPTS, PlannedLevel, lane_squares_of, plan
 from garage2usd.maps.level_drives import LevelsDrivePlanner
 from garage2usd.planning import Plan
 from garage2usd.reading.report import UnmetClause
-from garage2usd.report import write_report
 from garage2usd.site.levels import LevelSites
 from garage2usd.stage import StageFormat, shared_folder
 from garage2usd.stage.levels import path_on_level
@@ -40,7 +43,17 @@ from garage2usd.structure.building import Building, level_name
 from garage2usd.structure.lane_graph import LaneSquares
 from garage2usd.view.raster import write_png
 
-__all__ = ["Build", "Garage", "GarageLevel", "Judged", "build", "generate", "generate_plan"]
+__all__ = [
+    "Build",
+    "Garage",
+    "GarageLevel",
+    "Judged",
+    "build",
+    "checked_output",
+    "generate",
+    "generate_plan",
+    "written",
+]
 
 _LOG = logging.getLogger(__name__)
 _MOST_CHECKED_STALLS = 10_000
@@ -85,6 +98,8 @@ class Build:
         Seconds that each step took.
     judged
         What each level misses of its profile; None for more than 10,000 stalls, which take longer.
+    proofs
+        For each stall of an imported garage that takes cars, whether a car drives in and out, if that was asked for.
     """
 
     garage: Garage
@@ -96,6 +111,7 @@ class Build:
     shared_assets: Path | None
     seconds: dict[str, float]
     judged: tuple[Judged, ...] | None = None
+    proofs: tuple[StallProof, ...] = ()
 
     @property
     def findings(self) -> tuple[Finding, ...] | None:
@@ -207,18 +223,65 @@ def build(
     OutputError
         If the files cannot be written. They appear whole or not at all.
     """
+    config = config or GarageConfig()
+    path = checked_output(output, config)
+    garage, seconds = _generate(config, seed=seed, tape=tape, jobs=jobs, progress=progress)
+    draw = partial(draw_pictures, garage, learning_curve=learning_curve, best_plans=best_plans)
+
+    def report(judged: Sequence[Judged] | None) -> Mapping[str, Any]:
+        unmet = None if judged is None else [each.unmet for each in judged]
+        facts: Mapping[str, Any] = make_garage_report(garage, seconds=seconds, unmet=unmet).model_dump(mode="json")
+        return facts
+
+    judge = partial(_judged, garage)
+    return written(garage, path, seconds, draw=draw, judge=judge, report=report, progress=progress)
+
+
+def checked_output(output: str | Path, config: GarageConfig) -> Path:
+    """Return the path of a stage that can be written, with what comes beside it; raises as `build`."""
     path = Path(output)
     if path.suffix.lower() not in set(StageFormat) or not path.stem:
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
     check_name(path, of_layer=True)
-    config = config or GarageConfig()
     check_file(path, with_it=(path.with_name(f"{path.stem}_{name}") for name in _names_beside(config)))
     if shared := shared_folder(path, config.stage):
         check_writable(shared)
-    garage, seconds = _generate(config, seed=seed, tape=tape, jobs=jobs, progress=progress)
+    return path
+
+
+def written(
+    garage: Garage,
+    path: Path,
+    seconds: dict[str, float],
+    *,
+    draw: Callable[[], Mapping[str, Image.Image]],
+    judge: Callable[[], tuple[Judged, ...] | None],
+    report: Callable[[Sequence[Judged] | None], Mapping[str, Any]],
+    progress: Progress = silent,
+) -> Build:
+    """Write the files of a garage, whole or not at all.
+
+    Parameters
+    ----------
+    garage
+        The garage.
+    path
+        The stage, as `checked_output` returned it.
+    seconds
+        Seconds that each step took, to which those of this one are added.
+    draw
+        Draws its pictures by name.
+    judge
+        Checks each level against its profile.
+    report
+        Returns the facts of its report, with what the levels miss.
+    progress
+        As for `build`.
+    """
+    shared = shared_folder(path, garage.config.stage)
     with staging_folder(path) as staging:
         with _timed(seconds, "stage") as told:
-            pictures = draw_pictures(garage, learning_curve=learning_curve, best_plans=best_plans)
+            pictures = draw()
             drawn = [staging / f"{path.stem}_{name}.png" for name in pictures]
             for picture, image in zip(drawn, pictures.values(), strict=True):
                 write_png(image, picture)
@@ -230,20 +293,19 @@ def build(
             write_garage_labels(garage, labels)
             told.append(f"{place.name}, its labels and {len(drawn)} pictures")
         with _timed(seconds, "check") as told:
-            judged = _judged(garage)
+            judged = judge()
             told.append("too many stalls" if judged is None else _counted(judged))
-        report = staging / f"{path.stem}_report.json"
-        unmet = None if judged is None else [each.unmet for each in judged]
-        write_report(report, make_garage_report(garage, seconds=seconds, unmet=unmet))
+        facts = staging / f"{path.stem}_report.json"
+        facts.write_text(json_text(report(judged)), encoding="utf-8", newline="\n")
         progress("files", 0, 1)
         # the stage comes last: where it stands, all of it does
-        files = [*filter(None, [made.assets]), *drawn, labels, report]
+        files = [*filter(None, [made.assets]), *drawn, labels, facts]
         place_of = {file: path.with_name(file.name) for file in files} | {made.stage: path}
         publish_at(place_of)
     return Build(
         garage=garage,
         stage=place_of[made.stage],
-        report=place_of[report],
+        report=place_of[facts],
         labels=place_of[labels],
         pictures=tuple(place_of[picture] for picture in drawn),
         asset_folder=place_of[made.assets] if made.assets else None,
@@ -359,11 +421,9 @@ def _laid_out(
             name=level_name(number),
             floor_m=building.floor_m(number),
             config=each.config,
-            site=each.site,
-            plan=each.plan,
-            graph=graph,
             layout=layout,
             is_only=sites.ramps is None,
+            planned=PlannedParts(each.site, each.plan, graph),
         )
         for number, (each, graph, layout) in enumerate(zip(planned, graphs, run_in_forks(tasks, jobs), strict=True))
     )

@@ -124,7 +124,7 @@ def make_report(
         illuminance=layout.illuminance,
         not_designed_to=None if unmet is None else tuple(unmet),
         remarks=config.remarks(),
-        lane_kinds=layout.kinds_of_squares(),
+        lane_kinds=layout.source.kinds_of_squares(),
         object_counts=layout.counts(),
         columns_at_mouths=layout.columns_at_mouths() if config.bay.column_setback_m else None,
         unreachable_stalls=tuple(sorted(layout.unreachable)),

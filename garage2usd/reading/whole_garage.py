@@ -9,7 +9,7 @@ from pxr import Gf, Usd, UsdGeom
 
 from garage2usd.common.errors import StageError
 from garage2usd.reading.files import open_stage
-from garage2usd.scenes.values import READ_AT, Z_UP_TO_Y_UP, metres_y_up
+from garage2usd.scenes.values import READ_AT, Z_UP_TO_Y_UP, metres_y_up, numbers_of
 
 __all__ = ["GRAPH", "LEVELS", "garage_root", "in_own_frame", "open_garage"]
 
@@ -20,9 +20,11 @@ GRAPH = "LaneGraph"
 _SHOWN = {"level": "all", "ceiling": "shown"}
 """Variants that hide nothing, by variant set."""
 _FRAME = "ownFrame"
-_SAME = 1e-9
 _DIGITS = 9
 _LEAST_SCALE = 1e-9
+_CORNERS = 3
+_ALL = Usd.TraverseInstanceProxies(Usd.PrimIsDefined)
+"""Includes inactive prims."""
 
 _Matrix = NDArray[np.float64]
 
@@ -37,9 +39,9 @@ def open_garage(path: Path) -> Usd.Stage:
     levels, its groups and its ceiling. A single hidden object is no part of the garage.
     """
     stage = open_stage(path)
-    root = garage_root(stage)
-    if root and (root.GetChild(GRAPH) or root.GetChild(LEVELS)):
-        with Usd.EditContext(stage, stage.GetSessionLayer()):
+    with Usd.EditContext(stage, stage.GetSessionLayer()):
+        root = _editable_root(stage)
+        if root and (root.GetChild(GRAPH) or root.GetChild(LEVELS)):
             _show(root)
             _put_back(stage, root)
     return stage
@@ -50,17 +52,36 @@ def garage_root(stage: Usd.Stage) -> Usd.Prim:
     root = stage.GetDefaultPrim()
     if root and (root.GetChild(GRAPH) or root.GetChild(LEVELS)):
         return root
-    graph = next((prim for prim in stage.Traverse() if prim.GetName() == GRAPH), None)
-    return root if graph is None else graph.GetParent()
+    prims = [stage.GetPseudoRoot()]
+    while prims:  # breadth first: levels have inactive lane graphs of their own, deeper down
+        graph = next((prim for prim in prims if prim.GetName() == GRAPH), None)
+        if graph is not None:
+            return graph.GetParent()
+        prims = [child for prim in prims for child in prim.GetFilteredChildren(_ALL)]
+    return root
 
 
-def in_own_frame(to_world: _Matrix) -> _Matrix | None:
+def _editable_root(stage: Usd.Stage) -> Usd.Prim:
+    """Return the root of a garage, of which no prim above is an instance any more: nothing in instances is edited."""
+    root = garage_root(stage)
+    while root and (root.IsInstance() or root.IsInstanceProxy()):
+        held = root
+        while not held.IsInstance():
+            held = held.GetParent()
+        held.SetInstanceable(False)
+        root = garage_root(stage)
+    return root
+
+
+def in_own_frame(to_world: _Matrix, *, is_z_up: bool | None = None) -> _Matrix | None:
     """Return the part of a transform that is no turn and no shift: its scale, and the exchange of axes to Y up.
 
     Parameters
     ----------
     to_world
         From a prim's coordinates to the world's, in metres with Y up, for row vectors; float64, shape (4, 4).
+    is_z_up
+        True if the prim's own coordinates have Z up, False for Y; None for the axis that is the steeper one.
 
     Returns
     -------
@@ -75,7 +96,9 @@ def in_own_frame(to_world: _Matrix) -> _Matrix | None:
         mirror = np.diag([-1.0, 1.0, 1.0])
         size, turn = size @ mirror, mirror @ turn
     own = np.eye(4)
-    axes = np.eye(3) if abs(turn[1, 1]) >= abs(turn[2, 1]) else Z_UP_TO_Y_UP[:3, :3]
+    if is_z_up is None:
+        is_z_up = abs(turn[1, 1]) < abs(turn[2, 1])
+    axes = Z_UP_TO_Y_UP[:3, :3] if is_z_up else np.eye(3)
     own[:3, :3] = np.round(size @ axes, _DIGITS)
     return own
 
@@ -122,19 +145,38 @@ def _put_back(stage: Usd.Stage, root: Usd.Prim) -> None:
     to_world = np.array(UsdGeom.XformCache(READ_AT).GetLocalToWorldTransform(root)) @ to_metres
     if not np.isfinite(to_world).all():
         return
-    own = in_own_frame(to_world)
+    own = in_own_frame(to_world, is_z_up=_has_z_up(root))
     if own is None:
         raise StageError(
             stage.GetRootLayer().realPath, f"{root.GetPath()} has a scale of 0, so nothing in it has a size"
         )
-    back = to_metres @ np.linalg.inv(to_world) @ own @ np.linalg.inv(to_metres)
-    if np.abs(back - np.eye(4)).max() < _SAME:
+    if np.array_equal(to_world, own):
         return
+    to_stage = np.linalg.inv(to_metres)
+    back = Gf.Matrix4d(to_metres @ np.linalg.inv(to_world) @ own @ to_stage)
     for xformable in _outermost(stage.GetPseudoRoot()):
         operations, resets = xformable.GetOrderedXformOps(), xformable.GetResetXformStack()
         operation = xformable.AddTransformOp(opSuffix=_FRAME)
-        operation.Set(Gf.Matrix4d(back))
+        operation.Set(back)
         xformable.SetXformOpOrder([operation, *operations], resets)
+    whole = UsdGeom.Xformable(root)
+    operation = UsdGeom.XformOp(whole.GetTransformOp(opSuffix=_FRAME)) or whole.AddTransformOp(opSuffix=_FRAME)
+    operation.Set(Gf.Matrix4d(own @ to_stage))
+    whole.SetXformOpOrder([operation], True)  # without the rounding of the way there and back
+
+
+def _has_z_up(root: Usd.Prim) -> bool | None:
+    """Return True if the floor of a garage is normal to its own Z axis, False if to Y; None without stalls."""
+    stalls = UsdGeom.BasisCurves(root.GetPrimAtPath(f"{GRAPH}/Stalls"))
+    if not (stalls and UsdGeom.Xformable(root)):
+        return None
+    points = numbers_of(stalls.GetPointsAttr(), np.float64, width=3)
+    if len(points) < _CORNERS:
+        return None
+    to_root = np.array(UsdGeom.XformCache(READ_AT).ComputeRelativeTransform(stalls.GetPrim(), root)[0])[:3, :3]
+    first, second, third = points[:_CORNERS] @ to_root
+    normal = np.abs(np.cross(second - first, third - second))
+    return bool(normal[2] > normal[1])
 
 
 def _outermost(prim: Usd.Prim) -> Iterator[UsdGeom.Xformable]:

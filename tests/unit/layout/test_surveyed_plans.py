@@ -55,7 +55,7 @@ EACH = [name if name in QUICK else pytest.param(name, marks=pytest.mark.soak) fo
 @pytest.mark.parametrize("name", EACH)
 def test_it_has_every_kind_of_object(name):
     _, planned, surveyed = both(name)
-    assert not surveyed.unplaced
+    assert not surveyed.source.unplaced
     assert planned.counts().keys() == surveyed.counts().keys()
     off = {
         kind: (count, surveyed.counts()[kind])
@@ -85,7 +85,7 @@ def test_a_garage_that_is_turned_in_its_survey_is_furnished_alike(turn_deg):
 def test_things_stand_about_in_an_import_where_no_car_drives(tmp_path):
     config = GarageConfig(**PLANS["plain"], clutter={"people": 20, "bags": 10})
     made = import_layout(survey_of(both("plain")[1]), tmp_path / "lot.usdc", config=config)
-    assert made.layout.counts()["person"] > 0
+    assert made.garage.layout.counts()["person"] > 0
     assert {proof.outcome.value for proof in made.proofs} == {"reached"}
     assert not [finding for finding in made.findings if finding.severity == "error"]
 
