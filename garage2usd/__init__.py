@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from garage2usd.common.errors import ConfigError, Garage2UsdError, GenerationError, UnreachableStallError
     from garage2usd.config import GarageConfig, load_config
     from garage2usd.exports import export
+    from garage2usd.garage_sources import check_file
     from garage2usd.imports import import_layout
     from garage2usd.pipeline import Build, Garage, build, generate
     from garage2usd.planning.optimum import Optimum, find_optimum
@@ -29,6 +30,7 @@ __all__ = [
     "Structure",
     "UnreachableStallError",
     "build",
+    "check_file",
     "export",
     "find_optimum",
     "generate",
@@ -47,6 +49,7 @@ _HOME = {
     "Structure": "structure.grid",
     "UnreachableStallError": "common.errors",
     "build": "pipeline",
+    "check_file": "garage_sources",
     "export": "exports",
     "find_optimum": "planning.optimum",
     "generate": "pipeline",

@@ -30,7 +30,7 @@ from garage2usd.reading.files import STAGE_SUFFIXES
 from garage2usd.reading.levels_report import LevelReport, read_levels_report
 from garage2usd.stage import StageFormat
 
-__all__ = ["BuiltSource", "built_source", "generated_of", "read_built", "refuse_seed"]
+__all__ = ["BuiltSource", "built_source", "check_file", "generated_of", "read_built", "refuse_seed"]
 
 _SETTINGS, _REPORT = ".toml", ".json"
 
@@ -73,6 +73,31 @@ class BuiltSource(NamedTuple):
     def floors_m(self) -> Mapping[str, float] | None:
         """Return the height of the floor under each stall, by its name; None in a garage of one level."""
         return floors_of_stalls(self.garage) if isinstance(self.garage, BuiltLevels) else None
+
+
+def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[list[Finding], Profile]:
+    """Check a stage, a report or a plan of a garage of one level or several.
+
+    Parameters
+    ----------
+    path
+        A stage (``.usd``, ``.usda``, ``.usdc``, ``.usdz``), a report (``.json``), a configuration with a structure
+        (``.toml``), or a structure as text, JSON, ``.npy`` or ``.npz``.
+    profile
+        Profile to check against. The default is the profile that the file names, or else ``cn-jgj100``.
+
+    Returns
+    -------
+    tuple
+        The findings, errors first, and the profile.
+
+    Raises
+    ------
+    ConfigError, ReportError, StageError
+        If the file is none of these.
+    """
+    source = read_built(Path(path), profile=profile)
+    return source.findings(), source.profile
 
 
 def read_built(path: Path, *, profile: Profile | None = None, progress: Progress = silent) -> BuiltSource:

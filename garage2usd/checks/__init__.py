@@ -43,7 +43,6 @@ __all__ = [
     "as_json",
     "as_table",
     "check",
-    "check_file",
     "check_layout",
     "clauses_checked",
     "clauses_in_words",
@@ -129,33 +128,8 @@ def judged_layout(
     return findings, unmet_clauses(findings, not_checked(garage, config.standard))
 
 
-def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[list[Finding], Profile]:
-    """Check a stage, a report or a plan.
-
-    Parameters
-    ----------
-    path
-        A stage (``.usd``, ``.usda``, ``.usdc``, ``.usdz``), a report (``.json``), a configuration with a structure
-        (``.toml``), or a structure as text, JSON, ``.npy`` or ``.npz``.
-    profile
-        Profile to check against. The default is the profile that the file names, or else ``cn-jgj100``.
-
-    Returns
-    -------
-    tuple
-        The findings, errors first, and the profile.
-
-    Raises
-    ------
-    ConfigError, StageError
-        If the file is none of these.
-    """
-    garage, profile = read_garage(path, profile=profile)
-    return check(garage, profile), profile
-
-
 def read_garage(path: str | Path, *, profile: Profile | None = None) -> tuple[BuiltGarage, Profile]:
-    """Read a garage and the profile to check it against; parameters as for `check_file`."""
+    """Read a garage of one level and the profile to check it against; parameters as for `garage2usd.check_file`."""
     path = Path(path)
     if not is_file(path):
         raise ConfigError("PATH", str(path), "an existing file")

@@ -90,11 +90,12 @@ def _blender() -> str:
 
 def _garage(seed: int) -> tuple[str, list[str]]:
     """Make a garage; return its line of the report, and its errors."""
-    from garage2usd.checks import Severity, check_file  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.checks import Severity  # noqa: PLC0415 - keeps --help instant
     from garage2usd.common.output import staging_folder  # noqa: PLC0415
     from garage2usd.config import GarageConfig  # noqa: PLC0415
     from garage2usd.driving import prove_stalls  # noqa: PLC0415
     from garage2usd.driving.witness import write_witness  # noqa: PLC0415
+    from garage2usd.garage_sources import check_file  # noqa: PLC0415
     from garage2usd.pipeline import build  # noqa: PLC0415
     from garage2usd.reading.content import stage_digest  # noqa: PLC0415
     from garage2usd.structure.symmetry import plan_digest  # noqa: PLC0415

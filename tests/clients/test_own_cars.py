@@ -23,9 +23,10 @@ from support.viewer_page import viewed
 
 import garage2usd
 from garage2usd.as_built.driven_ground import driven_garage
-from garage2usd.checks import check_file, read_garage
+from garage2usd.checks import read_garage
 from garage2usd.config import GarageConfig
 from garage2usd.exports import export
+from garage2usd.garage_sources import check_file
 from garage2usd.maps.parked_cars import parked_cars
 from garage2usd.objects import CAR_LABELS
 from garage2usd.objects.car import OwnCarSpec

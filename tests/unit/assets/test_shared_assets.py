@@ -12,10 +12,10 @@ from pxr import Sdf, Usd, UsdGeom, UsdShade, UsdUtils
 from support.small_garage import SETTINGS
 from support.soak import soak_but
 
-from garage2usd.checks import check_file
 from garage2usd.common.errors import ConfigError, StageError
 from garage2usd.config import GarageConfig
 from garage2usd.config.stage import StageForm
+from garage2usd.garage_sources import check_file
 from garage2usd.pipeline import build
 from garage2usd.reading.files import open_stage
 from garage2usd.stage.asset_files import _asset_file

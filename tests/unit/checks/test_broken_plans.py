@@ -9,8 +9,9 @@ from support.soak import soak_but
 
 from garage2usd import GarageConfig, build
 from garage2usd.as_built.layout_reader import garage_of_layout
-from garage2usd.checks import Severity, check, check_file
+from garage2usd.checks import Severity, check
 from garage2usd.common.errors import ConfigError, ReportError, StageError
+from garage2usd.garage_sources import check_file
 from garage2usd.layout import lay_out
 from garage2usd.planning import given_plan, with_stall_kinds
 from garage2usd.profiles import load_profile, read_profile

@@ -8,10 +8,10 @@ import zipfile
 import numpy as np
 import pytest
 
-from garage2usd.checks import check_file
 from garage2usd.common.documents import read_arrays
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, load_config
+from garage2usd.garage_sources import check_file
 from garage2usd.profiles import read_profile
 from garage2usd.site import make_site
 

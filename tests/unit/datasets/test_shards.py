@@ -9,11 +9,12 @@ from hypothesis import strategies as st
 from support.data_sets import small_recipe, tree_of
 from support.soak import soak_but
 
-from garage2usd.checks import Severity, check_file
+from garage2usd.checks import Severity
 from garage2usd.common.errors import OutputError
 from garage2usd.datasets.drawn_plan import DrawnPlan
 from garage2usd.datasets.plans import planned
 from garage2usd.datasets.shards import made_rows, make_shard, shards_of, sweep
+from garage2usd.garage_sources import check_file
 from garage2usd.pipeline import build
 
 

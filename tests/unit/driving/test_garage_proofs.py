@@ -14,13 +14,13 @@ from support.sample_files import REPOSITORY
 from support.soak import soak_but
 
 import garage2usd
-from garage2usd.checks import check_file
 from garage2usd.common.errors import ConfigError
 from garage2usd.driving import DesignCar, Manoeuvre, Obstacles, prove_garage, prove_stalls
 from garage2usd.driving.lane_poses import lane_poses
 from garage2usd.driving.layout_garage import layout_garage, object_name
 from garage2usd.driving.witness import write_witness
 from garage2usd.garage import StallUse
+from garage2usd.garage_sources import check_file
 from garage2usd.layout import lay_out
 from garage2usd.stage.driving_layer import write_driving_layer
 from garage2usd.structure.grid import Cell

@@ -7,11 +7,11 @@ from itertools import pairwise
 import pytest
 
 from garage2usd.as_built.stage_reader import garage_of_stage
-from garage2usd.checks import check_file
 from garage2usd.config import config_from_mapping
 from garage2usd.driving import prove_stalls
 from garage2usd.exports import export
 from garage2usd.garage import LaneGraph
+from garage2usd.garage_sources import check_file
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.pipeline import build
 from garage2usd.reading.files import open_stage

@@ -16,10 +16,11 @@ from support.stage_lanes import read_stage
 import garage2usd
 from garage2usd import ConfigError, GarageConfig, generate
 from garage2usd.as_built.stage_reader import garage_of_file
-from garage2usd.checks import Severity, check_file, judged_layout
+from garage2usd.checks import Severity, judged_layout
 from garage2usd.cli import main
 from garage2usd.driving import prove_stalls
 from garage2usd.driving.layout_garage import layout_garage
+from garage2usd.garage_sources import check_file
 from garage2usd.profiles import PROFILE_NAMES
 from garage2usd.reading.labels import read_labels
 from garage2usd.sensors.formats.coco import CocoImage, coco_keypoints

@@ -14,9 +14,9 @@ from support.soak import soak_but
 from garage2usd.assets.countries import Country
 from garage2usd.assets.number_plates import painted_plates, plate_coordinates
 from garage2usd.assets.plate_texture import BAND, CHARACTERS, SPACE, cell_corners
-from garage2usd.checks import check_file
 from garage2usd.config import GarageConfig
 from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_BODIES, DRIVEN_PLATE, PAINTS
+from garage2usd.garage_sources import check_file
 from garage2usd.layout.parking.number_plates import number_plates
 from garage2usd.maps.glb import write_glb
 from garage2usd.objects.car import CarSpec

@@ -441,9 +441,8 @@ def test_a_report_of_levels_that_is_edited_has_findings_on_the_level(built, tmp_
     report = json.loads(built.report.read_text())
     gone = report["levels"][1]["report"]["stalls"].pop()
     (tmp_path / "a_report.json").write_text(json.dumps(report))
-    findings = json.loads(_ran("check", tmp_path / "a_report.json", "--json", code=1).stdout)["findings"]
-    (lost,) = (finding for finding in findings if finding["severity"] == "error")
-    assert (lost["rule"], lost["place"]) == ("report-stalls", f"U2/{gone['name']}")
+    (lost,) = (each for each in garage2usd.check_file(tmp_path / "a_report.json")[0] if each.severity == "error")
+    assert (lost.rule, lost.place) == ("report-stalls", f"U2/{gone['name']}")
     _ran("plan", tmp_path / "a_report.json", "--findings", "-o", tmp_path / "a.svg")
     said = {name: (tmp_path / f"a_{name}.svg").read_text().count("report-stalls") for name in ("U1", "U2")}
     assert said == {"U1": 0, "U2": 1}

@@ -15,10 +15,10 @@ from support.soak import soak_but
 
 from garage2usd.assets.stain_texture import CELLS, CELLS_ACROSS, DIRT_CELLS
 from garage2usd.assets.textures import texture_folder
-from garage2usd.checks import check_file
 from garage2usd.config import GarageConfig, LookConfig
 from garage2usd.config.look import Dirt, Drains
 from garage2usd.config.stage import TextureQuality
+from garage2usd.garage_sources import check_file
 from garage2usd.layout.floor.drains import drains
 from garage2usd.look import drawn_look, finishes_of
 from garage2usd.objects.floor_stain import DirtSpec, PuddleSpec, StainMark, StainSpec

@@ -9,9 +9,9 @@ from pxr import Usd, UsdLux, UsdShade
 
 from garage2usd.as_built.stage_reader import garage_of_file
 from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB, USUAL_TEMPERATURE_K, lamp_colour
-from garage2usd.checks import check_file
 from garage2usd.config import GarageConfig
 from garage2usd.config.look import LampKind
+from garage2usd.garage_sources import check_file
 from garage2usd.layout.ceiling.lighting import MAINTENANCE, direct_lux
 from garage2usd.layout.placement import Placement
 from garage2usd.objects.lamp import LampSpec

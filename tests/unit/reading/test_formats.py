@@ -9,10 +9,10 @@ from click.testing import CliRunner
 from pxr import Usd
 from support.sample_files import SAMPLES
 
-from garage2usd.checks import check_file
 from garage2usd.cli import main
 from garage2usd.common.errors import ReportError, StageError
 from garage2usd.common.json_text import json_text
+from garage2usd.garage_sources import check_file
 from garage2usd.reading.label_table import read_label_table
 from garage2usd.reading.labels import read_labels
 from garage2usd.reading.report import read_report
