@@ -196,6 +196,8 @@ def _read_stalls(curves: _Curves, lanes: Lanes) -> None:
             lanes.faults.append(Fault(_RULE, place, _middle_of(line), f"a stall with the unknown use {use!r}"))
         elif not _is_node(access, lanes):
             lanes.faults.append(Fault(_RULE, place, _middle_of(line), "a stall that opens onto no node"))
+        elif _least_side_m(line) < _NO_WIDTH_M:
+            lanes.faults.append(Fault(_RULE, place, _middle_of(line), "a stall without area"))
         else:
             left, right, rear_right, rear_left = (_point(corner) for corner in line)
             said = [(fact, values[index]) for fact, values in known.items() if fact != "blocked_by" or values[index]]
@@ -219,6 +221,11 @@ def _incomplete(curves: _Curves, lanes: Lanes, names: str) -> None:
 
 def _is_node(number: object, lanes: Lanes) -> bool:
     return isinstance(number, int) and 0 <= number < len(lanes.nodes)
+
+
+def _least_side_m(line: NDArray[np.float64]) -> float:
+    """Return the length on the floor of the shortest side of a stall."""
+    return float(np.linalg.norm(np.diff(line[:, [0, 2]], axis=0, append=line[:1, [0, 2]]), axis=1).min())
 
 
 def _middle_of(line: NDArray[np.float64]) -> Point:
