@@ -186,7 +186,8 @@ def _ramp_floors(levels: Sequence[FoundLevel]) -> NDArray[np.float64]:
             parts.append(places[body.shape.indices[corners]])
     triangles = np.concatenate(parts)
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    return triangles[np.abs(normals[:, 1]) > _UPWARD * np.linalg.norm(normals, axis=1)]
+    floors: NDArray[np.float64] = triangles[np.abs(normals[:, 1]) > _UPWARD * np.linalg.norm(normals, axis=1)]
+    return floors
 
 
 def _has_floor(lanes: LaneGraph, ramp: set[int], floors: NDArray[np.float64]) -> bool:
