@@ -13,13 +13,15 @@ from garage2usd.garage import Fault, LaneEdge, LaneGraph, LaneKind, LaneNode, St
 from garage2usd.objects.ramp import KIND as RAMP
 from garage2usd.reading.lanes import Lanes
 from garage2usd.reading.levels import StageLevel
+from garage2usd.scenes.polygons import triangulated
 
 __all__ = ["AttachedLevels", "FoundLevel", "attached_levels", "numbers_of_levels", "sloped_nodes"]
 
 _RISE_M = 0.01
 _MOVED_M = 0.05
-_BESIDE_RAMP_M = 0.5
-"""Tolerance in metres for the middle of a lane on a ramp within the ramp's bounding box."""
+_UPWARD = 0.5
+_ALONG, _ASIDE = (0.1, 0.5, 0.9), (-0.45, 0.0, 0.45)
+"""Shares of the length and of the width of a lane on a ramp at which the ramp has its floor."""
 
 
 class FoundLevel(NamedTuple):
@@ -152,7 +154,7 @@ def _broken_ramps(
     lanes: LaneGraph, attached: dict[int, int], levels: Sequence[FoundLevel], faults: list[Fault]
 ) -> set[int]:
     """Return the nodes on ramps that lack a floor or a level at one of their ends, and note these ramps as faults."""
-    boxes = [*_ramp_boxes(levels)]
+    floors = _ramp_floors(levels)
     left_out: set[int] = set()
     for part in sorted(map(sorted, nx.weakly_connected_components(lanes.graph.subgraph(sloped_nodes(lanes))))):
         inner = {*part, *(other for number in part for other in lanes.beside[number])}
@@ -167,34 +169,57 @@ def _broken_ramps(
         if not attached.keys() >= ends:
             faults.append(Fault("level-ramp", place, node.position, "the ramp at this landing leads to no level"))
             left_out |= inner
-        elif not _has_floor(lanes, {*part}, boxes):
-            said = "the ramp at this landing is in the lane graph, but not in the stage"
+        elif not _has_floor(lanes, {*part}, floors):
+            said = "the ramp at this landing has no floor where the lane graph has it"
             faults.append(Fault("level-ramp", place, node.position, said))
             left_out |= inner
     return left_out
 
 
-def _ramp_boxes(levels: Sequence[FoundLevel]) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
-    """Yield the lowest and the highest corner of the bounding box of each ramp."""
+def _ramp_floors(levels: Sequence[FoundLevel]) -> NDArray[np.float64]:
+    """Return the triangles of all ramps that a car can drive on; float64, shape (triangles, 3, 3)."""
+    parts = [np.zeros((0, 3, 3))]
     for level in levels:
-        for thing in level.garage.things:
-            if thing.label == RAMP.label:
-                points = np.concatenate([body.world_points() for body in thing.bodies])
-                places = points @ level.matrix[:3, :3] + level.matrix[3, :3]
-                yield places.min(axis=0) - _BESIDE_RAMP_M, places.max(axis=0) + _BESIDE_RAMP_M
+        for body in (body for thing in level.garage.things if thing.label == RAMP.label for body in thing.bodies):
+            corners, _ = triangulated(body.shape.points, body.shape.indices, body.shape.counts)
+            places = body.world_points() @ level.matrix[:3, :3] + level.matrix[3, :3]
+            parts.append(places[body.shape.indices[corners]])
+    triangles = np.concatenate(parts)
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    floors: NDArray[np.float64] = triangles[np.abs(normals[:, 1]) > _UPWARD * np.linalg.norm(normals, axis=1)]
+    return floors
 
 
-def _has_floor(
-    lanes: LaneGraph, ramp: set[int], boxes: Sequence[tuple[NDArray[np.float64], NDArray[np.float64]]]
-) -> bool:
-    """Return True if the lanes of a ramp between levels lie on an object."""
-    places = [(node.position[0], node.height_m, node.position[1]) for node in lanes.nodes]
-    middles = [
-        (np.array(places[edge.start]) + places[edge.end]) / 2
-        for edge in lanes.edges
-        if edge.start in ramp and edge.end in ramp
-    ]
-    return all(any(((low <= at) & (at <= high)).all() for low, high in boxes) for at in middles)
+def _has_floor(lanes: LaneGraph, ramp: set[int], floors: NDArray[np.float64]) -> bool:
+    """Return True if a ramp has a floor under all its lanes, along their middle and near both sides."""
+    for edge in lanes.edges:
+        if edge.start in ramp and edge.end in ramp:
+            start, end = (
+                np.array([node.position[0], node.height_m, node.position[1]])
+                for node in (lanes.nodes[edge.start], lanes.nodes[edge.end])
+            )
+            aside = np.array([start[2] - end[2], 0.0, end[0] - start[0]])
+            aside *= edge.width_m / (np.linalg.norm(aside) or 1.0)
+            if not all(
+                _is_on(floors, start + along * (end - start) + share * aside) for along in _ALONG for share in _ASIDE
+            ):
+                return False
+    return True
+
+
+def _is_on(floors: NDArray[np.float64], place: NDArray[np.float64]) -> bool:
+    """Return True if a triangle lies straight above or below a place, within the tolerance."""
+    first, second, third = (floors[:, corner][:, [0, 2]] - place[[0, 2]] for corner in range(3))
+    areas = np.stack([_crossed(second, third), _crossed(third, first), _crossed(first, second)], axis=1)
+    whole = areas.sum(axis=1)
+    is_over = ((areas >= 0).all(axis=1) | (areas <= 0).all(axis=1)) & (whole != 0)
+    heights = (areas[is_over] * floors[is_over][:, :, 1]).sum(axis=1) / whole[is_over]
+    return bool((np.abs(heights - place[1]) < _MOVED_M).any())
+
+
+def _crossed(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.float64]:
+    crossed: NDArray[np.float64] = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
+    return crossed
 
 
 def _of_levels(stalls: Sequence[Stall], levels: Sequence[FoundLevel], faults: list[Fault]) -> Iterator[Stall]:

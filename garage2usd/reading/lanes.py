@@ -22,6 +22,7 @@ _USES = {use.value for use in StallUse}
 _MOVED_M = 0.05
 """Tolerance in metres between a stall's prim and the middle of its outline, for single precision."""
 _NO_WIDTH_M = 0.1
+_NO_AREA_M2 = 0.01
 _FACTS = ("number", "type", "size", "row", "column", "entryEdge")
 _RULE = "lane-graph"
 
@@ -196,6 +197,8 @@ def _read_stalls(curves: _Curves, lanes: Lanes) -> None:
             lanes.faults.append(Fault(_RULE, place, _middle_of(line), f"a stall with the unknown use {use!r}"))
         elif not _is_node(access, lanes):
             lanes.faults.append(Fault(_RULE, place, _middle_of(line), "a stall that opens onto no node"))
+        elif _area_m2(line) < _NO_AREA_M2:
+            lanes.faults.append(Fault(_RULE, place, _middle_of(line), "a stall without area"))
         else:
             left, right, rear_right, rear_left = (_point(corner) for corner in line)
             said = [(fact, values[index]) for fact, values in known.items() if fact != "blocked_by" or values[index]]
@@ -219,6 +222,12 @@ def _incomplete(curves: _Curves, lanes: Lanes, names: str) -> None:
 
 def _is_node(number: object, lanes: Lanes) -> bool:
     return isinstance(number, int) and 0 <= number < len(lanes.nodes)
+
+
+def _area_m2(line: NDArray[np.float64]) -> float:
+    """Return the area on the floor between a stall's mouth and its left side, as of a parallelogram."""
+    (mouth_x, mouth_z), (side_x, side_z) = line[[1, 3]][:, [0, 2]] - line[0, [0, 2]]
+    return float(abs(mouth_x * side_z - mouth_z * side_x))
 
 
 def _middle_of(line: NDArray[np.float64]) -> Point:

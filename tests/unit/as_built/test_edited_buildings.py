@@ -6,6 +6,7 @@ from support.edited_stages import chosen, edited, hidden, moved
 from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
+from garage2usd.checks.levels import read_stage
 from garage2usd.exports import export
 
 MAPS = (".xodr", ".osm", ".yaml")
@@ -58,3 +59,15 @@ def maps(one, tmp_path_factory):
 @pytest.mark.parametrize("place", AWAY.values(), ids=AWAY)
 def test_maps_of_a_garage_are_the_same_wherever_it_stands(place, one, maps, tmp_path):
     assert exported(place(one, tmp_path / "away.usda"), tmp_path / "maps") == maps
+
+
+@pytest.mark.parametrize("corner", [1, 3])
+def test_a_stall_without_area_is_a_fault_of_the_lane_graph(corner, one, tmp_path):
+    def flatten(stage):
+        points = stage.GetPrimAtPath("/Garage/LaneGraph/Stalls").GetAttribute("points")
+        corners = list(points.Get())
+        corners[corner] = corners[0]
+        points.Set(corners)
+
+    garage, _ = read_stage(edited(one, tmp_path / "flat.usda", flatten))
+    assert [fault.message for fault in garage.faults if fault.rule == "lane-graph"] == ["a stall without area"]

@@ -5,11 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.edited_stages import edited, inactive, moved, without_what_lanes_do_without
 
 import garage2usd
 from garage2usd import ConfigError, GarageConfig, GenerationError
 from garage2usd.as_built.levels import built_levels
-from garage2usd.checks.levels import check_levels
+from garage2usd.checks.levels import check_levels, read_stage
 from garage2usd.exports import export
 from garage2usd.maps.level_drives import LevelsDrivePlanner
 from garage2usd.profiles import load_profile, read_profile
@@ -21,6 +22,7 @@ from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.helix import Helix
 from garage2usd.structure.stalls import Edge
 
+RAMPS = "/Garage/Levels/U2/Ramps"
 SMALL = {
     "seed": 3,
     "site": {"width_cells": 10, "height_cells": 9},
@@ -38,6 +40,12 @@ def config(levels=2, **changes):
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     return garage2usd.build(config(), tmp_path_factory.mktemp("helices") / "garage.usdc")
+
+
+@pytest.fixture(scope="module")
+def bare(made, tmp_path_factory):
+    """The garage without what its lanes and ramps are not read from."""
+    return edited(made.stage, tmp_path_factory.mktemp("bare") / "bare.usda", without_what_lanes_do_without)
 
 
 def ends(link):
@@ -137,6 +145,17 @@ def test_check_finds_nothing_and_a_stricter_clause_finds_both_helices(made):
     assert len(found) == 2
     # 7.1 % on the middle line of 8.8 m, whose inner wall has 6.7 m
     assert [each.measured for each in found] == pytest.approx([7.105 * 8.8 / 6.7] * 2, abs=0.05)
+
+
+@pytest.mark.parametrize(
+    "edit", [inactive(f"{RAMPS}/Ramp_Up"), moved(x=0.6, path=f"{RAMPS}/Ramp_Down"), moved(yaw_deg=180, path=RAMPS)]
+)
+def test_a_helix_that_is_gone_or_moved_is_found_and_not_driven_on(edit, bare, tmp_path):
+    garage, profile = read_stage(edited(bare, tmp_path / "edited.usda", edit))
+    found = {finding.rule for finding in check_levels(garage, profile, ())}
+    assert {"level-ramp", "level-route"} <= found
+    with pytest.raises(ConfigError, match="that lanes and ramps join with the street"):
+        LevelsDrivePlanner(garage).drive(garage.stalls[-1].name)
 
 
 def test_the_report_tells_helices(made):

@@ -48,6 +48,9 @@ SMALL = {
 }
 
 
+U2 = "/Garage/Levels/U2"
+
+
 def config(levels=2, **changes):
     return GarageConfig(**{**SMALL, "building": {"levels": levels}, **changes})
 
@@ -303,26 +306,34 @@ def test_a_building_that_is_moved_and_hidden_is_read_as_it_stands(bare, unmoved,
         chosen(level="U1", ceiling="hidden"),
         hidden("/Garage", "/Garage/Levels/U1"),
     )
+    tipped = edited(bare, tmp_path / "tipped.usda", moved(y=40, pitch_deg=90), hidden("/Garage/Levels", U2))
     z_up = referring(bare, tmp_path / "z_up.usda", up="Z", metres_per_unit=0.01, move=(5, 6, -300), yaw_deg=70)
-    for file in (away, z_up):
+    last = unmoved.stalls[-1].name
+    drive = LevelsDrivePlanner(unmoved).drive(last).trajectory
+    for file in (away, tipped, z_up):
         garage, profile = read_stage(file)
         assert garage.faults == ()
         assert check_levels(garage, profile, ()) == []
         assert [stall.name for stall in garage.stalls] == [stall.name for stall in unmoved.stalls]
         places = [(*node.position, node.height_m) for node in garage.lanes.nodes]
         told = [(*node.position, node.height_m) for node in unmoved.lanes.nodes]
-        assert np.abs(np.subtract(places, told)).max() < 1e-3
+        assert np.abs(np.subtract(places, told)).max() < 1e-6
+        driven = LevelsDrivePlanner(garage).drive(last).trajectory
+        for name in ("time_s", "x_m", "y_m", "z_m", "pitch_rad"):
+            assert np.abs(getattr(driven, name) - getattr(drive, name)).max() < 1e-6, name
         assert garage.lanes.edges == unmoved.lanes.edges
         assert [thing.name.rpartition("/")[2] for thing in garage.things] == [
             thing.name.rpartition("/")[2] for thing in unmoved.things
         ]
 
 
-U2 = "/Garage/Levels/U2"
 MISFITS = {
     "a level is inactive": (inactive(U2), {"level-missing", "level-ramp"}),
     "the top level is inactive": (inactive("/Garage/Levels/U1"), {"level-missing", "level-ramp", "level-route"}),
     "no ramp": (inactive(f"{U2}/Ramps"), {"level-ramp", "level-route"}),
+    "one ramp is gone": (inactive(f"{U2}/Ramps/Ramp_Up"), {"level-ramp", "level-route"}),
+    "a ramp is shifted": (moved(x=0.6, path=f"{U2}/Ramps/Ramp_Down"), {"level-ramp", "level-route"}),
+    "a ramp is lifted": (moved(y=-0.4, path=f"{U2}/Ramps/Ramp_Down"), {"level-ramp", "level-route"}),
     "a level is shifted": (moved(x=5, path=U2), {"level-moved", "level-ramp", "level-route"}),
     "a level is lifted": (moved(y=1.6, path=U2), {"level-moved", "level-height", "level-ramp", "level-route"}),
     "a level is turned": (moved(yaw_deg=20, path=U2), {"level-moved", "level-ramp", "level-route"}),
