@@ -10,9 +10,7 @@ from pathlib import Path
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from garage2usd.as_built.levels import BuiltLevels
-from garage2usd.checks import RULES, Severity, check
-from garage2usd.checks.levels import check_levels, read_stage
+from garage2usd.checks import Severity
 from garage2usd.checks.light import DEAD_LAMPS
 from garage2usd.common.errors import ConfigError, Garage2UsdError
 from garage2usd.common.output import staging_folder
@@ -25,6 +23,7 @@ from garage2usd.datasets.manifest import MANIFEST_SCHEMA, ManifestRow, rows_of_t
 from garage2usd.datasets.recipe import ASSET_FOLDER, RECIPE_FILE, Distinct, Recipe, load_recipe
 from garage2usd.datasets.shards import SHARD_FOLDER, shard_members
 from garage2usd.datasets.sums import SUMS_FILE, files_of, read_sums, sha256_of
+from garage2usd.garage_sources import check_file
 from garage2usd.structure.symmetry import levels_digest
 
 __all__ = ["Fault", "verify_dataset"]
@@ -200,8 +199,7 @@ def _of_stage(stage: Path, key: str, config: GarageConfig) -> Iterator[Fault]:
     profile = config.standard
     excused = _LIGHTING if config.look.may_be_dim else frozenset()
     try:
-        garage, _ = read_stage(stage, profile=profile)
-        findings = check_levels(garage, profile, RULES) if isinstance(garage, BuiltLevels) else check(garage, profile)
+        findings, _ = check_file(stage, profile=profile)
     except Garage2UsdError as error:
         yield Fault(key, f"its stage does not open: {getattr(error, 'reason', error)}")
         return
