@@ -130,8 +130,12 @@ def test_the_same_survey_gives_the_same_bytes(made, tmp_path):
     for one, other in ((made.stage, again.stage), (made.labels, again.labels), (made.pictures[0], again.pictures[0])):
         assert one.read_bytes() == other.read_bytes()
     other = import_layout(l_shaped(), tmp_path / "other.usdc", config=GarageConfig(seed=5), proves=False)
-    assert [stall.corners for stall in other.garage.layout.quads] == [stall.corners for stall in made.garage.layout.quads]
-    assert [car.spec for car in other.garage.layout.of_kind("car")] != [car.spec for car in made.garage.layout.of_kind("car")]
+    assert [stall.corners for stall in other.garage.layout.quads] == [
+        stall.corners for stall in made.garage.layout.quads
+    ]
+    assert [car.spec for car in other.garage.layout.of_kind("car")] != [
+        car.spec for car in made.garage.layout.of_kind("car")
+    ]
 
 
 def test_the_command_tells_what_it_made(tmp_path):
