@@ -24,8 +24,7 @@ import numpy as np
 from garage2usd.as_built import BuiltGarage
 from garage2usd.as_built.driven_levels import prove_levels
 from garage2usd.as_built.levels import BuiltLevels
-from garage2usd.buildings import build_levels
-from garage2usd.checks import as_json, check_file
+from garage2usd.checks import as_json
 from garage2usd.checks.levels import read_stage
 from garage2usd.common.errors import Garage2UsdError
 from garage2usd.config import config_from_mapping
@@ -33,10 +32,11 @@ from garage2usd.config.maps import GridConfig, MapsConfig
 from garage2usd.datasets.difficulty import stall_difficulties
 from garage2usd.driving import prove_stalls
 from garage2usd.exports import export
+from garage2usd.garage_sources import read_built
 from garage2usd.imports import import_layout
 from garage2usd.layout import Layout
 from garage2usd.maps.level_drives import drive_planner
-from garage2usd.pipeline import Garage, build
+from garage2usd.pipeline import GarageLevel, build
 from garage2usd.reading.content import stage_digest
 from garage2usd.reading.files import open_stage
 from garage2usd.sensors.slots import read_slots
@@ -141,13 +141,13 @@ def _others() -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 class _Made(NamedTuple):
-    """A garage that was made: its files, and the layout of each level with the garage of one that was planned."""
+    """A garage that was made: its files, the layout of each level, and the levels of one that was planned."""
 
     stage: Path
     report: Path
     labels: Path
     layouts: Sequence[Layout]
-    planned: Sequence[Garage] = ()
+    planned: Sequence[GarageLevel] = ()
 
 
 def _made(settings: Mapping[str, Any], folder: Path) -> _Made:
@@ -159,14 +159,11 @@ def _made(settings: Mapping[str, Any], folder: Path) -> _Made:
             source = folder / "drawing.toml"
             source.write_text(settings["survey"])
         imported = import_layout(source, place, config=config_from_mapping(low))
-        return _Made(imported.stage, imported.report, imported.labels, [imported.layout])
+        return _Made(imported.stage, imported.report, imported.labels, [imported.garage.layout])
     config = config_from_mapping(low | dict(settings))
-    if config.building.levels > 1:
-        built = build_levels(config, place)
-        levels = built.garage.levels
-        return _Made(built.stage, built.report, built.labels, [level.layout for level in levels], levels)
-    one = build(config, place)
-    return _Made(one.stage, one.report, one.labels, [one.garage.layout], [one.garage])
+    built = build(config, place)
+    levels = built.garage.levels
+    return _Made(built.stage, built.report, built.labels, [level.layout for level in levels], levels)
 
 
 def digests_of(settings: Mapping[str, Any]) -> dict[str, str]:
@@ -201,7 +198,7 @@ def digests_of(settings: Mapping[str, Any]) -> dict[str, str]:
                 found[suffix[1:]] = _digest([hashlib.sha256(path.read_bytes()).hexdigest() for path in files])
         for name, path in (("check_stage", made.stage), ("check_report", made.report)):
             try:
-                found[name] = _digest(as_json(check_file(path)[0]))
+                found[name] = _digest(as_json(read_built(path).findings()))
             except Garage2UsdError as error:
                 found[name] = _digest(str(error).replace(place, ""))
         slots = read_slots(open_stage(made.stage)).slots

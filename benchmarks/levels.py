@@ -14,9 +14,8 @@ from pathlib import Path
 from pxr import Sdf
 
 import garage2usd
-from garage2usd.buildings import generate_levels, levels_metadata
 from garage2usd.config import GarageConfig
-from garage2usd.stage.levels import write_levels_stage
+from garage2usd.garage_files import write_garage_stage
 
 __all__ = ["levels"]
 
@@ -63,25 +62,20 @@ def _config(count: int) -> GarageConfig:
 
 def _built(count: int, folder: Path) -> dict[str, float]:
     config, path = _config(count), folder / "garage.usdc"
-    if count > 1:
-        stalls = garage2usd.build_levels(config, path).garage.parking_stalls
-    else:
-        stalls = garage2usd.build(config, path).garage.layout.parking_stalls
+    stalls = garage2usd.build(config, path).garage.parking_stalls
     used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
     return {"cpu_s": sum(own.ru_utime + own.ru_stime for own in used), "stalls": stalls}
 
 
 def _stage(folder: Path) -> dict[str, float]:
-    garage = generate_levels(_config(3))
-    shared, config = folder / "assets", garage.config.stage
+    garage = garage2usd.generate(_config(3))
+    shared = folder / "assets"
     shared.mkdir()
 
     def author(name: str) -> Path:
         path = folder / name / "garage.usdc"
         path.parent.mkdir()
-        write_levels_stage(
-            garage.layouts, garage.joined, path, metadata=levels_metadata(garage), config=config, shared=shared
-        )
+        write_garage_stage(garage, path, shared=shared)
         return path.parent
 
     author("first")

@@ -10,51 +10,47 @@ from typing import TYPE_CHECKING
 from garage2usd.common.public_names import on_first_use
 
 if TYPE_CHECKING:
-    from garage2usd.buildings import LevelsBuild, LevelsGarage, build_levels, generate_levels
     from garage2usd.common.errors import ConfigError, Garage2UsdError, GenerationError, UnreachableStallError
     from garage2usd.config import GarageConfig, load_config
     from garage2usd.exports import export
-    from garage2usd.pipeline import Garage, build, generate
+    from garage2usd.imports import import_layout
+    from garage2usd.pipeline import Build, Garage, build, generate
     from garage2usd.planning.optimum import Optimum, find_optimum
     from garage2usd.structure.grid import Structure
 
 __all__ = [
+    "Build",
     "ConfigError",
     "Garage",
     "Garage2UsdError",
     "GarageConfig",
     "GenerationError",
-    "LevelsBuild",
-    "LevelsGarage",
     "Optimum",
     "Structure",
     "UnreachableStallError",
     "build",
-    "build_levels",
     "export",
     "find_optimum",
     "generate",
-    "generate_levels",
+    "import_layout",
     "load_config",
 ]
 
 _HOME = {
     "ConfigError": "common.errors",
+    "Build": "pipeline",
     "Garage": "pipeline",
     "Garage2UsdError": "common.errors",
     "GarageConfig": "config",
     "GenerationError": "common.errors",
-    "LevelsBuild": "buildings",
-    "LevelsGarage": "buildings",
     "Optimum": "planning.optimum",
     "Structure": "structure.grid",
     "UnreachableStallError": "common.errors",
     "build": "pipeline",
-    "build_levels": "buildings",
     "export": "exports",
     "find_optimum": "planning.optimum",
     "generate": "pipeline",
-    "generate_levels": "buildings",
+    "import_layout": "imports",
     "load_config": "config",
 }
 __getattr__ = on_first_use(__name__, _HOME)

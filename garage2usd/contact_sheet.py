@@ -10,7 +10,6 @@ from typing import NamedTuple
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from garage2usd.buildings import generate_levels, levels_metadata
 from garage2usd.common.errors import ConfigError, GenerationError, UnreachableStallError
 from garage2usd.common.extras import require
 from garage2usd.common.output import check_file, publish_at, staging_folder, unfinished_folder
@@ -19,15 +18,14 @@ from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
 from garage2usd.config.look_text import look_in_words
 from garage2usd.config.stage import AssetPlace, StageForm, TextureQuality
+from garage2usd.garage_files import stages_of_levels, write_garage_stage
 from garage2usd.layout import Layout
-from garage2usd.pipeline import generate, stage_metadata
+from garage2usd.pipeline import generate
 from garage2usd.planning import Plan
 from garage2usd.render import Device, Picture, render_stage
 from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
 from garage2usd.render.devices import CPU, find_device
-from garage2usd.stage import arrangement_of, asset_folder_name, write_stage
 from garage2usd.stage.cameras import APERTURE_MM, FOCAL_MM
-from garage2usd.stage.levels import write_levels_stage
 
 __all__ = ["SHEET_SUFFIXES", "SheetGarage", "draw_contact_sheet"]
 
@@ -58,9 +56,9 @@ class SheetGarage(NamedTuple):
     config
         Settings of the garage.
     plan
-        Plan made from these settings, for one level; None to plan it.
+        Plan of a garage of one level, made from these settings.
     tape
-        Tape of a garage of several levels made from these settings; None to plan it.
+        Tape of a garage made from these settings. Without a plan and a tape the garage is planned.
     """
 
     name: str
@@ -192,19 +190,14 @@ def _written(garage: SheetGarage, folder: Path) -> tuple[Path, list[_Level]]:
     place = folder / "stage"
     place.mkdir()
     stage = place / "garage.usdc"
-    plain = {"assets": AssetPlace.OWN, "texture_quality": TextureQuality.LOW}  # more is not seen in small pictures
-    config = garage.config.stage.model_copy(update=plain)
-    if garage.config.building.levels == 1:
-        made = generate(garage.config, plan=garage.plan)
-        arrangement = arrangement_of(made.layout, config)
-        write_stage(made.layout, stage, arrangement=arrangement, metadata=stage_metadata(made), config=config)
-        return stage, [_Level(garage.name, made.layout, stage)]
-    config = config.model_copy(update={"form": StageForm.AUTO})  # a flat one has no stage of each level beside it
-    building = generate_levels(garage.config, tape=garage.tape)
-    layouts, metadata = building.layouts, levels_metadata(building)
-    write_levels_stage(layouts, building.joined, stage, metadata=metadata, config=config)
-    own = place / asset_folder_name(stage)
-    return stage, [_Level(f"{garage.name} {level.name}", level.layout, own / f"{level.name}.usdc") for level in layouts]
+    # more is not seen in small pictures, and a flat stage of several levels has none of each level beside it
+    plain = {"assets": AssetPlace.OWN, "texture_quality": TextureQuality.LOW, "form": StageForm.AUTO}
+    made = generate(garage.config, plan=garage.plan, tape=garage.tape)
+    write_garage_stage(made, stage, config=garage.config.stage.model_copy(update=plain))
+    return stage, [
+        _Level(garage.name if level.is_only else f"{garage.name} {level.name}", level.layout, own)
+        for level, own in zip(made.levels, stages_of_levels(made, stage), strict=True)
+    ]
 
 
 def _rendered(

@@ -25,7 +25,6 @@ from garage2usd.planning.decision import (
 )
 from garage2usd.planning.score import evaluate, is_feasible
 from garage2usd.site.levels import level_number, make_level_sites
-from garage2usd.site.room import make_roomy_site
 from garage2usd.structure.grid import Cell, Structure
 
 with of_extra("garage2usd.environment"):
@@ -60,15 +59,14 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
     process
         The decision process.
     sites
-        Ramps and sites of all levels, a `garage2usd.site.levels.LevelSites`; None for a garage of one level.
+        Ramps and sites of all levels, a `garage2usd.site.levels.LevelSites`.
     render_mode
         As given.
 
     Raises
     ------
     ConfigError, GenerationError
-        If the site is infeasible, as for `garage2usd.generate` and `garage2usd.generate_levels`, or there is no such
-        level.
+        If the site is infeasible, as for `garage2usd.generate`, or there is no such level.
 
     Notes
     -----
@@ -77,7 +75,7 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
     them): squares of ramps are obstacles, landings are entrances and exits. Where R and C are chosen
     (`bay.dimensioned`), all levels have equal squares here, as a garage of one level has. A build plans lower levels on
     R and C of the planned top level instead, so that the same lanes may hold another number of stalls there. Finished
-    levels become a garage by `garage2usd.generate_levels` from a tape, which joins ``sites.ramps.tape`` and
+    levels become a garage by `garage2usd.generate` from a tape, which joins ``sites.ramps.tape`` and
     `garage2usd.planning.tape_of` of the `structure` of each level by ``/``.
 
     **Actions.** ``Discrete(5)``: 0 up, 1 down, 2 left, 3 right, 4 stay. Rows grow downwards.
@@ -109,9 +107,8 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
     ) -> None:
         config = config or GarageConfig()
         number = level_number(level, config.building.levels)
-        self.sites = make_level_sites(config) if config.building.levels > 1 else None
-        site = make_roomy_site(config) if self.sites is None else self.sites.site(number)
-        self.process = DecisionProcess(site, config.bay, config.plan.resolved())
+        self.sites = make_level_sites(config)
+        self.process = DecisionProcess(self.sites.site(number), config.bay, config.plan.resolved())
         self.render_mode = render_mode
         self.action_space = spaces.Discrete(len(Action))
         self.observation_space = _observation_space(self.process)

@@ -16,6 +16,7 @@ from garage2usd.common.output import check_file, check_name, drafting, publish_a
 from garage2usd.common.processes import run_in_forks, without_collector
 from garage2usd.common.progress import Progress, silent, unheard
 from garage2usd.config.maps import MapsConfig, ScenarioConfig
+from garage2usd.garage_files import read_garage_report
 from garage2usd.maps.glb import write_glb
 from garage2usd.maps.level_drives import drive_planner
 from garage2usd.maps.level_networks import LevelNetwork, level_networks
@@ -29,7 +30,6 @@ from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.pipeline import build
 from garage2usd.reading.files import STAGE_SUFFIXES
 from garage2usd.reading.levels import levels_of
-from garage2usd.reading.report import read_report
 from garage2usd.reading.whole_garage import open_garage
 from garage2usd.scenes.objects import PlacedObject
 from garage2usd.scenes.remarks import Remarks
@@ -300,10 +300,10 @@ def export(
     MissingExtraError
         If a Lanelet2 map or a scenario is requested, and the extra ``maps`` is not installed.
     """
-    source, config = Path(source), None
+    source, reported = Path(source), None
     if source.suffix.lower() == _REPORT:
-        config = read_report(source).garage_config()
-        settings = settings or config.maps
+        reported = read_garage_report(source)
+        settings = settings or reported.config.maps
     elif source.suffix.lower() not in STAGE_SUFFIXES:
         raise ConfigError("PATH", str(source), f"a path that ends in {', '.join((*STAGE_SUFFIXES, _REPORT))}")
     settings = settings or MapsConfig()
@@ -315,8 +315,9 @@ def export(
     files = _asked(places, settings, joint)
     with staging_folder(places[0]) as staging:
         stage = source
-        if config is not None:
-            stage = build(config, staging / "source" / "garage.usdc", progress=progress).stage
+        if reported is not None:
+            place = staging / "source" / "garage.usdc"
+            stage = build(reported.config, place, tape=reported.tape, progress=progress).stage
         order = sorted(range(len(files)), key=lambda number: [*_WRITERS].index(files[number].format))
         drafts: dict[int, tuple[Path, ...]] = {}  # by index of the output
         with without_collector():

@@ -1,77 +1,80 @@
-"""The pipeline from a configuration to site, plan, lane graph, layout, stage and files."""
+"""The pipeline from a configuration to sites, plans, layouts, stage and files, for any number of levels."""
 # Over 300 lines: the whole road is told in one place, as far as the garage and as far as its files.
 
+import logging
 import time
-from dataclasses import dataclass
-from itertools import pairwise
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 from PIL import Image
 
+from garage2usd.as_built.levels import laid_out_levels
 from garage2usd.checks import Finding, judged_layout
 from garage2usd.checks.swept_path import design_car
-from garage2usd.common.errors import ConfigError
+from garage2usd.common.errors import ConfigError, GenerationError
+from garage2usd.common.json_text import json_text
 from garage2usd.common.output import check_file, check_name, check_writable, publish_at, staging_folder
-from garage2usd.common.processes import without_collector
+from garage2usd.common.processes import run_in_forks, without_collector
 from garage2usd.common.progress import Progress, silent
-from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
-from garage2usd.config.building import check_one_level
 from garage2usd.config.plan import UnreachableStalls
-from garage2usd.driving import DesignCar, with_clutter, with_truth_of_misparked, without_unreachable
+from garage2usd.driving import DesignCar, StallProof, with_clutter, with_truth_of_misparked, without_unreachable
 from garage2usd.driving.refusal import refuse_undrivable
+from garage2usd.garage.joined_levels import unreached_stalls
+from garage2usd.garage_files import draw_pictures, make_garage_report, write_garage_labels, write_garage_stage
+from garage2usd.garage_model import Garage, GarageLevel, PlannedParts
 from garage2usd.layout import Layout, lay_out
-from garage2usd.layout.egress.exits import Egress
+from garage2usd.layout.egress.exits import Egress, plan_egress
+from garage2usd.layout.egress.shafts import LevelPlan
 from garage2usd.layout.parking.tight import tight_stalls
-from garage2usd.layout.shell.well import Well
-from garage2usd.planning import (
-    Plan,
-    completed,
-    given_plan,
-    is_of_lanes_alone,
-    plan_lanes,
-    play_plan,
-)
+from garage2usd.layout.shell.wells import make_well
+from garage2usd.level_plans import ATTEMPTS, PlannedLevel, lane_squares_of, plan_levels, sites_and_tapes, sites_of_plans
+from garage2usd.maps.level_drives import LevelsDrivePlanner
+from garage2usd.planning import Plan
 from garage2usd.reading.report import UnmetClause
-from garage2usd.report import make_report, write_report
-from garage2usd.site.room import make_roomy_site
-from garage2usd.stage import StageFormat, arrangement_of, shared_folder, write_labels, write_stage
-from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.lane_graph import LaneSquares, build_lane_graph
-from garage2usd.view.learning_picture import draw_learning_curve, draw_structures
-from garage2usd.view.plan_picture import draw_plan
-from garage2usd.view.raster import to_image, write_png
+from garage2usd.site.levels import LevelSites
+from garage2usd.stage import StageFormat, shared_folder
+from garage2usd.stage.levels import path_on_level
+from garage2usd.structure.building import Building, level_name
+from garage2usd.structure.lane_graph import LaneSquares
+from garage2usd.view.raster import write_png
 
-__all__ = ["Build", "Garage", "build", "generate", "generate_plan", "laid_out", "planned", "stage_metadata"]
+__all__ = [
+    "Build",
+    "Garage",
+    "GarageLevel",
+    "Judged",
+    "build",
+    "checked_output",
+    "generate",
+    "generate_plan",
+    "written",
+]
 
+_LOG = logging.getLogger(__name__)
 _MOST_CHECKED_STALLS = 10_000
-_NAMES_BESIDE = ("plan.png", "learning.png", "best.png", "labels.json", "report.json")
-"""Of the files that may come with a stage, after its stem and a line."""
+_NAMED_STALLS = 6
+_PICTURES = ("plan", "learning", "best")
 
 
-@dataclass(frozen=True, eq=False)
-class Garage:
-    """A generated garage with all intermediate results of the pipeline.
+@dataclass(frozen=True)
+class Judged:
+    """What a level misses of its profile by the rules that are quick (see `garage2usd.checks.check_layout`).
 
     Attributes
     ----------
-    config
-        What it was made from.
-    site
-        Static objects only.
-    plan
-        The structure with its lanes, its score, and the archive of other plans.
-    graph
-        The lane graph; every stall is reached from an entrance and reaches an exit.
-    layout
-        Every object in metres.
+    findings
+        The findings, errors first.
+    unmet
+        The clauses that the level is not designed to: that it misses, or that nothing checks.
     """
 
-    config: GarageConfig
-    site: Structure
-    plan: Plan
-    graph: LaneSquares
-    layout: Layout
+    findings: tuple[Finding, ...]
+    unmet: tuple[UnmetClause, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,18 +88,18 @@ class Build:
     stage, report, labels
         The stage, the JSON report, and the JSON table of all objects with their classes.
     pictures
-        The picture of the plan, then the learning curve and the best plans where they were asked for.
+        The picture of each level's plan, the top one first, each with the learning curve and the best plans after it
+        where they were asked for.
     asset_folder
         Folder of the stage's own layers, and of its assets unless it shares them; None where it holds all that itself.
     shared_assets
         Folder of the assets that it shares with other stages; None where it has its own.
     seconds
         Seconds that each step took.
-    findings
-        What the garage misses of its profile by the rules that are quick (see `garage2usd.checks.check_layout`), errors
-        first; None for more than 10,000 stalls, which take longer.
-    unmet
-        The clauses of its profile that it is not designed to: that it misses, or that nothing checks; None likewise.
+    judged
+        What each level misses of its profile; None for more than 10,000 stalls, which take longer.
+    proofs
+        For each stall of an imported garage that takes cars, whether a car drives in and out, if that was asked for.
     """
 
     garage: Garage
@@ -107,8 +110,31 @@ class Build:
     asset_folder: Path | None
     shared_assets: Path | None
     seconds: dict[str, float]
-    findings: tuple[Finding, ...] | None = None
-    unmet: tuple[UnmetClause, ...] | None = None
+    judged: tuple[Judged, ...] | None = None
+    proofs: tuple[StallProof, ...] = ()
+
+    @property
+    def findings(self) -> tuple[Finding, ...] | None:
+        """The findings on all levels, errors first; among several levels places are those in the whole stage."""
+        if self.judged is None:
+            return None
+        found = [
+            finding if level.is_only else replace(finding, place=path_on_level(finding.place, level.name))
+            for level, judged in zip(self.garage.levels, self.judged, strict=True)
+            for finding in judged.findings
+        ]
+        return tuple(sorted(found, key=Finding.sort_key))
+
+    @property
+    def unmet(self) -> tuple[UnmetClause, ...] | None:
+        """The clauses that a level is not designed to; among several levels reasons begin with the level's name."""
+        if self.judged is None:
+            return None
+        return tuple(
+            entry.model_copy(update={"reason": level.in_whole(entry.reason, joint=": ")})
+            for level, judged in zip(self.garage.levels, self.judged, strict=True)
+            for entry in judged.unmet
+        )
 
 
 def generate(
@@ -116,10 +142,11 @@ def generate(
     *,
     seed: int | None = None,
     tape: str | None = None,
-    plan: Plan | None = None,
+    plan: Plan | Sequence[Plan] | None = None,
+    jobs: int = 1,
     progress: Progress = silent,
 ) -> Garage:
-    """Make a garage.
+    """Make a garage of one level or, by ``building.levels``, of several.
 
     Parameters
     ----------
@@ -129,29 +156,36 @@ def generate(
         Takes the place of the configuration's seed.
     tape
         The tape of a plan, as its report has it: its lanes, directions and stalls are made again on the site instead of
-        learnt and drawn. Where it has lanes alone, the settings decide the rest.
+        learnt and drawn. Where it has lanes alone, the settings decide the rest. That of several levels has the ramps
+        and the lanes of each level.
     plan
-        What was planned before with these settings and this seed, which takes the place of tape and learning.
+        What was planned before with these settings and this seed, a plan for each level, which takes the place of tape
+        and learning.
+    jobs
+        Maximum number of levels that are planned and laid out at a time, each in a fork of this process. The garage
+        does not depend on it.
     progress
         Told how far long steps are.
 
     Raises
     ------
     ConfigError
-        If a setting cannot be used.
+        If a setting cannot be used, or not together with several levels.
     GenerationError
-        If a random step found no valid result; names the step and the seed.
+        If a random step found no valid result, such as a place for the ramps from and to which cars reach every stall;
+        names the step and the seed.
     UnreachableStallError
         If stalls of a given structure have no route from an entrance and to an exit.
     """
-    return _generate(config or GarageConfig(), seed=seed, tape=tape, plan=plan, progress=progress)[0]
+    plans = [plan] if isinstance(plan, Plan) else plan
+    return _generate(config or GarageConfig(), seed=seed, tape=tape, plans=plans, jobs=jobs, progress=progress)[0]
 
 
 def generate_plan(config: GarageConfig, *, progress: Progress = silent) -> Plan:
-    """Make a garage as far as its plan, directions and stalls included; raises as `generate`, which goes on from it."""
-    plan = planned(_site(config), config, tape=None, progress=progress)
-    lane_squares_of(plan, config)
-    return plan
+    """Make a garage of one level as far as its plan, directions and stalls included; raises as `generate`."""
+    (planned,) = plan_levels(*_sites(config, None, None, 0), progress=progress)
+    lane_squares_of(planned.plan, config)
+    return planned.plan
 
 
 @without_collector()
@@ -163,20 +197,22 @@ def build(
     tape: str | None = None,
     learning_curve: bool = False,
     best_plans: int = 0,
+    jobs: int = 1,
     progress: Progress = silent,
 ) -> Build:
-    """Make a garage and write its stage, the picture of its plan and its report.
+    """Make a garage and write its stage, the pictures of its plans, its labels and its report.
 
     Parameters
     ----------
-    config, seed, tape, progress
+    config, seed, tape, jobs, progress
         As for `generate`.
     output
-        The stage's path; ``.usda``, ``.usdc`` or ``.usdz``. Picture, report and assets go beside it, under its name.
+        The stage's path; ``.usda``, ``.usdc`` or ``.usdz``. Pictures, report, labels and assets go beside it, under its
+        name; the pictures of several levels with the name of each, ``_U1_plan.png``.
     learning_curve
         Whether to draw the return of each episode as well.
     best_plans
-        How many of the best plans to draw side by side as well.
+        How many of the best plans of each level to draw side by side as well.
 
     Raises
     ------
@@ -187,151 +223,230 @@ def build(
     OutputError
         If the files cannot be written. They appear whole or not at all.
     """
+    config = config or GarageConfig()
+    path = checked_output(output, config)
+    garage, seconds = _generate(config, seed=seed, tape=tape, jobs=jobs, progress=progress)
+    draw = partial(draw_pictures, garage, learning_curve=learning_curve, best_plans=best_plans)
+
+    def report(judged: Sequence[Judged] | None) -> Mapping[str, Any]:
+        unmet = None if judged is None else [each.unmet for each in judged]
+        facts: Mapping[str, Any] = make_garage_report(garage, seconds=seconds, unmet=unmet).model_dump(mode="json")
+        return facts
+
+    judge = partial(_judged, garage)
+    return written(garage, path, seconds, draw=draw, judge=judge, report=report, progress=progress)
+
+
+def checked_output(output: str | Path, config: GarageConfig) -> Path:
+    """Return the path of a stage that can be written, with what comes beside it; raises as `build`."""
     path = Path(output)
     if path.suffix.lower() not in set(StageFormat) or not path.stem:
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
     check_name(path, of_layer=True)
-    config = config or GarageConfig()
-    check_file(path, with_it=(path.with_name(f"{path.stem}_{name}") for name in _NAMES_BESIDE))
+    check_file(path, with_it=(path.with_name(f"{path.stem}_{name}") for name in _names_beside(config)))
     if shared := shared_folder(path, config.stage):
         check_writable(shared)
-    garage, seconds = _generate(config, seed=seed, tape=tape, progress=progress)
-    _check_learnt(garage.plan, learning_curve=learning_curve, best_plans=best_plans)
+    return path
+
+
+def written(
+    garage: Garage,
+    path: Path,
+    seconds: dict[str, float],
+    *,
+    draw: Callable[[], Mapping[str, Image.Image]],
+    judge: Callable[[], tuple[Judged, ...] | None],
+    report: Callable[[Sequence[Judged] | None], Mapping[str, Any]],
+    progress: Progress = silent,
+) -> Build:
+    """Write the files of a garage, whole or not at all.
+
+    Parameters
+    ----------
+    garage
+        The garage.
+    path
+        The stage, as `checked_output` returned it.
+    seconds
+        Seconds that each step took, to which those of this one are added.
+    draw
+        Draws its pictures by name.
+    judge
+        Checks each level against its profile.
+    report
+        Returns the facts of its report, with what the levels miss.
+    progress
+        As for `build`.
+    """
+    shared = shared_folder(path, garage.config.stage)
     with staging_folder(path) as staging:
-        start = time.perf_counter()
-        folder = staging / "stage"
-        folder.mkdir()
-        arrangement = arrangement_of(garage.layout, garage.config.stage)
-        made = write_stage(
-            garage.layout,
-            folder / f"{path.stem}{path.suffix.lower()}",
-            arrangement=arrangement,
-            metadata=stage_metadata(garage),
-            config=garage.config.stage,
-            shared=shared,
-            progress=progress,
-        )
-        labels = staging / f"{path.stem}_labels.json"
-        write_labels(garage.layout, labels, arrangement=arrangement)
-        pictures = _pictures(garage, learning_curve=learning_curve, best_plans=best_plans)
-        drawn = [staging / f"{path.stem}_{name}.png" for name in pictures]
-        for picture, image in zip(drawn, pictures.values(), strict=True):
-            write_png(image, picture)
-        seconds["stage"] = time.perf_counter() - start
-        start = time.perf_counter()
-        findings, unmet = _judged(garage)
-        seconds["check"] = time.perf_counter() - start
-        report = staging / f"{path.stem}_report.json"
-        write_report(
-            report,
-            make_report(
-                config=garage.config,
-                plan=garage.plan,
-                layout=garage.layout,
-                seconds=seconds,
-                unmet=unmet,
-            ),
-        )
+        with _timed(seconds, "stage") as told:
+            pictures = draw()
+            drawn = [staging / f"{path.stem}_{name}.png" for name in pictures]
+            for picture, image in zip(drawn, pictures.values(), strict=True):
+                write_png(image, picture)
+            folder = staging / "stage"
+            folder.mkdir()
+            place = folder / f"{path.stem}{path.suffix.lower()}"
+            made = write_garage_stage(garage, place, shared=shared, progress=progress)
+            labels = staging / f"{path.stem}_labels.json"
+            write_garage_labels(garage, labels)
+            told.append(f"{place.name}, its labels and {len(drawn)} pictures")
+        with _timed(seconds, "check") as told:
+            judged = judge()
+            told.append("too many stalls" if judged is None else _counted(judged))
+        facts = staging / f"{path.stem}_report.json"
+        facts.write_text(json_text(report(judged)), encoding="utf-8", newline="\n")
         progress("files", 0, 1)
         # the stage comes last: where it stands, all of it does
-        files = [*filter(None, [made.assets]), *drawn, labels, report]
+        files = [*filter(None, [made.assets]), *drawn, labels, facts]
         place_of = {file: path.with_name(file.name) for file in files} | {made.stage: path}
         publish_at(place_of)
     return Build(
         garage=garage,
         stage=place_of[made.stage],
-        report=place_of[report],
+        report=place_of[facts],
         labels=place_of[labels],
         pictures=tuple(place_of[picture] for picture in drawn),
         asset_folder=place_of[made.assets] if made.assets else None,
         shared_assets=shared,
         seconds=seconds,
-        findings=findings,
-        unmet=unmet,
+        judged=judged,
     )
 
 
+def _names_beside(config: GarageConfig) -> Iterator[str]:
+    """Yield the names of the files that may come with a stage, after its stem and a line."""
+    levels = config.building.levels
+    for picture in _PICTURES:
+        for level in range(levels):
+            yield f"{picture}.png" if levels == 1 else f"{level_name(level)}_{picture}.png"
+    yield "labels.json"
+    yield "report.json"
+
+
 def _generate(
-    config: GarageConfig, *, seed: int | None, tape: str | None, progress: Progress, plan: Plan | None = None
+    config: GarageConfig,
+    *,
+    seed: int | None,
+    tape: str | None,
+    plans: Sequence[Plan] | None = None,
+    jobs: int = 1,
+    progress: Progress,
 ) -> tuple[Garage, dict[str, float]]:
     if seed is not None:
         config = config.with_seed(seed)
-    clock = [time.perf_counter()]
-    site = _site(config)
-    clock.append(time.perf_counter())
-    if plan is None:
-        plan = planned(site, config, tape=tape, progress=progress)
-    clock.append(time.perf_counter())
-    garage = laid_out(site, plan, config, lane_squares_of(plan, config), progress=progress)
-    clock.append(time.perf_counter())
-    steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
-    return garage, {step: end - start for step, (start, end) in steps}
+    seconds = dict.fromkeys(("site", "plan", "layout"), 0.0)
+    is_given = tape is not None or plans is not None
+    tight: list[Garage] = []
+    lacks: list[str] = []
+    for attempt in range(1 if is_given or config.building.place else ATTEMPTS):
+        try:
+            garage = _made(config, tape, plans, attempt, seconds, jobs, progress)
+        except GenerationError:
+            if not attempt:
+                raise
+            break
+        unreached = _unreached(garage, may_turn_back=is_given)
+        if not unreached:
+            return garage, seconds
+        tight.append(garage)
+        lacks.append(_unreached_in_words(unreached))
+        _LOG.info("ramps at place %d: %s", attempt + 1, lacks[-1])
+    lack = lacks[0]
+    if is_given:
+        raise ConfigError("tape", tape, f"ramps and lanes without {lack}")
+    # cars turn back at once on the way to some stalls, if there is the room
+    for garage in tight:
+        if _is_driven_through(garage):
+            return garage, seconds
+    place, tried = config.building.place, len(tight)
+    if place is not None:
+        wanted = f"a place with room to turn before the ramps, without {lack}"
+        raise ConfigError("building.place", place.model_dump(exclude_none=True), wanted)
+    reason = f"none of {tried} places of the ramps has room to turn before them; {lack}; a larger site has more places"
+    raise GenerationError("links", reason, seed=config.seed, attempts=tried)
 
 
-def planned(site: Structure, config: GarageConfig, *, tape: str | None, progress: Progress) -> Plan:
-    """Plan the lanes of a site, their directions and the kinds of stalls; parameters and errors as for `generate`.
-
-    Given ones are taken, a tape is replayed, and the others are learnt and drawn.
-    """
-    if tape is not None and (site.cells == Cell.LANE).any():
-        raise ConfigError("tape", tape, "no tape beside a structure that has lanes")
-    if tape is not None and not is_of_lanes_alone(tape):
-        return play_plan(site, tape, config)
-    return completed(_lanes(site, config, tape=tape, progress=progress), config)
-
-
-def laid_out(
-    site: Structure,
-    plan: Plan,
+def _made(
     config: GarageConfig,
-    graph: LaneSquares,
-    *,
-    well: Well | None = None,
-    egress: Egress | None = None,
-    progress: Progress = silent,
+    tape: str | None,
+    plans: Sequence[Plan] | None,
+    attempt: int,
+    seconds: dict[str, float],
+    jobs: int,
+    progress: Progress,
 ) -> Garage:
-    """Lay out a plan as a garage.
+    """Plan and lay out all levels; the time that each step takes is added to `seconds`."""
+    with _timed(seconds, "site") as told:
+        sites, config, tapes = _sites(config, tape, plans, attempt)
+        rows, cols = sites.street.shape
+        told.append(f"{rows} x {cols} squares")
+        if sites.ramps is not None:
+            told.append(f"ramps {sites.ramps.in_words}")
+    with _timed(seconds, "plan") as told:
+        planned = plan_levels(sites, config, tapes, given=plans or (), jobs=jobs, progress=progress)
+        told.extend(f"{plan.score.stalls} stalls at a score of {plan.score.value:.2f}" for plan, _, _ in planned)
+    with _timed(seconds, "layout") as told:
+        garage = _laid_out(sites, config, planned, jobs, progress)
+        told.append(f"{garage.parking_stalls} stalls to park in, {len(garage.levels)} level(s)")
+    return garage
 
-    `graph` is from `lane_squares_of`; `well` has the ramps to other levels, `egress` the stair cores that this level
-    shares with them. Errors as for `generate`.
-    """
-    layout = lay_out(plan.structure, graph, config, well=well, egress=egress)
-    layout = _driven(layout, config, progress)
-    if config.clutter.is_any:
-        layout = with_clutter(layout, config, cars=(DesignCar(), design_car(config.standard)), progress=progress)
-    return Garage(config, site, plan, graph, layout)
+
+def _sites(
+    config: GarageConfig, tape: str | None, plans: Sequence[Plan] | None, attempt: int
+) -> tuple[LevelSites, GarageConfig, Sequence[str | None]]:
+    if plans is not None:
+        return sites_of_plans(config, plans), config, [None] * len(plans)
+    sites, tapes = sites_and_tapes(config, tape, attempt)
+    return sites, config, tapes
 
 
-def _site(config: GarageConfig) -> Structure:
-    check_one_level(config.building)
-    return make_roomy_site(config)
-
-
-def lane_squares_of(plan: Plan, config: GarageConfig) -> LaneSquares:
-    """Return the lanes and rows of stalls of a plan. Errors as for `generate`."""
-    graph = build_lane_graph(plan.structure, config.bay, plan.runs, plan.directions)
-    if not graph.stall_rows:
-        raise ConfigError(
-            "site.structure", str(plan.structure), "at least one free square beside a lane that takes a stall"
+def _laid_out(
+    sites: LevelSites, config: GarageConfig, planned: Sequence[PlannedLevel], jobs: int, progress: Progress
+) -> Garage:
+    """Lay out all levels around the ramps, with stair cores above one another."""
+    building = Building(tuple(each.plan.structure for each in planned), sites.ramps, config.building.storey_m)
+    graphs = [lane_squares_of(each.plan, each.config) for each in planned]
+    plans = [LevelPlan(each.plan.structure, graph, each.config) for each, graph in zip(planned, graphs, strict=True)]
+    egresses = plan_egress(plans, building.ramp_squares)
+    told = silent if jobs > 1 and len(planned) > 1 else progress
+    parts = zip(planned, graphs, egresses, strict=True)
+    tasks = [
+        partial(_layout, each, graph, egress, sites, config, number, told)
+        for number, (each, graph, egress) in enumerate(parts)
+    ]
+    levels = tuple(
+        GarageLevel(
+            name=level_name(number),
+            floor_m=building.floor_m(number),
+            config=each.config,
+            layout=layout,
+            is_only=sites.ramps is None,
+            planned=PlannedParts(each.site, each.plan, graph),
         )
-    return graph
+        for number, (each, graph, layout) in enumerate(zip(planned, graphs, run_in_forks(tasks, jobs), strict=True))
+    )
+    return Garage(config, building, levels)
 
 
-def _lanes(site: Structure, config: GarageConfig, *, tape: str | None, progress: Progress) -> Plan:
-    """Plan the lanes: take the given ones, replay a tape, or learn."""
-    if (site.cells == Cell.LANE).any():
-        return given_plan(site, bay=config.bay, plan=config.plan)
-    if tape is not None:
-        return play_plan(site, tape, config)
-    return plan_lanes(site, plan=config.plan, bay=config.bay, seed=config.seed, progress=progress)
-
-
-def _judged(garage: Garage) -> tuple[tuple[Finding, ...] | None, tuple[UnmetClause, ...] | None]:
-    """Check a garage against its profile; both results are None for garages with too many stalls."""
-    if len(garage.layout.stalls) > _MOST_CHECKED_STALLS:
-        return None, None
-    findings, unmet = judged_layout(garage.layout, garage.config)
-    return tuple(findings), unmet
+def _layout(
+    planned: PlannedLevel,
+    graph: LaneSquares,
+    egress: Egress,
+    sites: LevelSites,
+    config: GarageConfig,
+    number: int,
+    progress: Progress,
+) -> Layout:
+    """Lay out a level, with the truth about its stalls and the clutter that leaves them their drives."""
+    well = None if sites.ramps is None else make_well(sites.ramps, number, config)
+    layout = lay_out(planned.plan.structure, graph, planned.config, well=well, egress=egress)
+    layout = _driven(layout, planned.config, progress)
+    if planned.config.clutter.is_any:
+        cars = (DesignCar(), design_car(planned.config.standard))
+        layout = with_clutter(layout, planned.config, cars=cars, progress=progress)
+    return layout
 
 
 def _driven(layout: Layout, config: GarageConfig, progress: Progress) -> Layout:
@@ -345,35 +460,42 @@ def _driven(layout: Layout, config: GarageConfig, progress: Progress) -> Layout:
     return with_truth_of_misparked(layout, config, progress=progress)
 
 
-def _check_learnt(plan: Plan, *, learning_curve: bool, best_plans: int) -> None:
-    for field, asked in (("learning_curve", learning_curve), ("best_plans", best_plans)):
-        if asked and not plan.archive:
-            raise ConfigError(field, asked, "only where lanes are learnt, not with a tape or lanes that are given")
+def _unreached(garage: Garage, *, may_turn_back: bool) -> list[str]:
+    """Return the stalls that cars do not reach over the ramps, or from which none reaches the street.
+
+    The lane graph of each level is proven when it is built.
+    """
+    return [] if garage.building.ramps is None else unreached_stalls(garage.joined, may_turn_back=may_turn_back)
 
 
-def _pictures(garage: Garage, *, learning_curve: bool, best_plans: int) -> dict[str, Image.Image]:
-    """Draw the pictures of a build, keyed by name."""
-    plan = garage.plan
-    pictures = {"plan": to_image(draw_plan(garage.layout))}
-    if learning_curve:
-        pictures["learning"] = draw_learning_curve(plan.learning_curve)
-    if best_plans:
-        pictures["best"] = draw_structures(
-            [
-                (entry.structure, f"{entry.score.value:.2f} {'polished' if entry.is_polished else 'learnt'}")
-                for entry in plan.archive[:best_plans]
-            ]
-        )
-    return pictures
+def _unreached_in_words(stalls: list[str]) -> str:
+    named = ", ".join(stalls[:_NAMED_STALLS]) + (", ..." if len(stalls) > _NAMED_STALLS else "")
+    return f"stalls without a way from the street and to it: {named}"
 
 
-def stage_metadata(garage: Garage) -> dict[str, str | int]:
-    """What a stage says of how its garage was made, which makes it again."""
-    return {
-        "generator": "garage2usd",
-        "version": VERSION,
-        "seed": garage.config.seed,
-        "configDigest": garage.config.digest(),
-        "structureDigest": garage.plan.structure.digest(),
-        "profile": garage.config.standard.name,
-    }
+def _is_driven_through(garage: Garage) -> bool:
+    """Return True if the design car drives from the street to the lowest level, and back."""
+    built = laid_out_levels(garage.layouts, garage.joined, source="a layout")
+    return LevelsDrivePlanner(built).is_driven_through()
+
+
+def _judged(garage: Garage) -> tuple[Judged, ...] | None:
+    """Check each level against its profile; None for garages with too many stalls."""
+    if sum(len(level.layout.stalls) for level in garage.levels) > _MOST_CHECKED_STALLS:
+        return None
+    found = [judged_layout(level.layout, level.config) for level in garage.levels]
+    return tuple(Judged(tuple(findings), unmet) for findings, unmet in found)
+
+
+def _counted(judged: Sequence[Judged]) -> str:
+    return f"{sum(len(each.findings) for each in judged)} findings"
+
+
+@contextmanager
+def _timed(seconds: dict[str, float], step: str) -> Iterator[list[str]]:
+    """Add the time of a step to `seconds`, and log it with what the step decided, which the caller puts on the list."""
+    start, told = time.perf_counter(), list[str]()
+    yield told
+    took = time.perf_counter() - start
+    seconds[step] = seconds.get(step, 0.0) + took
+    _LOG.info("%s: %s; %.2f s", step, ", ".join(told), took)

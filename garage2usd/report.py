@@ -9,6 +9,7 @@ import numpy as np
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.json_text import json_text
+from garage2usd.common.settings import Record
 from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
 from garage2usd.garage import Stall
@@ -51,8 +52,8 @@ _DECIMALS = 6
 """Decimals of metres and radians in stalls."""
 
 
-def write_report(path: Path, report: Report) -> None:
-    """Write a report as JSON."""
+def write_report(path: Path, report: Record) -> None:
+    """Write a report as JSON: that of a garage of one level, or of several."""
     path.write_text(json_text(report.model_dump(mode="json")), encoding="utf-8", newline="\n")
 
 
@@ -123,7 +124,7 @@ def make_report(
         illuminance=layout.illuminance,
         not_designed_to=None if unmet is None else tuple(unmet),
         remarks=config.remarks(),
-        lane_kinds=layout.kinds_of_squares(),
+        lane_kinds=layout.source.kinds_of_squares(),
         object_counts=layout.counts(),
         columns_at_mouths=layout.columns_at_mouths() if config.bay.column_setback_m else None,
         unreachable_stalls=tuple(sorted(layout.unreachable)),

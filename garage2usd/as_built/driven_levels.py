@@ -54,7 +54,7 @@ def floors_of_stalls(garage: BuiltLevels) -> Mapping[str, float]:
 def _joined_with_the_street(garage: BuiltLevels, level: int) -> BuiltGarage:
     """Return a level whose landings are portals only where the street leads to them, or they lead to it."""
     whole, own = garage.lanes, garage.levels[level].garage
-    number_of = {(node.level, node.name): number for number, node in enumerate(whole.nodes)}
+    number_of = {(node.level, node.name.rpartition("/")[2]): number for number, node in enumerate(whole.nodes)}
     reached = {end for _, end in whole.arriving}
     leading = {start for start, _ in whole.leaving}
 

@@ -24,7 +24,8 @@ from garage2usd.objects.ramp import KIND as RAMP
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.levels import StageLevel, level_stage, levels_of, placed_level
 from garage2usd.reading.whole_garage import LEVELS, garage_root
-from garage2usd.stage.levels import LevelLayout
+from garage2usd.stage.arrangement import ROOT_NAME
+from garage2usd.stage.levels import LevelLayout, path_on_level
 
 __all__ = ["BuiltLevel", "BuiltLevels", "built_levels", "laid_out_levels"]
 
@@ -161,7 +162,7 @@ def laid_out_levels(layouts: Sequence[LevelLayout], joined: JoinedLevels, *, sou
     """Return the layouts of the levels of a garage, with its lanes and stalls, as a garage as built."""
     levels = (
         BuiltLevel(
-            StageLevel(level.name, f"/{level.name}", level.floor_m),
+            StageLevel(level.name, path_on_level(f"/{ROOT_NAME}", level.name), level.floor_m),
             garage_of_layout(level.layout, source=source, kind="layout"),
         )
         for level in layouts

@@ -24,7 +24,7 @@ from garage2usd.structure.directions import given_directions
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph, unproven_lane_graph
 
-__all__ = ["garage_of_plan"]
+__all__ = ["garage_of_plan", "report_differences"]
 
 _FIELD = "PATH"
 _MOVED_M = 0.001
@@ -135,7 +135,7 @@ def _read(
         faults = () if refusal is None else (Fault("plan-refused", "", None, refusal),)
         stalls = planned_stalls(graph, config.bay)
         return garage_without_layout(structure, graph.lanes, stalls, source=str(path), kind=kind, faults=faults)
-    differences = () if listed is None else tuple(_differences(layout, listed))
+    differences = () if listed is None else tuple(report_differences(layout, listed))
     return garage_of_layout(layout, source=str(path), kind=kind, faults=differences)
 
 
@@ -162,7 +162,7 @@ def _laid_out(plan: Plan, config: GarageConfig, unreachable: Sequence[str] | Non
     return layout, None
 
 
-def _differences(layout: Layout, listed: Sequence[Any]) -> list[Fault]:
+def report_differences(layout: Layout, listed: Sequence[Any]) -> list[Fault]:
     """Compare a report's list of stalls with the layout of its configuration and matrices."""
     made = {stall.name: stall for stall in layout.quads}
     faults = []

@@ -1,11 +1,12 @@
 """Rules of feasibility: each stall has a route from an entrance and to an exit on the lane graph."""
 
+import math
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import Miss, RuleBook
-from garage2usd.garage import Stall
+from garage2usd.garage import LaneNode, Point, Stall
 from garage2usd.profiles import Profile
 
 __all__ = ["BOOK", "way_in", "way_out"]
@@ -41,11 +42,30 @@ def _detached(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
         node = garage.lanes.nodes[stall.access]
         if node.is_portal:
             yield Miss(stall.name, stall.mouth, f"the stall opens onto the {node.kind} {node.name}")
-        elif any(
-            abs(place - middle) > width / 2 + _BESIDE_M
-            for place, middle, width in zip(stall.mouth, node.position, node.widths_m, strict=True)
-        ):
+        elif not _lies_at(stall.mouth, node) and not _lies_ahead_of_tip(stall.mouth, stall.access, garage):
             yield Miss(stall.name, stall.mouth, f"the stall's mouth does not lie at its lane {node.name}")
+
+
+def _lies_at(mouth: Point, node: LaneNode) -> bool:
+    """Return True if a mouth lies on the ground of a lane node or beside it."""
+    return all(
+        abs(place - middle) <= width / 2 + _BESIDE_M
+        for place, middle, width in zip(mouth, node.position, node.widths_m, strict=True)
+    )
+
+
+def _lies_ahead_of_tip(mouth: Point, access: int, garage: BuiltGarage) -> bool:
+    """Return True if a mouth lies straight on beyond the dead end of a lane, no farther than the lane is wide."""
+    beside = garage.lanes.beside[access]
+    if len(beside) != 1:
+        return False
+    node, before = garage.lanes.nodes[access], garage.lanes.nodes[beside[0]]
+    length_m = math.dist(node.position, before.position)
+    ahead = [(tip - start) / length_m for tip, start in zip(node.position, before.position, strict=True)]
+    away = [place - tip for place, tip in zip(mouth, node.position, strict=True)]
+    along_m, aside_m = away[0] * ahead[0] + away[1] * ahead[1], away[0] * ahead[1] - away[1] * ahead[0]
+    half_m = max(node.widths_m) / 2 + _BESIDE_M
+    return 0.0 <= along_m <= max(node.widths_m) and abs(aside_m) <= half_m
 
 
 @BOOK.rule("stall-route", asks="each stall has a route from an entrance and to an exit that keeps to lanes")

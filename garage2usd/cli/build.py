@@ -15,21 +15,19 @@ from garage2usd.cli.parameters import (
     echo_notices,
     echo_table,
     end_incomplete,
+    log_steps,
     profile_option,
     seed_option,
 )
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Sequence
 
-    from garage2usd.checks import Finding
-    from garage2usd.config import GarageConfig
     from garage2usd.config.maps import MapsConfig
     from garage2usd.layout import Layout
-    from garage2usd.pipeline import Build
+    from garage2usd.pipeline import Build, GarageLevel
     from garage2usd.planning import Score
-    from garage2usd.reading.report import UnmetClause
 
 __all__ = ["build"]
 
@@ -61,6 +59,13 @@ _COLUMNS_NAMED = 3
     "`garage2usd export`.",
 )
 @click.option(
+    "--jobs",
+    metavar="N",
+    type=click.IntRange(1, 4096),
+    help="How many levels are planned and laid out at a time; one a core. The files do not depend on it.",
+)
+@click.option("--verbose", is_flag=True, help="Say on stderr what each step decides and how long it takes.")
+@click.option(
     "--output",
     "-o",
     metavar="FILE",
@@ -80,11 +85,14 @@ def build(
     learning_curve: bool,
     best_plans: int,
     formats: str | None,
+    jobs: int | None,
+    verbose: bool,
     output: Path,
 ) -> None:
     """Build the garage of the configuration CONFIG (TOML), by default one that fills 7 x 9 squares.
 
-    Beside the stage, such as out/a.usda, the command writes a picture of the plan (out/a_plan.png), a report
+    Beside the stage, such as out/a.usda, the command writes a picture of the plan (out/a_plan.png; of several levels
+    a_U1_plan.png and so on, and likewise the pictures that the options below ask for), a report
     (a_report.json), the classes and bounds of all objects (a_labels.json) and, unless the stage is a .usdz, its assets
     (a_assets/, or a folder shared by many garages with the setting stage.assets).
 
@@ -97,6 +105,7 @@ def build(
       garage2usd build --seed 7 --output garage.usdz
       garage2usd build samples/paper_7x9.toml -o out/paper.usda
     """  # noqa: D301 - click's mark for a block that is not wrapped
+    from garage2usd.common.system import cores  # noqa: PLC0415
     from garage2usd.config import GarageConfig, load_config, profile_setting  # noqa: PLC0415 - keeps --help instant
     from garage2usd.pipeline import build as build_garage  # noqa: PLC0415
 
@@ -105,14 +114,12 @@ def build(
     else:
         settings = GarageConfig(**({} if profile is None else {"profile": profile_setting(profile)}))
     echo_notices(settings.remarks())
-    if settings.building.levels > 1:
-        refused = {"learning-curve": learning_curve, "best-plans": best_plans, "with": formats}
-        _build_levels(settings, output, seed, tape, refused, _earlier(ctx, output))
-        return
     exports, lacking = _exports(output, formats, settings.maps)
     earlier = _earlier(ctx, output)
     notices: list[str] = []
     with Bars(sys.stderr) as progress:
+        if verbose:
+            log_steps(progress.announce)
         made = build_garage(
             settings,
             output,
@@ -120,10 +127,10 @@ def build(
             tape=tape,
             learning_curve=learning_curve,
             best_plans=best_plans,
+            jobs=jobs or cores(),
             progress=progress,
         )
         if exports:
-            from garage2usd.common.system import cores  # noqa: PLC0415
             from garage2usd.exports import export  # noqa: PLC0415 - most builds are not exported
 
             exports = export(
@@ -136,48 +143,6 @@ def build(
     echo_table(("export", str(file)) for file in exports)
     _say_replaced(earlier, made.stage, *made.pictures, made.report, made.labels, *exports)
     end_incomplete(lacking)
-
-
-def _build_levels(
-    settings: "GarageConfig",
-    output: Path,
-    seed: int | None,
-    tape: str | None,
-    refused: "Mapping[str, object]",
-    earlier: frozenset[str],
-) -> None:
-    """Build a garage of several levels; `refused` has the options that go with one level only."""
-    from garage2usd.buildings import build_levels  # noqa: PLC0415 - keeps --help instant
-
-    for option, value in refused.items():
-        if value:
-            raise ConfigError(option, value, "not with building.levels of 2 or more, for which it is not built yet")
-    with Bars(sys.stderr) as progress:
-        made = build_levels(settings, output, seed=seed, tape=tape, progress=progress)
-    lines: list[tuple[str, str]] = []
-    garage = made.garage
-    for number, (name, level) in enumerate(zip(garage.building.names(), garage.levels, strict=True)):
-        counts, layout = level.layout.counts(), level.layout
-        found = ""
-        if made.findings is not None and made.unmet is not None:
-            found = f"; {_found(level.config, made.findings[number], made.unmet[number])}"
-        text = f"{layout.parking_stalls} stalls, {counts['car']} with a car, {len(layout.cores)} cores{found}"
-        lines.append((name, f"floor at {garage.building.floor_m(number):g} m, {text}"))
-    lines += [
-        ("stalls", f"{garage.parking_stalls} on {len(garage.levels)} levels"),
-        ("m2/stall", _areas([level.layout for level in garage.levels])),
-        ("ramps", garage.building.ramps.in_words),
-        ("reachable", "every stall, from an entrance on the street and to an exit on it"),
-        ("seed", str(garage.config.seed)),
-        ("stage", str(made.stage)),
-        *(("assets", f"{folder}/") for folder in (made.asset_folder, made.shared_assets) if folder),
-        *(("picture", str(picture)) for picture in made.pictures),
-        ("report", str(made.report)),
-        ("labels", str(made.labels)),
-        ("seconds", ", ".join(f"{step} {value:.2f}" for step, value in made.seconds.items())),
-    ]
-    echo_table(lines)
-    _say_replaced(earlier, made.stage, *made.pictures, made.report, made.labels)
 
 
 def _earlier(ctx: click.Context, output: Path) -> frozenset[str]:
@@ -208,24 +173,18 @@ def _exports(output: Path, formats: str | None, settings: "MapsConfig") -> tuple
 
 
 def _describe(made: "Build") -> None:
-    garage, layout, score = made.garage, made.garage.layout, made.garage.plan.score
-    rows, cols = layout.structure.shape
-    counts = layout.counts()
-    count = int(layout.compartments.max())
-    parts = f"{count} fire compartment{'s' if count > 1 else ''}"
-    figures = f"N_S {score.stalls}, T_S {score.parking_time_squares:.2f} squares, U_S {score.unused_squares}"
+    garage = made.garage
+    ramps, (first, *lower) = garage.building.ramps, garage.levels
     lines = [
-        ("squares", f"{rows} x {cols}, {counts['floor']} inside"),
-        ("stalls", f"{layout.parking_stalls} ({layout.uses_in_words()}), {counts['car']} with a car"),
-        *_planned(made),
-        *_columns(made),
-        ("cores", f"{len(layout.cores)} in the place of {_displaced(layout)} stalls; {parts}"),
-        ("light", _lit(made)),
-        ("m2/stall", _areas([layout])),
-        ("score", f"{score.value:.2f} ({figures})"),
-        *_learnt(made),
-        *(("gave way", f"{name}: {reason}") for name, reason in garage.plan.gave_way.items()),
-        ("reachable", "every stall, from an entrance and to an exit"),
+        *(_level(made, first) if ramps is None else _levels(made)),
+        ("m2/stall", _areas([level.layout for level in garage.levels])),
+        *(() if lower else _scores(made)),
+        *(
+            (level.in_whole("gave way", joint=" "), f"{name}: {reason}")
+            for level in garage.levels
+            for name, reason in level.plan.gave_way.items()
+        ),
+        ("reachable", f"every stall, from an entrance{' on the street' if lower else ''} and to an exit"),
         ("check", _checked(made)),
         ("seed", str(garage.config.seed)),
         ("stage", str(made.stage)),
@@ -237,6 +196,44 @@ def _describe(made: "Build") -> None:
         ("seconds", ", ".join(f"{step} {value:.2f}" for step, value in made.seconds.items())),
     ]
     echo_table(lines)
+
+
+def _level(made: "Build", level: "GarageLevel") -> list[tuple[str, str]]:
+    """Tell of the only level: its squares, stalls, columns, cores and light."""
+    layout, counts = level.layout, level.layout.counts()
+    rows, cols = layout.structure.shape
+    return [
+        ("squares", f"{rows} x {cols}, {counts['floor']} inside"),
+        ("stalls", f"{layout.parking_stalls} ({layout.uses_in_words()}), {counts['car']} with a car"),
+        *_planned(made),
+        *_columns(made),
+        ("cores", f"{len(layout.cores)} in the place of {_displaced(layout)} stalls; {_parts(layout)}"),
+        ("light", _lit(made)),
+    ]
+
+
+def _levels(made: "Build") -> list[tuple[str, str]]:
+    """Tell of each level in a line, of the ramps, and of all stalls."""
+    garage, lines = made.garage, list[tuple[str, str]]()
+    for level in garage.levels:
+        layout = level.layout
+        cars = f"{layout.parking_stalls} stalls, {layout.counts()['car']} with a car"
+        lines.append((level.name, f"floor at {level.floor_m:g} m, {cars}, {len(layout.cores)} cores"))
+    ramps = garage.building.ramps
+    told = [] if ramps is None else [("ramps", ramps.in_words)]
+    return [*lines, ("stalls", f"{garage.parking_stalls} on {len(garage.levels)} levels"), *told]
+
+
+def _parts(layout: "Layout") -> str:
+    count = int(layout.compartments.max())
+    return f"{count} fire compartment{'s' if count > 1 else ''}"
+
+
+def _scores(made: "Build") -> list[tuple[str, str]]:
+    """Tell the score of the plan of the only level, and what was learnt."""
+    score = made.garage.plan.score
+    figures = f"N_S {score.stalls}, T_S {score.parking_time_squares:.2f} squares, U_S {score.unused_squares}"
+    return [("score", f"{score.value:.2f} ({figures})"), *_learnt(made)]
 
 
 def _areas(layouts: "Sequence[Layout]") -> str:
@@ -311,20 +308,14 @@ def _displaced(layout: "Layout") -> int:
 
 def _checked(made: "Build") -> str:
     """Number of clauses checked, what was found, and the command that lists it."""
-    if made.findings is None:
-        return f"not done here for so many stalls: garage2usd check {made.report}"
-    found = _found(made.garage.config, made.findings, made.unmet or ())
-    return f"{found}: garage2usd check {made.report}" if made.findings else found
-
-
-def _found(config: "GarageConfig", findings: "Sequence[Finding]", unmet: "Iterable[UnmetClause]") -> str:
-    """Sum up the findings of a garage or a level."""
     from garage2usd.checks import clauses_checked, found_in_words  # noqa: PLC0415 - keeps --help instant
 
-    profile = config.standard
-    return found_in_words(
-        findings, clauses_checked(profile, [entry.clause for entry in unmet if not entry.places]), profile.name
-    )
+    if made.findings is None:
+        return f"not done here for so many stalls: garage2usd check {made.report}"
+    profile = made.garage.config.standard
+    clauses = clauses_checked(profile, [entry.clause for entry in made.unmet or () if not entry.places])
+    found = found_in_words(made.findings, clauses, profile.name)
+    return f"{found}: garage2usd check {made.report}" if made.findings else found
 
 
 def _dropped(made: "Build") -> str:

@@ -34,20 +34,13 @@ def check(ctx: click.Context, *, path: Path, profile: str | None, as_json: bool)
       garage2usd check garage_report.json --profile us-ada --json
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd import checks  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.as_built.levels import BuiltLevels  # noqa: PLC0415
-    from garage2usd.checks.levels import check_levels, read_stage  # noqa: PLC0415
+    from garage2usd.garage_sources import read_built  # noqa: PLC0415
     from garage2usd.profiles import load_profile  # noqa: PLC0415
-    from garage2usd.reading.files import STAGE_SUFFIXES  # noqa: PLC0415
 
     given = None if profile is None else load_profile(profile)
-    with Bars(sys.stderr):
-        is_stage = path.suffix.lower() in STAGE_SUFFIXES
-        garage, against = (read_stage if is_stage else checks.read_garage)(path, profile=given)
-        if isinstance(garage, BuiltLevels):
-            findings = check_levels(garage, against, checks.RULES)
-            not_checked = checks.not_checked(garage.levels[0].garage, against)
-        else:
-            findings, not_checked = checks.check(garage, against), checks.not_checked(garage, against)
+    with Bars(sys.stderr) as progress:
+        source = read_built(path, profile=given, progress=progress)
+        against, findings, not_checked = source.profile, source.findings(), source.not_checked()
     usd_messages()  # findings say the same
     counts = Counter(finding.severity.value for finding in findings)
     if as_json:

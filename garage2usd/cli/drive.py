@@ -8,20 +8,17 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, drive_options, echo_notices, refuse_seed, seed_option
+from garage2usd.cli.parameters import INPUT_FILE, drive_options, echo_notices, seed_option
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from garage2usd.as_built import BuiltGarage
-    from garage2usd.as_built.levels import BuiltLevels
     from garage2usd.common.progress import Progress
-    from garage2usd.config.maps import DriveConfig
     from garage2usd.config.vehicles import CarBody
     from garage2usd.driving import StallProof
+    from garage2usd.garage_sources import BuiltSource
     from garage2usd.maps.drives import Drive
-    from garage2usd.pipeline import Garage
 
 __all__ = ["drive"]
 
@@ -60,7 +57,7 @@ def drive(
     PATH is a configuration, from which the garage is made as by `build`; a stage, including one edited in other tools;
     or the report of a build. Without PATH the default garage is used. The car is 4.8 x 1.8 m with a turning radius of
     6 m. Access aisles, turning stalls and stalls for motorcycles are left out, since no car parks there. Stalls without
-    a path are listed with the objects in the way, and the exit code is 1. In a stage of several levels the stalls of
+    a path are listed with the objects in the way, and the exit code is 1. In a garage of several levels the stalls of
     all levels are proven, from the street and back to it.
 
     With --stall the car drives from an entrance into the stall and on to an exit, over ramps and lanes. Its speed
@@ -94,7 +91,8 @@ def drive(
         _drive_to(path, seed, stall, entrance=entrance, exit_=exit_, leg=leg or "both", output=output, rig=rig)
         return
     with Bars(sys.stderr) as progress:
-        proofs, floors_m = _proofs_of(path, seed, progress)
+        source = _source(path, seed, progress)
+        proofs, floors_m = source.proofs(progress=progress), source.floors_m()
     if output is not None:
         _write(output, proofs, floors_m)
     _describe(proofs)
@@ -129,8 +127,8 @@ def _drive_to(
         echo_notices(carrier.remarks)
     car = None if carrier is None else carrier.body
     with Bars(sys.stderr) as progress:
-        garage, settings = _garage_of(path, seed, progress)
-        driven = drive_planner(garage, settings).drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
+        source = _source(path, seed, progress)
+        driven = drive_planner(source.garage, source.drive).drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
     if output is not None:
         _write_drive(output, driven, car)
     route, states = driven.route, driven.trajectory
@@ -146,63 +144,18 @@ def _drive_to(
         click.echo(f"{route.stall}: only while the stalls that are empty now stay empty")
 
 
-def _garage_of(
-    path: Path | None, seed: int | None, progress: "Progress"
-) -> "tuple[BuiltGarage | BuiltLevels, DriveConfig]":
-    """The garage, and the settings of drives."""
-    from garage2usd.as_built.layout_reader import garage_of_layout  # noqa: PLC0415 - keeps --help instant
-
-    if path is not None and _is_made(path):
-        return _read(path, seed)
-    made = _generated(path, seed, progress)
-    garage = garage_of_layout(made.layout, source=str(path or ""), kind="plan")
-    return garage, made.config.maps.drive
-
-
-def _proofs_of(
-    path: Path | None, seed: int | None, progress: "Progress"
-) -> "tuple[tuple[StallProof, ...], Mapping[str, float] | None]":
-    """Prove all stalls; return also the height of the floor under each by name, in a garage of several levels."""
-    from garage2usd.as_built.driven_ground import driven_garage  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.as_built.driven_levels import floors_of_stalls, prove_levels  # noqa: PLC0415
-    from garage2usd.as_built.levels import BuiltLevels  # noqa: PLC0415
-    from garage2usd.driving import prove_garage, prove_stalls  # noqa: PLC0415
-
-    if path is not None and _is_made(path):
-        made = _read(path, seed)[0]
-        if isinstance(made, BuiltLevels):
-            return prove_levels(made, progress=progress), floors_of_stalls(made)
-        return prove_garage(driven_garage(made), progress=progress), None
-    garage = _generated(path, seed, progress)
-    return prove_stalls(garage.layout, progress=progress), None
-
-
-def _is_made(path: Path) -> bool:
-    """True if a file holds a finished garage: a stage or a report."""
-    from garage2usd.reading.files import STAGE_SUFFIXES  # noqa: PLC0415 - keeps --help instant
-
-    return path.suffix.lower() in {*STAGE_SUFFIXES, ".json"}
-
-
-def _read(path: Path, seed: int | None) -> "tuple[BuiltGarage | BuiltLevels, DriveConfig]":
-    """Read a stage or a report, with the settings of drives: the report's, or the defaults for a stage."""
-    from garage2usd.as_built.plan_reader import garage_of_plan  # noqa: PLC0415
-    from garage2usd.checks.levels import read_stage  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.config.maps import DriveConfig  # noqa: PLC0415
+def _source(path: Path | None, seed: int | None, progress: "Progress") -> "BuiltSource":
+    """Read a finished garage from a stage or a report, or make that of a configuration."""
+    from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.garage_sources import built_source, read_built, refuse_seed  # noqa: PLC0415
+    from garage2usd.pipeline import generate  # noqa: PLC0415
     from garage2usd.reading.files import STAGE_SUFFIXES  # noqa: PLC0415
 
-    refuse_seed(seed)
-    if path.suffix.lower() in STAGE_SUFFIXES:
-        return read_stage(path)[0], DriveConfig()
-    garage, config = garage_of_plan(path)
-    return garage, config.maps.drive
-
-
-def _generated(path: Path | None, seed: int | None, progress: "Progress") -> "Garage":
-    from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.pipeline import generate  # noqa: PLC0415
-
-    return generate(load_config(path) if path else None, seed=seed, progress=progress)
+    if path is not None and path.suffix.lower() in {*STAGE_SUFFIXES, ".json"}:
+        refuse_seed(seed)
+        return read_built(path, progress=progress)
+    made = generate(load_config(path) if path else None, seed=seed, progress=progress)
+    return built_source(made, source=str(path or ""))
 
 
 def _write_drive(output: Path, driven: "Drive", car: "CarBody | None") -> None:

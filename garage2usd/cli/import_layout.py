@@ -12,7 +12,7 @@ from garage2usd.cli.parameters import INPUT_FILE, echo_notices, echo_table, prof
 from garage2usd.common.errors import printable
 
 if TYPE_CHECKING:
-    from garage2usd.imports import ImportedGarage
+    from garage2usd.pipeline import Build
 
 __all__ = ["import_layout"]
 
@@ -59,6 +59,7 @@ def import_layout(
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.config import GarageConfig, load_config, profile_setting  # noqa: PLC0415 - keeps --help instant
     from garage2usd.imports import import_layout as make  # noqa: PLC0415
+    from garage2usd.imports import surveyed_floor  # noqa: PLC0415
 
     if config:
         settings = load_config(config, profile=profile)
@@ -69,34 +70,35 @@ def import_layout(
     echo_notices(settings.remarks())
     with Bars(sys.stderr) as progress:
         made = make(source, output, config=settings, proves=not no_proofs, progress=progress)
-    unplaced = made.layout.unplaced
+    surveyed = surveyed_floor(made.garage)
+    unplaced = surveyed.unplaced
     for name, reason in unplaced[:_MOST_NAMED]:
         click.echo(f"not placed: {printable(name)}: {printable(reason)}", err=True)
     if len(unplaced) > _MOST_NAMED:
         click.echo(f"not placed: {len(unplaced) - _MOST_NAMED} more, see {made.report}", err=True)
-    for stall in made.layout.fitted:
+    for stall in surveyed.fitted:
         if stall.note:
             click.echo(f"changed: {printable(stall.source.name)}: {printable(stall.note)}", err=True)
-    _describe(made)
+    _describe(made, len(unplaced))
 
 
-def _describe(made: "ImportedGarage") -> None:
+def _describe(made: "Build", unplaced: int) -> None:
     from garage2usd.checks import clauses_checked, found_in_words  # noqa: PLC0415 - keeps --help instant
 
-    layout = made.layout
+    layout = made.garage.layout
     kinds = Counter(stall.kind.value for stall in layout.quads if stall.takes_cars)
     of_kinds = ", ".join(f"{count} {kind}" for kind, count in kinds.most_common())
     rows = [
         ("stalls", f"{layout.parking_stalls} ({of_kinds}); {layout.uses_in_words()}"),
-        ("not placed", str(len(layout.unplaced))),
+        ("not placed", str(unplaced)),
     ]
     if made.proofs:
         outcomes = Counter(proof.outcome.value for proof in made.proofs)
         rows.append(("driven", ", ".join(f"{count} {outcome}" for outcome, count in outcomes.most_common())))
-    profile = made.config.standard
-    clauses = clauses_checked(profile, [entry.clause for entry in made.unmet if not entry.places])
-    found = found_in_words(made.findings, clauses, profile.name)
+    profile = made.garage.config.standard
+    clauses = clauses_checked(profile, [entry.clause for entry in made.unmet or () if not entry.places])
+    found = found_in_words(made.findings or (), clauses, profile.name)
     ways = "" if made.proofs else ", without ways into stalls"
     rows.append(("check", f"{found}{ways}: garage2usd check {made.stage}"))
-    rows += [("stage", str(made.stage)), ("plan", str(made.plan)), ("report", str(made.report))]
+    rows += [("stage", str(made.stage)), ("plan", str(made.pictures[0])), ("report", str(made.report))]
     echo_table(rows)

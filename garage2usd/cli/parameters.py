@@ -1,5 +1,6 @@
 """Options and tables shared by several commands, with the same names, help and completion."""
 
+import logging
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
@@ -7,16 +8,14 @@ from typing import Any
 import click
 from click.shell_completion import CompletionItem
 
-from garage2usd.common.errors import ConfigError
-
 __all__ = [
     "INPUT_FILE",
     "drive_options",
     "echo_notices",
     "echo_table",
     "end_incomplete",
+    "log_steps",
     "profile_option",
-    "refuse_seed",
     "seed_option",
 ]
 
@@ -74,18 +73,30 @@ def echo_notices(notices: Iterable[str]) -> None:
         click.echo(notice, err=True)
 
 
+class _Told(logging.Handler):
+    """A handler of what is logged, which hands each line to a function."""
+
+    def __init__(self, say: Callable[[str], None]) -> None:
+        super().__init__()
+        self._say = say
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self._say(self.format(record))
+
+
+def log_steps(say: Callable[[str], None]) -> None:
+    """Hand each line that the package logs to a function: what each step decided, and how long it took."""
+    log = logging.getLogger("garage2usd")
+    log.setLevel(logging.INFO)
+    log.handlers[:] = [_Told(say)]
+
+
 def end_incomplete(lacking: Sequence[str]) -> None:
     """Name the files that were not written for want of an extra, on standard error, and end with an exit code of 3."""
     for line in lacking:
         click.echo(f"Error: {line}", err=True)
     if lacking:
         raise click.exceptions.Exit(_INCOMPLETE)
-
-
-def refuse_seed(seed: int | None) -> None:
-    """Raise `ConfigError` for a seed in addition to a finished garage."""
-    if seed is not None:
-        raise ConfigError("seed", seed, "a seed beside a configuration only, as this garage is made already")
 
 
 def _profiles(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[CompletionItem]:

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, echo_table, refuse_seed, seed_option
+from garage2usd.cli.parameters import INPUT_FILE, echo_table, seed_option
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
-    from garage2usd.buildings import LevelsGarage
     from garage2usd.common.progress import Progress
-    from garage2usd.pipeline import Garage
+    from garage2usd.pipeline import Garage, GarageLevel
+    from garage2usd.view.drawing import Drawing
     from garage2usd.view.plan_sheet import Mark
 
 __all__ = ["plan"]
@@ -26,7 +26,7 @@ _ROUNDING = 1e-6
 
 @click.command(short_help="Draw a plan with dimensions, as SVG or PNG.")
 @click.argument("path", type=INPUT_FILE)
-@click.option("--stall", "number", metavar="NUMBER|ID", help="A stall whose route is drawn, as B2-07.")
+@click.option("--stall", "number", metavar="NUMBER|ID", help="A stall whose route is drawn, as B2-07 or U2/B2-07.")
 @click.option("--findings", "with_findings", is_flag=True, help="Draw what `check` finds in PATH at its place.")
 @click.option(
     "--optimum",
@@ -58,94 +58,34 @@ def plan(
 
     PATH is a configuration (.toml), the report of a build (.json), or a stage beside its report. A garage of several
     levels has a picture for each of them, as garage_plan_U2.svg, and a section along its ramps,
-    garage_plan_section.svg.
+    garage_plan_section.svg. The route to a stall is drawn on each level that it leads over.
 
     \b
     Examples:
       garage2usd plan garage.usdz
       garage2usd plan garage_report.json --stall B2-07 -o route.png -o route.svg
+      garage2usd plan two_levels.usdz --stall U2/B2-07
       garage2usd plan garage.usdz --findings -o findings.png
       garage2usd plan samples/paper_7x9.toml --optimum
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.common.errors import ConfigError  # noqa: PLC0415 - keeps --help instant
     from garage2usd.common.output import check_file, drafting, publish_at, staging_folder  # noqa: PLC0415
-    from garage2usd.view.plan_picture import draw_plan  # noqa: PLC0415
+    from garage2usd.garage_sources import generated_of  # noqa: PLC0415
     from garage2usd.view.raster import to_image, write_png  # noqa: PLC0415
-    from garage2usd.view.route import find_stall  # noqa: PLC0415
     from garage2usd.view.svg import to_svg  # noqa: PLC0415
 
-    several = _levels(path, seed)
-    if several is not None:
-        asked = {"stall": number, "findings": with_findings, "optimum": with_optimum}
-        _draw_levels(several, outputs or (Path(f"{path.stem.removesuffix('_report')}_plan.svg"),), asked)
-        return
     outputs = outputs or (Path(f"{path.stem.removesuffix('_report')}_plan.svg"),)
     for output in outputs:
         if output.suffix.lower() not in _FORMATS or not output.stem:
             raise ConfigError("output", str(output), f"a path that ends in {', '.join(_FORMATS)}")
         check_file(output)
     with Bars(sys.stderr) as progress:
-        garage = _garage(path, seed, progress)
+        garage = generated_of(path, seed, progress=progress)
         # before the check of a stage, which limits the processor time of all later work
         told = _beside_optimum(garage, progress) if with_optimum else []
-    stall = find_stall(garage.layout, number) if number else None
-    marks = _marks(path) if with_findings else []
-    drawing = draw_plan(garage.layout, stall=stall, marks=marks)
-    with staging_folder(outputs[0]) as staging:
-        places = {staging / str(number): output for number, output in enumerate(outputs)}
-        for file, output in places.items():
-            with drafting(output):
-                if output.suffix.lower() == ".svg":
-                    file.write_text(to_svg(drawing), encoding="utf-8", newline="\n")
-                else:
-                    write_png(to_image(drawing), file)
-        publish_at(places)
-    echo_table([*(("picture", str(output)) for output in outputs), *told])
-
-
-def _levels(path: Path, seed: int | None) -> "LevelsGarage | None":
-    """The garage of several levels of a configuration, a report, or a stage beside its report; None of another."""
-    from garage2usd.buildings import generate_levels  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.common.documents import is_file  # noqa: PLC0415
-    from garage2usd.config import load_config  # noqa: PLC0415
-    from garage2usd.reading.levels_report import read_levels_report  # noqa: PLC0415
-    from garage2usd.stage import StageFormat  # noqa: PLC0415
-
-    suffix = path.suffix.lower()
-    if suffix == ".toml":
-        config = load_config(path)
-        return None if config.building.levels == 1 else generate_levels(config, seed=seed)
-    report = path.with_name(f"{path.stem}_report.json") if suffix in set(StageFormat) else path
-    if report.suffix.lower() != ".json" or not is_file(report):
-        return None
-    found = read_levels_report(report)
-    if found is None:
-        return None
-    refuse_seed(seed)
-    return generate_levels(found.config, seed=found.seed, tape=found.tape)
-
-
-def _draw_levels(garage: "LevelsGarage", outputs: tuple[Path, ...], refused: "Mapping[str, object]") -> None:
-    """Draw a sheet for each level and a section, named after the picture; `refused` goes with one level only."""
-    from garage2usd.common.errors import ConfigError  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.common.output import check_file, publish_at, staging_folder  # noqa: PLC0415
-    from garage2usd.view.plan_picture import draw_plan  # noqa: PLC0415
-    from garage2usd.view.raster import to_image, write_png  # noqa: PLC0415
-    from garage2usd.view.section import draw_section  # noqa: PLC0415
-    from garage2usd.view.svg import to_svg  # noqa: PLC0415
-
-    for option, value in refused.items():
-        if value:
-            raise ConfigError(option, value, "not with several levels, for which it is not built yet")
-    for output in outputs:
-        if output.suffix.lower() not in _FORMATS or not output.stem:
-            raise ConfigError("output", str(output), f"a path that ends in {', '.join(_FORMATS)}")
-    drawings = {
-        name: draw_plan(level.layout) for name, level in zip(garage.building.names(), garage.levels, strict=True)
-    }
-    drawings["section"] = draw_section(garage.layouts, storey_m=garage.building.storey_m)
+    drawings = _drawings(garage, number, _marks(path, garage) if with_findings else {})
     sheets = [
-        (output.with_name(f"{output.stem}_{name}{output.suffix}"), drawing)
+        (output.with_name(f"{output.stem}{name}{output.suffix}"), drawing)
         for output in outputs
         for name, drawing in drawings.items()
     ]
@@ -154,32 +94,66 @@ def _draw_levels(garage: "LevelsGarage", outputs: tuple[Path, ...], refused: "Ma
     with staging_folder(outputs[0]) as staging:
         places = {staging / str(number): place for number, (place, _) in enumerate(sheets)}
         for file, (place, drawing) in zip(places, sheets, strict=True):
-            if place.suffix.lower() == ".svg":
-                file.write_text(to_svg(drawing), encoding="utf-8", newline="\n")
-            else:
-                write_png(to_image(drawing), file)
+            with drafting(place):
+                if place.suffix.lower() == ".svg":
+                    file.write_text(to_svg(drawing), encoding="utf-8", newline="\n")
+                else:
+                    write_png(to_image(drawing), file)
         publish_at(places)
-    echo_table(("picture", str(place)) for place, _ in sheets)
+    echo_table([*(("picture", str(place)) for place, _ in sheets), *told])
 
 
-def _marks(path: Path) -> "list[Mark]":
-    """Findings of a check that have places."""
-    from garage2usd.checks import check_file  # noqa: PLC0415 - keeps --help instant
+def _drawings(garage: "Garage", number: str | None, marks: "Mapping[str, Sequence[Mark]]") -> "dict[str, Drawing]":
+    """Draw each level, with the route to a stall and the marks on it; of several levels also the section."""
+    from garage2usd.view.plan_picture import draw_plan  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.view.route import find_stall, ways_on_level  # noqa: PLC0415
+    from garage2usd.view.section import draw_section  # noqa: PLC0415
+
+    chosen = find_stall(garage.stalls, number) if number else None
+    drawings = {}
+    for index, level in enumerate(garage.levels):
+        name = "" if level.is_only else f"_{level.name}"
+        on_level = chosen if chosen is not None and chosen.level == index else None
+        ways = None if chosen is None else ways_on_level(garage.lanes, chosen, index)
+        drawings[name] = draw_plan(level.layout, stall=on_level, ways=ways, marks=marks.get(level.name, ()))
+    if garage.building.ramps is not None:
+        drawings["_section"] = draw_section(garage.layouts, storey_m=garage.building.storey_m)
+    return drawings
+
+
+def _marks(path: Path, garage: "Garage") -> "dict[str, list[Mark]]":
+    """Findings of a check that have places, by the name of their level."""
+    from garage2usd.garage_sources import read_built  # noqa: PLC0415 - keeps --help instant
     from garage2usd.view.plan_sheet import Mark  # noqa: PLC0415
 
-    findings, _ = check_file(path)
-    return [
-        Mark(*finding.position_m, finding.severity.value, f"{finding.rule}: {finding.message}")
-        for finding in findings
-        if finding.position_m is not None
-    ]
+    marks: dict[str, list[Mark]] = {}
+    for finding in read_built(path).findings():
+        if finding.position_m is not None:
+            words = f"{finding.rule}: {finding.message}"
+            level = _level_of(finding.place, garage.levels)
+            marks.setdefault(level, []).append(Mark(*finding.position_m, finding.severity.value, words))
+    return marks
+
+
+def _level_of(place: str, levels: "Sequence[GarageLevel]") -> str:
+    """Return the name of the level that a path in the stage, a stall or a square is on, else that of the top one."""
+    parts = place.split("/")
+    return next((level.name for level in levels if level.name in parts), levels[0].name)
 
 
 def _beside_optimum(garage: "Garage", progress: "Progress") -> list[tuple[str, str]]:
-    """Score of a garage's plan, and its share of the proven optimum on the same squares."""
+    """Score of each level's plan, and its share of the proven optimum on the same squares."""
+    return [
+        (level.in_whole(name, joint=" "), words)
+        for level in garage.levels
+        for name, words in _beside_level_optimum(level, progress)
+    ]
+
+
+def _beside_level_optimum(level: "GarageLevel", progress: "Progress") -> list[tuple[str, str]]:
     from garage2usd.planning import find_optimum  # noqa: PLC0415 - keeps --help instant
 
-    plan, config = garage.plan, garage.config
+    plan, config = level.plan, level.config
     best = find_optimum(
         plan.structure, bay=config.bay, plan=config.plan, known=plan.structure, progress=progress
     ).score.value
@@ -191,28 +165,3 @@ def _beside_optimum(garage: "Garage", progress: "Progress") -> list[tuple[str, s
     else:
         share = f"this plan has {best - value:.2f} less"
     return [("score", f"{value:.2f}"), ("optimum", f"proven optimum {best:.2f}; {share}")]
-
-
-def _garage(path: Path, seed: int | None, progress: "Progress") -> "Garage":
-    """Make a garage from a configuration, or rebuild it from a report."""
-    from garage2usd.common.documents import is_file  # noqa: PLC0415
-    from garage2usd.common.errors import ConfigError  # noqa: PLC0415
-    from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.pipeline import generate  # noqa: PLC0415
-    from garage2usd.reading.report import read_report  # noqa: PLC0415
-    from garage2usd.stage import StageFormat  # noqa: PLC0415
-
-    suffix = path.suffix.lower()
-    if suffix == ".toml":
-        return generate(load_config(path), seed=seed, progress=progress)
-    refuse_seed(seed)
-    if suffix == ".json":
-        return generate(read_report(path).garage_config(), progress=progress)
-    if suffix in set(StageFormat):
-        if not is_file(path):
-            raise ConfigError("PATH", str(path), "an existing file")
-        report = path.with_name(f"{path.stem}_report.json")
-        if not is_file(report):
-            raise ConfigError("PATH", str(path), f"a stage with the report of its build beside it, {report.name}")
-        return generate(read_report(report).garage_config(), progress=progress)
-    raise ConfigError("PATH", str(path), f"a path that ends in .toml, .json, {', '.join(StageFormat)}")

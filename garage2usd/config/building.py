@@ -68,7 +68,7 @@ class BuildingConfig(Settings):
 
 
 def check_one_level(building: BuildingConfig) -> None:
-    """Refuse several levels where a garage of one level is made.
+    """Refuse several levels in a configuration whose given lanes are read as they are.
 
     Raises
     ------
@@ -76,5 +76,5 @@ def check_one_level(building: BuildingConfig) -> None:
         If there is more than one level.
     """
     if building.levels > 1:
-        wanted = "1 here; garage2usd.build_levels and `garage2usd build` make garages of several levels"
+        wanted = "1 in a plan; build a garage of several levels, and check its stage or its report"
         raise ConfigError("building.levels", building.levels, wanted)

@@ -16,7 +16,7 @@ from garage2usd.common.documents import MAX_SETTINGS_BYTES, read_json
 from garage2usd.common.settings import Record
 from garage2usd.datasets.stall_features import StallFeatures, measured_stalls
 from garage2usd.driving import StallProof
-from garage2usd.pipeline import Garage
+from garage2usd.pipeline import Garage, GarageLevel
 
 __all__ = [
     "REFERENCE_FILE",
@@ -140,13 +140,15 @@ def reference() -> Reference:
     return Reference.model_validate(read_json(REFERENCE_FILE, field="reference", max_bytes=MAX_SETTINGS_BYTES))
 
 
-def stall_difficulties(garage: Garage, *, proofs: Sequence[StallProof] | None = None) -> tuple[StallDifficulty, ...]:
+def stall_difficulties(
+    garage: Garage | GarageLevel, *, proofs: Sequence[StallProof] | None = None
+) -> tuple[StallDifficulty, ...]:
     """Rate the difficulty of each stall for cars in a garage, in the order of the layout.
 
     Parameters
     ----------
     garage
-        The garage.
+        The garage of one level, or a level of one.
     proofs
         Result of `garage2usd.driving.prove_stalls` for the garage; computed if left out.
 

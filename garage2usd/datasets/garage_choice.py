@@ -42,10 +42,8 @@ def chosen_garages(path: Path, numbers: Sequence[int]) -> Iterator[SheetGarage]:
         if drawn.error:
             raise ConfigError("seeds", number, f"a garage that is possible ({drawn.error})")
         config, _ = recipe.drawn(drawn.seed, drawn.number)
-        if config.building.levels > 1:
-            yield SheetGarage(f"garage {number}", config, tape=drawn.tape)
-        else:
-            yield SheetGarage(f"garage {number}", config, replanned(drawn, config))
+        plan = None if drawn.tape else replanned(drawn, config)
+        yield SheetGarage(f"garage {number}", config, plan, drawn.tape or None)
 
 
 def _drawn(recipe: Recipe, number: int) -> DrawnPlan:

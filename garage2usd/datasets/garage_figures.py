@@ -10,7 +10,7 @@ import numpy as np
 
 from garage2usd.garage import LaneGraph, Stall, StallKind, StallUse
 from garage2usd.layout import Layout
-from garage2usd.pipeline import Garage
+from garage2usd.pipeline import GarageLevel
 from garage2usd.planning import measured_circulation
 from garage2usd.report import area_figures
 
@@ -19,13 +19,13 @@ __all__ = ["garage_figures"]
 _DIGITS = 6
 
 
-def garage_figures(levels: Sequence[Garage]) -> dict[str, Any]:
+def garage_figures(levels: Sequence[GarageLevel]) -> dict[str, Any]:
     """Measure the figures of a garage.
 
     Parameters
     ----------
     levels
-        Each level as a garage of its own, the top one first; one for a garage of one level.
+        Its levels, the top one first.
 
     Returns
     -------

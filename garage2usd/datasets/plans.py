@@ -5,13 +5,12 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from garage2usd.buildings import LevelsGarage, generate_levels
 from garage2usd.common.errors import ConfigError, Garage2UsdError, MissingExtraError
 from garage2usd.config import GarageConfig
 from garage2usd.datasets.difficulty import GarageDifficulty, garage_difficulty, stall_difficulties
 from garage2usd.datasets.drawn_plan import DrawnPlan
 from garage2usd.datasets.recipe import Distinct, Recipe
-from garage2usd.pipeline import Garage, generate, generate_plan
+from garage2usd.pipeline import Garage, GarageLevel, generate, generate_plan
 from garage2usd.planning import Plan, evaluate, read_tail, tail_of
 from garage2usd.report import learning_figures
 from garage2usd.site.level_ramps import ramps_of_tape
@@ -22,10 +21,10 @@ __all__ = [
     "PlanDraw",
     "chunks",
     "error_line",
-    "levels_replanned",
     "planned",
     "proportional",
     "rated",
+    "remade",
     "replanned",
 ]
 
@@ -52,7 +51,7 @@ def _planned(recipe: Recipe, number: int, attempt: int) -> DrawnPlan:
     seed = recipe.garage_seed(number, attempt)
     try:
         config, alternatives = recipe.drawn(seed, number)
-        made = _levels_plan(config, recipe) if config.building.levels > 1 else _level_plan(config, recipe)
+        made = _plan_fields(config, recipe)
     except (OSError, MissingExtraError):  # a failure of the machine, not of this garage
         raise
     except Exception as error:  # noqa: BLE001 - one garage that fails does not end ten thousand
@@ -60,36 +59,31 @@ def _planned(recipe: Recipe, number: int, attempt: int) -> DrawnPlan:
     return DrawnPlan(number=number, attempt=attempt, seed=seed, alternatives=alternatives, **made)
 
 
-def _level_plan(config: GarageConfig, recipe: Recipe) -> dict[str, Any]:
-    """Plan a garage of one level; return the fields of its `DrawnPlan`."""
-    plan = generate_plan(config)
-    level = rated(generate(config, plan=plan)).level if recipe.difficulty else None
-    structure = plan.structure
-    return {
-        **_sides(structure),
-        "rows": _rows(structure),
-        "tail": tail_of(plan),
-        "digest": levels_digest([structure.cells]),
-        "gave_way": dict(plan.gave_way),
-        "learning": learning_figures(plan, config),
-        "level": level,
-    }
-
-
-def _levels_plan(config: GarageConfig, recipe: Recipe) -> dict[str, Any]:
-    """Plan a garage of several levels; return the fields of its `DrawnPlan`."""
-    garage = generate_levels(config)
-    top, *lower = structures = garage.building.levels
-    named = zip(garage.building.names(), garage.levels, strict=True)
-    return {
+def _plan_fields(config: GarageConfig, recipe: Recipe) -> dict[str, Any]:
+    """Plan a garage; return the fields of its `DrawnPlan`."""
+    if recipe.difficulty or config.building.levels > 1:  # which ways over ramps and difficulty take the layout for
+        garage = generate(config)
+        plans, level = garage.plans, rated(*garage.levels).level if recipe.difficulty else None
+    else:
+        garage, plans, level = None, (generate_plan(config),), None
+    top, *lower = [plan.structure for plan in plans]
+    fields = {
         **_sides(top),
         "rows": _rows(top),
         "lower": tuple(map(_rows, lower)),
-        "tape": garage.tape,
-        "digest": levels_digest([structure.cells for structure in structures]),
-        "gave_way": {f"{name} {rule}": place for name, each in named for rule, place in each.plan.gave_way.items()},
-        "level": rated(*garage.levels).level if recipe.difficulty else None,
+        "digest": levels_digest([plan.structure.cells for plan in plans]),
+        "level": level,
     }
+    if garage is not None and lower:
+        gave_way = {
+            each.in_whole(rule, joint=" "): place
+            for each in garage.levels
+            for rule, place in each.plan.gave_way.items()
+        }
+        return fields | {"tape": garage.tape, "gave_way": gave_way}
+    (plan,) = plans
+    learning = learning_figures(plan, config)
+    return fields | {"tail": tail_of(plan), "gave_way": dict(plan.gave_way), "learning": learning}
 
 
 def _sides(structure: Structure) -> dict[str, tuple[int, ...]]:
@@ -103,7 +97,7 @@ def _rows(structure: Structure) -> tuple[str, ...]:
     return tuple(str(structure).splitlines())
 
 
-def rated(*levels: Garage) -> GarageDifficulty:
+def rated(*levels: GarageLevel) -> GarageDifficulty:
     """Rate the difficulty of a garage by the stalls of its levels."""
     return garage_difficulty([stall for level in levels for stall in stall_difficulties(level)])
 
@@ -122,15 +116,17 @@ def replanned(drawn: DrawnPlan, config: GarageConfig) -> Plan:
     return Plan(structure, score, gave_way=drawn.gave_way, runs=runs, directions=directions)
 
 
-def levels_replanned(drawn: DrawnPlan, config: GarageConfig) -> LevelsGarage:
-    """Make a drawn garage of several levels again from its tape.
+def remade(drawn: DrawnPlan, config: GarageConfig) -> Garage:
+    """Make a drawn garage again: one level from its plan, several from their tape.
 
     Raises
     ------
     ConfigError
         If the tape does not give the plans of all levels, as of a damaged table.
     """
-    garage = generate_levels(config, tape=drawn.tape)
+    if not drawn.tape:
+        return generate(config, plan=replanned(drawn, config))
+    garage = generate(config, tape=drawn.tape)
     made = garage.building.levels
     if [_rows(structure) for structure in made] != [drawn.rows, *drawn.lower] or made[0] != drawn.structure:
         raise ConfigError("tape", drawn.tape, f"that of the plans of garage {drawn.number}")

@@ -267,8 +267,7 @@ class Recipe(Settings):
             given["stage"] = {**stage, "assets": "shared", "asset_folder": _FROM_SHARD}
         try:
             config = config_from_mapping({**given, "seed": seed})
-            if config.building.levels > 1:
-                check_levels(config)
+            check_levels(config)
         except ConfigError as error:
             within = "" if error.field.startswith("make.") else "garage."
             raise ConfigError(f"{within}{error.field}", error.value, error.allowed) from None

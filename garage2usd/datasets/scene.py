@@ -4,29 +4,34 @@ import gzip
 import hashlib
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
-from garage2usd.buildings import levels_report
 from garage2usd.checks import Finding, Severity, judged_layout
 from garage2usd.common.json_text import json_text
 from garage2usd.config import GarageConfig
-from garage2usd.datasets.difficulty import stall_difficulties
+from garage2usd.datasets.difficulty import StallDifficulty, garage_difficulty, stall_difficulties
 from garage2usd.datasets.drawn_plan import DrawnPlan
 from garage2usd.datasets.drives import record_drives
 from garage2usd.datasets.garage_figures import garage_figures
-from garage2usd.datasets.level_files import levels_difficulties, levels_proofs, write_difficulty, write_level_files
 from garage2usd.datasets.manifest import FileEntry, LinkEntry, ManifestRow
-from garage2usd.datasets.plans import levels_replanned, replanned
+from garage2usd.datasets.plans import remade
 from garage2usd.datasets.recipe import MakeConfig, Recipe
-from garage2usd.driving import prove_stalls
+from garage2usd.driving import StallProof, prove_stalls
 from garage2usd.exports import export
-from garage2usd.pipeline import Garage, generate, stage_metadata
-from garage2usd.report import make_report, write_report
-from garage2usd.stage import StageFormat, arrangement_of, write_labels, write_stage
-from garage2usd.view.plan_picture import draw_plan
-from garage2usd.view.raster import to_image, write_png
+from garage2usd.garage_files import (
+    draw_pictures,
+    make_garage_report,
+    reported_links,
+    write_garage_labels,
+    write_garage_stage,
+)
+from garage2usd.pipeline import Garage
+from garage2usd.report import write_report
+from garage2usd.stage import StageFormat
+from garage2usd.view.raster import write_png
 
 __all__ = ["key_of", "make_scene"]
 
@@ -69,8 +74,7 @@ def make_scene(
     """
     config, alternatives = recipe.drawn(drawn.seed, drawn.number)
     stem = f"{drawn.number:0{_DIGITS}}"
-    make = _level_files if config.building.levels == 1 else _levels_files
-    made = make(recipe.make, drawn, config, folder / stem, assets)
+    made = _write_all(recipe.make, drawn, config, folder / stem, assets)
     if recipe.make.gzip:
         _compress(folder, stem)
     severities = Counter(finding.severity for finding in made.findings)
@@ -98,90 +102,87 @@ class _Made(NamedTuple):
     findings: Sequence[Finding]
 
 
-def _level_files(make: MakeConfig, drawn: DrawnPlan, config: GarageConfig, place: Path, assets: Path | None) -> _Made:
-    """Write the files of a garage of one level; `place` is their folder and stem."""
-    garage = generate(config, plan=replanned(drawn, config))
-    findings, unmet = judged_layout(garage.layout, config)
-    report = make_report(
-        config=config,
-        plan=garage.plan,
-        layout=garage.layout,
-        seconds={},
-        learning=drawn.learning,
-        unmet=unmet,
-    )
-    write_report(place.with_name(f"{place.name}.report.json"), report)
-    stage = _write_files(garage, place.parent, place.name, make, assets)
-    difficulty = dict[str, Any]()
-    if make.difficulty or make.drives:
-        proofs = prove_stalls(garage.layout, most_explained=0)
-        if make.difficulty:
-            rated = stall_difficulties(garage, proofs=proofs)
-            difficulty = write_difficulty(rated, place.with_name(f"{place.name}.difficulty.json"))
-        if make.drives and stage:
-            record_drives(stage, make.drives, proofs, seed=drawn.seed, settings=config.maps.drive)
-    digests = {"config_digest": report.config_digest, "structure_digest": report.structure_digest}
-    return _Made({**digests, **garage_figures([garage]), **difficulty}, findings)
-
-
-def _levels_files(make: MakeConfig, drawn: DrawnPlan, config: GarageConfig, place: Path, assets: Path | None) -> _Made:
-    """Write the files of a garage of several levels; `place` is their folder and stem."""
-    garage = levels_replanned(drawn, config)
+def _write_all(make: MakeConfig, drawn: DrawnPlan, config: GarageConfig, place: Path, assets: Path | None) -> _Made:
+    """Write the files of a garage; `place` is their folder and stem."""
+    garage = remade(drawn, config)
     judged = [judged_layout(level.layout, level.config) for level in garage.levels]
-    report = levels_report(garage, {}, [unmet for _, unmet in judged])
-    place.with_name(f"{place.name}.report.json").write_text(
-        json_text(report.model_dump(mode="json")), encoding="utf-8", newline="\n"
-    )
-    stage = write_level_files(garage, place, make, assets)
+    unmet = [clauses for _, clauses in judged]
+    report = make_garage_report(garage, seconds={}, unmet=unmet, learning=drawn.learning)
+    write_report(place.with_name(f"{place.name}.report.json"), report)
+    stage = _write_files(garage, place, make, assets)
     difficulty = dict[str, Any]()
     if make.difficulty or make.drives:
-        proofs = levels_proofs(garage)
+        proofs = [prove_stalls(level.layout, most_explained=0) for level in garage.levels]
         if make.difficulty:
-            rated = levels_difficulties(garage, proofs)
-            difficulty = write_difficulty(rated, place.with_name(f"{place.name}.difficulty.json"))
+            rated = _difficulties(garage, proofs)
+            difficulty = _write_difficulty(rated, place.with_name(f"{place.name}.difficulty.json"))
         if make.drives and stage:
             every = [
-                replace(proof, stall=f"{name}/{proof.stall}") for name, proven in proofs.items() for proof in proven
+                replace(proof, stall=level.in_whole(proof.stall))
+                for level, proven in zip(garage.levels, proofs, strict=True)
+                for proof in proven
             ]
             record_drives(stage, make.drives, every, seed=drawn.seed, settings=config.maps.drive)
-    structures = [structure.digest() for structure in garage.building.levels]
+    links = (
+        LinkEntry(kind=link.kind, upper=link.upper, lower=link.lower, direction=link.direction)
+        for link in reported_links(garage)
+    )
     figures = {
         "config_digest": report.config_digest,
-        "structure_digest": hashlib.sha256("".join(structures).encode()).hexdigest(),
-        "links": tuple(
-            LinkEntry(kind=link.kind, upper=link.upper, lower=link.lower, direction=link.direction)
-            for link in report.links
-        ),
+        "structure_digest": garage.building.digest(),
+        "links": tuple(links),
         **garage_figures(garage.levels),
         **difficulty,
     }
     return _Made(figures, [finding for findings, _ in judged for finding in findings])
 
 
-def _write_files(garage: Garage, folder: Path, stem: str, make: MakeConfig, assets: Path | None) -> Path | None:
-    """Write the report, labels, plan picture and stage of a garage; return the stage, if any."""
+def _write_files(garage: Garage, place: Path, make: MakeConfig, assets: Path | None) -> Path | None:
+    """Write the stage, exports, labels and plan pictures of a garage; return the stage, if any."""
+    folder, stem = place.parent, place.name
     stage = None
-    arrangement = arrangement_of(garage.layout, garage.config.stage)
-    if make.stage:
-        suffix = StageFormat.USDZ if make.self_contained else StageFormat.USDC
-        stage = folder / f"{stem}{suffix}"
-        write_stage(
-            garage.layout,
-            stage,
-            arrangement=arrangement,
-            metadata=stage_metadata(garage),
-            config=garage.config.stage,
-            shared=assets,
-            own=f"{stem}.",
-        )
-        if make.exports:
-            files = [folder / f"{stem}.{name}" for name in make.exports]
-            export(stage, files, settings=garage.config.maps, joint=".")
+    if make.stage and make.self_contained:
+        stage = folder / f"{stem}{StageFormat.USDZ}"
+        with TemporaryDirectory(dir=folder) as room:  # it is written in an empty folder
+            packed = Path(room) / stage.name
+            write_garage_stage(garage, packed, own=f"{stem}.")
+            packed.replace(stage)
+    elif make.stage:
+        stage = folder / f"{stem}{StageFormat.USDC}"
+        write_garage_stage(garage, stage, shared=assets, own=f"{stem}.")
+    if stage and make.exports:
+        export(stage, [folder / f"{stem}.{name}" for name in make.exports], settings=garage.config.maps, joint=".")
     if make.labels:
-        write_labels(garage.layout, folder / f"{stem}.labels.json", arrangement=arrangement)
+        write_garage_labels(garage, folder / f"{stem}.labels.json")
     if make.plan:
-        write_png(to_image(draw_plan(garage.layout)), folder / f"{stem}.plan.png")
+        for name, picture in draw_pictures(garage, joint=".").items():
+            write_png(picture, folder / f"{stem}.{name}.png")
     return stage
+
+
+def _difficulties(garage: Garage, proofs: Sequence[Sequence[StallProof]]) -> list[StallDifficulty]:
+    """Rate the difficulty of each stall of a garage, level by level, by the proofs of each level."""
+    found = []
+    for level, proven in zip(garage.levels, proofs, strict=True):
+        for each in stall_difficulties(level, proofs=proven):
+            name = level.in_whole(each.stall)
+            found.append(replace(each, stall=name, features=replace(each.features, stall=name)))
+    return found
+
+
+def _write_difficulty(stalls: Sequence[StallDifficulty], path: Path) -> dict[str, Any]:
+    """Write the difficulty of each stall to a file, and return the difficulty fields of the garage's manifest row."""
+    table = [{"score": stall.score, "level": stall.level, **asdict(stall.features)} for stall in stalls]
+    path.write_text(json_text({"stalls": table}), encoding="utf-8", newline="\n")
+    found = garage_difficulty(stalls)
+    return {
+        "difficulty": str(found.level or ""),
+        "difficulty_score": -1.0 if found.score is None else found.score,
+        "normal_stalls": found.normal,
+        "complex_stalls": found.complex,
+        "extreme_stalls": found.extreme,
+        "unproven_stalls": found.unproven,
+    }
 
 
 def _compress(folder: Path, stem: str) -> None:

@@ -10,7 +10,7 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.driving import StallProof, prove_stalls
 from garage2usd.layout import Layout
 from garage2usd.layout.ceiling.lighting import direct_lux
-from garage2usd.pipeline import Garage
+from garage2usd.pipeline import Garage, GarageLevel
 
 __all__ = ["StallFeatures", "measured_stalls"]
 
@@ -57,13 +57,15 @@ class StallFeatures:
         return self.clearance_m is not None
 
 
-def measured_stalls(garage: Garage, *, proofs: Sequence[StallProof] | None = None) -> tuple[StallFeatures, ...]:
+def measured_stalls(
+    garage: Garage | GarageLevel, *, proofs: Sequence[StallProof] | None = None
+) -> tuple[StallFeatures, ...]:
     """Measure the difficulty features of each stall for cars, in the order of the layout.
 
     Parameters
     ----------
     garage
-        The garage.
+        The garage of one level, or a level of one.
     proofs
         Result of `garage2usd.driving.prove_stalls` for the garage; computed if left out.
 

@@ -75,7 +75,7 @@ def without_unreachable(layout: Layout, config: GarageConfig, *, progress: Progr
     unreachable: set[str] = set()
     undecided: set[str] = set()
     given, asked, config = layout, config, _with_cars_between_lines(config)
-    layout = layout if config is asked else layout.again(config)
+    layout = layout if config is asked else layout.source.again(config)
     while True:
         proofs = prove_stalls(layout, progress=progress)
         found = {proof.stall for proof in proofs if not proof.is_proven}
@@ -83,12 +83,12 @@ def without_unreachable(layout: Layout, config: GarageConfig, *, progress: Progr
             return given
         if not found:
             if config is not asked:
-                layout = layout.again(asked, unreachable=unreachable)
+                layout = layout.source.again(asked, unreachable=unreachable)
             return replace(layout, undecided=frozenset(undecided))
         undecided.update(proof.stall for proof in proofs if proof.outcome is Outcome.UNDECIDED)
         # a charger, an access aisle or a car that went elsewhere may stand in another's way
         unreachable |= found
-        layout = layout.again(config, unreachable=unreachable)
+        layout = layout.source.again(config, unreachable=unreachable)
 
 
 def with_truth_of_misparked(layout: Layout, config: GarageConfig, *, progress: Progress = silent) -> Layout:
@@ -120,7 +120,7 @@ def with_truth_of_misparked(layout: Layout, config: GarageConfig, *, progress: P
             blocked = {proof.stall: blocking[proof.stall] for proof in proofs if not proof.is_proven}
             return replace(layout, blocked=blocked)
         held_back |= found
-        layout = layout.again(config, unreachable=layout.unreachable, held_back=held_back)
+        layout = layout.source.again(config, unreachable=layout.unreachable, held_back=held_back)
     return layout
 
 
@@ -167,7 +167,7 @@ def with_clutter(
         per_hundred=config.clutter.per_hundred("open_boots"),
         seed=config.seed,
     )
-    cluttered = layout.again(
+    cluttered = layout.source.again(
         config,
         unreachable=layout.unreachable,
         held_back=layout.held_back,

@@ -4,7 +4,7 @@
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -24,7 +24,7 @@ from garage2usd.layout.egress.exits import Egress, plan_egress
 from garage2usd.layout.egress.shafts import LevelPlan
 from garage2usd.layout.floor_area import FloorArea
 from garage2usd.layout.furnishing import Floor, furnished
-from garage2usd.layout.garage_stalls import garage_stalls
+from garage2usd.layout.garage_stalls import garage_stalls, stall_quads
 from garage2usd.layout.parking.designation import with_designated_stalls
 from garage2usd.layout.parking.stall_table import STALL_USES, StallTable
 from garage2usd.layout.parking.stalls import stalls_of, with_turning_stalls
@@ -32,6 +32,7 @@ from garage2usd.layout.parking.zones import Zones, with_numbers
 from garage2usd.layout.placement import PlacedStall, Placement
 from garage2usd.layout.shell.building import columns, corner_columns, outer_walls
 from garage2usd.layout.shell.well import Well
+from garage2usd.layout.source import FloorSource, PlannedFloor
 from garage2usd.layout.table import ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel
 from garage2usd.look import drawn_look
@@ -39,7 +40,7 @@ from garage2usd.objects import KINDS
 from garage2usd.objects.number_plate import NumberPlateSpec
 from garage2usd.objects.outline import Point
 from garage2usd.structure.dead_ends import DEAD_END_LIMIT_MM, dead_ends
-from garage2usd.structure.grid import Cell, Structure, outside_squares
+from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneSquares, Square
 
 __all__ = [
@@ -64,9 +65,9 @@ class Layout:
     Attributes
     ----------
     structure
-        The plan that it was laid out from.
-    lane_squares
-        The squares of its lanes, for this room only; all others take `Layout.lane_graph` and `Layout.quads`.
+        Its tiles, which are the squares of a plan, or those by which the floor of a survey is cut.
+    source
+        The plan or survey that it was laid out from.
     placements
         All objects: tiles in reading order, then the building's.
     stalls
@@ -101,7 +102,7 @@ class Layout:
     """
 
     structure: Structure
-    lane_squares: LaneSquares = field(repr=False)
+    source: FloorSource = field(repr=False)
     placements: ObjectTable
     stalls: StallTable
     ceiling_height_m: float
@@ -121,35 +122,22 @@ class Layout:
     @property
     def matrices(self) -> Structure | None:
         """S, R and C; None for a garage without a grid, whose squares are tiles of the floor alone."""
-        return self.structure
+        return self.source.matrices
 
     @property
     def lane_graph(self) -> LaneGraph:
         """The lane graph in metres."""
-        return self.lane_squares.lanes
+        return self.source.lanes
 
     @cached_property
     def quads(self) -> tuple[Stall, ...]:
         """The stalls as those of the neutral garage, in the order of `Layout.stalls`, with the facts of a stage."""
-        return tuple(garage_stalls(tuple(self.stalls), self.lane_squares, self.blocked, self.are_occupied().tolist()))
-
-    @property
-    def again(self) -> "partial[Layout]":
-        """Lay the same plan out again: `lay_out` with its structure and lane squares given."""
-        egress = Egress(self.compartments, self.cores, self.shafts)
-        return partial(lay_out, self.structure, self.lane_squares, well=self.well, egress=egress)
+        stalls, occupied = tuple(self.stalls), self.are_occupied().tolist()
+        return tuple(stall_quads(stalls, self.source.access(stalls), self.lane_graph, self.blocked, occupied))
 
     def node_squares(self) -> NDArray[np.int32]:
         """Return the (row, col) by which files name each lane node; int32, shape (nodes, 2)."""
-        return np.array([*self.lane_squares.number_of], dtype=np.int32).reshape(-1, 2)
-
-    def kinds_of_squares(self) -> dict[str, int]:
-        """Count the squares of each kind of lane and portal, and of each stall type."""
-        return self.lane_squares.kind_counts()
-
-    def label_of_square(self, row: int, col: int) -> str:
-        """Return the semantic label of a square's tile: the kind of its lane, or the type of its stalls."""
-        return self.lane_squares.label_of((row, col))
+        return self.source.node_squares()
 
     def counts(self) -> dict[str, int]:
         """Number of objects of each kind."""
@@ -215,10 +203,7 @@ class Layout:
     @property
     def area(self) -> FloorArea:
         """Its floor without and with what is no floor."""
-        ground = ~outside_squares(self.structure.cells)
-        for square in self.well.squares if self.well else ():
-            ground[square] = True
-        return FloorArea(self.structure.floor_m2, self.structure.area_m2(ground))
+        return self.source.area
 
     @property
     def kept_free_stalls(self) -> int:
@@ -328,7 +313,7 @@ def lay_out(
     found = furnished(floor, config, look, held_back=held_back, kept_clear=kept_clear, open_boots=open_boots)
     return Layout(
         structure,
-        graph,
+        PlannedFloor(structure, graph, lay_out, Egress(compartments, cores, shafts), well),
         ObjectTable(found.objects),
         StallTable(stalls),
         ceiling,

@@ -59,8 +59,9 @@ class DuctSpec(Spec, kind=KIND):
         parts = [
             make_part("Body", body, "service_steel", collider=Collider.BOX),
             make_part("Flanges", flanges, "service_steel"),
-            make_part("Hangers", hangers, "service_hanger"),
         ]
+        if hangers:
+            parts.append(make_part("Hangers", hangers, "service_hanger"))
         if self.length_m > 3:  # noqa: PLR2004 - a short branch has no outlet
             grille: list[Face] = []
             for slat in range(5):

@@ -1,15 +1,20 @@
 """The report of a garage of several levels, in JSON: a report for each level, and the ramps between them."""
 
+import re
 from pathlib import Path
 
 from pydantic import ValidationError
 
 from garage2usd.common.documents import MAX_REPORT_BYTES, read_text
-from garage2usd.common.settings import Record
+from garage2usd.common.errors import ReportError
+from garage2usd.common.settings import Record, first_fault
 from garage2usd.config import GarageConfig
 from garage2usd.reading.report import Report
 
 __all__ = ["LevelReport", "LevelsReport", "ReportedLink", "read_levels_report"]
+
+_LEVELS = re.compile(r'"levels":\s*\[')
+"""A list in such a report; as a setting ``levels`` is a number."""
 
 
 class ReportedLink(Record):
@@ -64,8 +69,13 @@ def read_levels_report(path: Path) -> LevelsReport | None:
     ------
     ConfigError
         If the file cannot be read.
+    ReportError
+        If it is a damaged report of several levels.
     """
+    text = read_text(path, field="report", max_bytes=MAX_REPORT_BYTES)
     try:
-        return LevelsReport.model_validate_json(read_text(path, field="report", max_bytes=MAX_REPORT_BYTES))
-    except ValidationError:
-        return None
+        return LevelsReport.model_validate_json(text)
+    except ValidationError as error:
+        if _LEVELS.search(text) is None:
+            return None
+        raise ReportError(path, f"not a report of a garage of several levels: {first_fault(error)}") from None

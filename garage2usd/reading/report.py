@@ -238,7 +238,7 @@ def report_of(document: Any, path: Path) -> Report:  # noqa: ANN401 - whatever J
 def _refusal(error: ValidationError, path: Path, keys: Collection[str]) -> ConfigError | ReportError:
     """Return the error of a report of another kind or of a setting, else of the first invalid key."""
     if "levels" in keys:
-        return ReportError(path, "the report of a garage of several levels, which is read by `garage2usd plan` alone")
+        return ReportError(path, "the report of a garage of several levels, which has a report for each of them")
     if "unplaced" in keys:
         plan = f"{path.stem.removesuffix('_report')}_plan.png"
         return ReportError(path, f"the report of an import, whose garage has no squares: its plan is {plan}")

@@ -24,18 +24,19 @@ class LevelSites:
     street
         Site of the top level without the ramps, with the portals to the street.
     ramps
-        The ramps, in the same squares on all levels.
+        The ramps, in the same squares on all levels; None of a single level.
     count
         Number of levels.
     """
 
     street: Structure
-    ramps: Ramps
+    ramps: Ramps | None
     count: int
 
     def cells(self, level: int) -> CellArray:
-        """Return S of a level by its number from 0, with ramps and landings and without lanes; int8, (rows, cols)."""
-        return level_cells(self.street.cells, self.ramps, level, self.count)
+        """Return S of a level by its number from 0, with ramps and landings; int8, (rows, cols)."""
+        street = self.street.cells
+        return street if self.ramps is None else level_cells(street, self.ramps, level, self.count)
 
     def site(self, level: int) -> Structure:
         """Return the site of a level by its number from 0, with R and C as before lanes are planned."""
@@ -59,7 +60,7 @@ def level_number(level: str | None, count: int) -> int:
 
 
 def make_level_sites(config: GarageConfig, attempt: int = 0) -> LevelSites:
-    """Make the sites of all levels and draw the ramps, as each attempt of `garage2usd.generate_levels` does.
+    """Make the sites of all levels and draw the ramps, as each attempt of `garage2usd.generate` does.
 
     Parameters
     ----------
@@ -75,15 +76,15 @@ def make_level_sites(config: GarageConfig, attempt: int = 0) -> LevelSites:
     GenerationError
         If a random step found no valid result, such as a place for the ramps; names the step and the seed.
     """
-    street = make_street_site(config)
-    return LevelSites(street, draw_ramps(street, config, attempt), config.building.levels)
+    street, count = make_street_site(config), config.building.levels
+    return LevelSites(street, draw_ramps(street, config, attempt) if count > 1 else None, count)
 
 
 def make_street_site(config: GarageConfig) -> Structure:
-    """Make the site of the top level of several without the ramps; errors as for `make_level_sites`."""
+    """Make the site of the top level without the ramps; errors as for `make_level_sites`."""
     check_levels(config)
     site = make_roomy_site(config)
-    if (site.cells == Cell.LANE).any():
+    if config.building.levels > 1 and (site.cells == Cell.LANE).any():
         raise ConfigError("site.structure", str(site), "no lanes with building.levels of 2 or more: they are planned")
     return site
 
@@ -94,11 +95,11 @@ def check_levels(config: GarageConfig) -> None:
     Raises
     ------
     ConfigError
-        If there is such a setting, or only one level.
+        If there is such a setting.
     """
     building, ceiling_m = config.building, config.fittings.ceiling_height_m
-    if building.levels < 2:  # noqa: PLR2004
-        raise ConfigError("building.levels", building.levels, "2 or more here; garage2usd.build makes one level")
+    if building.levels == 1:
+        return
     if building.storey_m < ceiling_m + _CEILING_TO_FLOOR_M:
         least = f"at least {_CEILING_TO_FLOOR_M} m over fittings.ceiling_height_m, which is {ceiling_m}"
         raise ConfigError("building.storey_m", building.storey_m, least)

@@ -162,7 +162,7 @@ def _pieces(
     """Yield the text of the layer: the content of the garage within its frame, then the prototypes of tiles."""
     before, physics, after = frame.partition(f'    def {_PHYSICS} "{_PHYSICS}"')
     yield before
-    labels = [layout.label_of_square(row, col) for row, col in arrangement.squares.tolist()]
+    labels = [layout.source.label_of_square(row, col) for row, col in arrangement.squares.tolist()]
     tile_classes: Iterable[str] = ()
     if arrangement.nested:
         shared = share_tiles(layout, arrangement, labels, writer, f"/{_TILE_CLASSES}")

@@ -24,7 +24,7 @@ from garage2usd.stage.prim_text import anchored
 from garage2usd.stage.usdz import write_usdz
 from garage2usd.stage.variants import BLOCKED_BY, OCCUPIED, SWITCHES
 
-__all__ = ["LevelLayout", "write_level_labels", "write_levels_stage"]
+__all__ = ["LevelLayout", "path_on_level", "write_level_labels", "write_levels_stage"]
 
 _PHYSICS = "PhysicsScene"
 _ALL = "all"
@@ -62,7 +62,7 @@ def write_level_labels(levels: Sequence[LevelLayout], path: Path, config: StageC
     offset = 0
     for level, table in tables:
         for parent, rows in table.objects.items():
-            objects[_on_level(parent, level.name)] = tuple(_lifted(row, level.floor_m, offset) for row in rows)
+            objects[path_on_level(parent, level.name)] = tuple(_lifted(row, level.floor_m, offset) for row in rows)
         parked += [(stall + offset, car + offset) for stall, car in table.parked]
         plates += [(plate + offset, car + offset, text) for plate, car, text in table.number_plates]
         offset += sum(map(len, table.objects.values()))
@@ -242,8 +242,11 @@ def _level_set(levels: Sequence[LevelLayout]) -> tuple[str, str, str]:
     return "level", _ALL, f'variantSet "level" = {{\n{choices}}}\n'
 
 
-def _on_level(parent: str, name: str) -> str:
-    return parent.replace(f"/{ROOT_NAME}", f"/{ROOT_NAME}/{LEVELS}/{name}", 1)
+def path_on_level(place: str, name: str) -> str:
+    """Return the path in the whole stage of a prim of a level's own; any other place after the level's name."""
+    if place.startswith(f"/{ROOT_NAME}"):
+        return place.replace(f"/{ROOT_NAME}", f"/{ROOT_NAME}/{LEVELS}/{name}", 1)
+    return f"{name}/{place}" if place else name
 
 
 def _lifted(row: LabelledObject, floor_m: float, offset: int) -> LabelledObject:

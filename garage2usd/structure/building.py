@@ -1,10 +1,11 @@
-"""A building of several levels: one structure a level, and the ramps that link them.
+"""A building: one structure a level, and the ramps that link the levels.
 
 Every level has the same R and C, so that columns stand above one another. S keeps its five values on each level: the
 squares of a ramp are obstacles on all levels, a landing is an exit (3) of the level that cars leave over it, and an
 entrance (2) of the level that they reach.
 """
 
+import hashlib
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -207,7 +208,7 @@ class Building:
     levels
         Structure of each level, the top one first.
     ramps
-        The ramps between each two levels.
+        The ramps between each two levels; None of a single level.
     storey_m
         Height from floor to floor in metres.
 
@@ -218,7 +219,7 @@ class Building:
     """
 
     levels: tuple[Structure, ...]
-    ramps: Ramps
+    ramps: Ramps | None
     storey_m: float
 
     def __post_init__(self) -> None:
@@ -232,13 +233,28 @@ class Building:
                 if not np.array_equal(one, other):
                     raise ConfigError(f"levels[{level}].{name}", (other / 1000).tolist(), "the sides of the top level")
         for level, structure in enumerate(self.levels):
-            for square in self.ramps.squares:
+            for square in self.ramp_squares:
                 if structure.cells[square] != Cell.OBSTACLE:
                     raise ConfigError(f"levels[{level}].S", list(square), "-1 on each square of a ramp")
+
+    @property
+    def links(self) -> tuple[Link, ...]:
+        """The ramp down and the ramp up between each two levels; none of a single level."""
+        return () if self.ramps is None else self.ramps.links
+
+    @property
+    def ramp_squares(self) -> tuple[Square, ...]:
+        """(row, col) of the squares of the ramps, the same on all levels."""
+        return () if self.ramps is None else self.ramps.squares
 
     def floor_m(self, level: int) -> float:
         """Height of the floor of a level; the top one lies at 0."""
         return round(-level * self.storey_m, 6) + 0.0
+
+    def digest(self) -> str:
+        """Return the SHA-256 of the digests of all levels; of a single level its own digest."""
+        digests = [structure.digest() for structure in self.levels]
+        return digests[0] if self.ramps is None else hashlib.sha256("".join(digests).encode()).hexdigest()
 
     def names(self) -> Sequence[str]:
         """Names of the levels, the top one first."""

@@ -20,6 +20,8 @@ Floats = NDArray[np.float64]
 _SIDES = 4
 _REACH_M = 9.0
 """Greatest distance in metres from the mouth of a stall to the middle of its lane."""
+_FAR_M = 5.0
+"""Distance in metres from the mouth of a stall to the middle of its lane that is more than usual."""
 _LEAST_WIDTH_M, _LEAST_LENGTH_M, _LEAST_GROUND_M2 = 1.0, 2.0, 0.25
 _MOST_OVERLAP = 0.05
 """Greatest share of a stall's ground that another one covers."""
@@ -173,8 +175,11 @@ class _Fitting:
             square = square / np.linalg.norm(square) * (1.0 if square @ (middle - centre) > 0 else -1.0)
             reached = self._lane_ahead(middle, square)
             is_beside = reached is None
-            if reached is None:
-                reached = self._ground_ahead(start, end, square)
+            if reached is None or reached[0] > _FAR_M:
+                # a lane that ends before the side is nearer than one that crosses behind its end
+                ended = self._ground_ahead(start, end, square)
+                if reached is None or (ended is not None and ended[0] < reached[0] - _FAR_M):
+                    reached = ended
             if reached is None:
                 continue
             away_m, foot = reached

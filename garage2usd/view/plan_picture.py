@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import shapely
 
 from garage2usd.config.vehicles import CarBody
-from garage2usd.garage import LaneGraph, Stall, StallUse
+from garage2usd.garage import Stall, StallUse
 from garage2usd.layout import Layout, Placement
 from garage2usd.objects import KINDS
 from garage2usd.objects.car import CarSpec
@@ -17,7 +17,7 @@ from garage2usd.view.plan_access import RAMP, portals, ramps
 from garage2usd.view.plan_lanes import FREE, LINE_M, arrows, lane_legend, ribbons, squares
 from garage2usd.view.plan_sheet import INK, PAPER, Mark, Sheet
 from garage2usd.view.plan_wells import level_title, wells
-from garage2usd.view.route import route_of
+from garage2usd.view.route import Ways, ways_on_level
 
 __all__ = ["SOLID", "STALL_COLOUR", "Mark", "draw_plan"]
 
@@ -51,7 +51,9 @@ _DIGIT = re.compile(r"\d")
 _ROUTE_ASIDE_M, _ROUTE_WIDTH_M, _ROUTE_INTO_STALL_M = 0.45, 0.45, 0.3
 
 
-def draw_plan(layout: Layout, *, stall: Stall | None = None, marks: Sequence[Mark] = ()) -> Drawing:
+def draw_plan(
+    layout: Layout, *, stall: Stall | None = None, ways: Ways | None = None, marks: Sequence[Mark] = ()
+) -> Drawing:
     """Draw a layout from above, +X to the right and +Z down, with the corner of the first square at (0, 0).
 
     Parameters
@@ -60,12 +62,17 @@ def draw_plan(layout: Layout, *, stall: Stall | None = None, marks: Sequence[Mar
         The layout.
     stall
         Stall whose routes from an entrance and to an exit are drawn.
+    ways
+        These routes as far as they are on this level; found in the layout if left out. Without a stall they lead on to
+        another level.
     marks
         Findings, drawn as numbers at their places and listed below.
     """
     rows, cols = layout.structure.shape
+    if stall is not None and ways is None:
+        ways = ways_on_level(layout.lane_graph, stall)
     found = None if layout.matrices is None else measured_circulation(layout.structure)
-    sheet = Sheet(layout.structure, marks, _legend(layout, found, with_route=stall is not None))
+    sheet = Sheet(layout.structure, marks, _legend(layout, found, with_route=ways is not None))
 
     def elements() -> Iterator[_Element]:
         yield from ribbons(layout) if found is None else squares(layout, found)
@@ -76,8 +83,8 @@ def draw_plan(layout: Layout, *, stall: Stall | None = None, marks: Sequence[Mar
         yield from _building(layout)
         yield from _clutter(layout)
         yield from portals(layout, sheet)
-        if stall is not None:
-            yield from _route(layout.lane_graph, stall)
+        if ways is not None:
+            yield from _route(ways, stall)
         yield sheet.title(level_title(layout) + _figures(layout, found))
         yield from sheet.dimensions()
         yield from sheet.legend(layout)
@@ -200,34 +207,33 @@ def _building(layout: Layout) -> Iterator[Region | Line]:
             yield Region(place.outlines()[0], INK, kind)
 
 
-def _route(lanes: LaneGraph, stall: Stall) -> Iterator[Region | Line]:
+def _route(ways: Ways, stall: Stall | None) -> Iterator[Region | Line]:
     """Draw the routes from an entrance and to an exit on the right side of the lanes, and frame the stall."""
-    route = route_of(lanes, stall)
-    corners = stall.corners
-    yield Line([*corners, corners[0]], _IN, 2.5 * LINE_M, "chosen")
-    ends = [stall.mouth, _inside(stall, _ROUTE_INTO_STALL_M)]
-    yield from _way(lanes, route.to_stall, ends, _IN, "way in")
-    yield from _way(lanes, route.from_stall[::-1], ends, _OUT, "way out", is_reversed=True)
+    ends: list[Point] = []
+    if stall is not None:
+        corners = stall.corners
+        yield Line([*corners, corners[0]], _IN, 2.5 * LINE_M, "chosen")
+        ends = [stall.mouth, _inside(stall, _ROUTE_INTO_STALL_M)]
+    yield from _way(ways.to_stall, ends, _IN, "way in")
+    yield from _way(ways.from_stall[::-1], ends, _OUT, "way out", is_reversed=True)
 
 
 def _way(
-    lanes: LaneGraph,
-    nodes: Sequence[int],
-    end: Sequence[Point],
-    colour: Colour,
-    kind: str,
-    *,
-    is_reversed: bool = False,
+    middles: Sequence[Point], end: Sequence[Point], colour: Colour, kind: str, *, is_reversed: bool = False
 ) -> Iterator[Line]:
-    """Draw the route between a portal and a stall, in either direction, with an arrow head."""
-    middles = [lanes.nodes[node].position for node in nodes]
-    # the route leaves the lane at the stall's entry
-    before, mouth = middles[-1], end[0]
-    is_along_x = abs(end[1][0] - mouth[0]) < abs(end[1][1] - mouth[1])
-    turn = (mouth[0], before[1]) if is_along_x else (before[0], mouth[1])
-    points = [*middles[:-1], turn, *end]
+    """Draw the route between a portal and a stall, or another portal, in either direction, with an arrow head."""
+    points = [*middles]
+    if end:
+        # the route leaves the lane at the stall's entry
+        before, mouth = middles[-1], end[0]
+        is_along_x = abs(end[1][0] - mouth[0]) < abs(end[1][1] - mouth[1])
+        turn = (mouth[0], before[1]) if is_along_x else (before[0], mouth[1])
+        points = [*middles[:-1], turn, *end]
+    points = _distinct(points)
+    if len(points) < 2:  # noqa: PLR2004 - a line
+        return
     aside = -_ROUTE_ASIDE_M if is_reversed else _ROUTE_ASIDE_M
-    line = shapely.LineString(_distinct(points)).offset_curve(aside, join_style="mitre")
+    line = shapely.LineString(points).offset_curve(aside, join_style="mitre")
     way = list(shapely.get_parts(line)[0].coords) if line.geom_type != "LineString" else list(line.coords)
     if is_reversed:
         way.reverse()
@@ -240,7 +246,7 @@ def _way(
 
 
 def _distinct(points: Sequence[Point]) -> list[Point]:
-    kept = [points[0]]
+    kept = list(points[:1])
     for point in points[1:]:
         if math.dist(point, kept[-1]) > LINE_M:
             kept.append(point)

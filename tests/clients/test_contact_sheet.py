@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 from pxr import Usd
 
-from garage2usd import contact_sheet, generate_levels
+from garage2usd import contact_sheet, generate
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
 from garage2usd.contact_sheet import SheetGarage, draw_contact_sheet
@@ -81,7 +81,7 @@ def test_a_sheet_is_a_png_or_a_jpeg(tmp_path, name):
 @pytest.mark.soak
 def test_each_level_is_seen_alone_from_above(tmp_path):
     config, size_px = GarageConfig(**TWO_LEVELS), (160, 90)
-    garage = generate_levels(config)
+    garage = generate(config)
     made = draw_contact_sheet(
         [SheetGarage("two", config, tape=garage.tape)], tmp_path / "sheet.png", size_px=size_px, samples=4, columns=2
     )

@@ -65,7 +65,7 @@ LOWEST_M, RAMP_M = FLOORS_M["U2"], 40.0
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
-    return garage2usd.build_levels(SMALL_LEVELS, tmp_path_factory.mktemp("levels") / "garage.usdc")
+    return garage2usd.build(SMALL_LEVELS, tmp_path_factory.mktemp("levels") / "garage.usdc")
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ from support.sample_files import HELIX_SAMPLE, LEVELS_SAMPLE
 from support.soak import soak_but
 
 import garage2usd
-from garage2usd.buildings import build_levels
+from garage2usd.pipeline import build
 
 pytestmark = [
     pytest.mark.client,
@@ -23,7 +23,7 @@ def exported(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("levels")
     config = garage2usd.load_config(request.param)
     smaller = config.site.model_copy(update=SITES[request.param])
-    stage = build_levels(config.model_copy(update={"site": smaller}), folder / "garage.usdc").stage
+    stage = build(config.model_copy(update={"site": smaller}), folder / "garage.usdc").stage
     garage2usd.export(stage, [folder / "garage.xodr", folder / "garage.osm"])
     judge = LevelMapJudge(LevelJudge(stage), config.building.storey_m, folder)
     return judge, folder / "garage.xodr", folder / "garage.osm"

@@ -31,7 +31,7 @@ HALF_WAY_M = (FLOORS_M[U1] + FLOORS_M[U2]) / 2
 @pytest.fixture(scope="module")
 def loaded(tmp_path_factory):
     folder = tmp_path_factory.mktemp("nuscenes")
-    built = garage2usd.build_levels(SMALL_LEVELS, folder / "two.usdc")
+    built = garage2usd.build(SMALL_LEVELS, folder / "two.usdc")
     made = record(
         built.stage,
         folder / "drive",

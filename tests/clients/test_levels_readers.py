@@ -25,7 +25,7 @@ pytestmark = pytest.mark.client
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
-    return garage2usd.build_levels(SMALL_LEVELS, tmp_path_factory.mktemp("levels") / "garage.usdz")
+    return garage2usd.build(SMALL_LEVELS, tmp_path_factory.mktemp("levels") / "garage.usdz")
 
 
 @pytest.fixture(scope="module")

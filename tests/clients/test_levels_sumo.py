@@ -30,7 +30,7 @@ class LevelsSumo:
 
     def __init__(self, config, folder):
         self.folder = folder
-        self.stage = garage2usd.build_levels(config, folder / "garage.usdc").stage
+        self.stage = garage2usd.build(config, folder / "garage.usdc").stage
         self.areas, configuration, _ = garage2usd.export(self.stage, [folder / "g.add.xml"])
         self.network = sumo_network(configuration, folder)
         self.elements = {area.get("id"): area for area in ET.parse(self.areas).getroot()}

@@ -15,7 +15,7 @@ from support.small_garage import SETTINGS
 from support.small_levels import SMALL_LEVELS
 from support.soak import soak_but
 
-from garage2usd import GarageConfig, build, build_levels
+from garage2usd import GarageConfig, build
 
 pytestmark = pytest.mark.client
 
@@ -86,7 +86,7 @@ def test_nvidia_validation_of_every_instance_finds_nothing(all_kinds, builds, tm
 
 
 def test_validations_of_several_levels_find_nothing(tmp_path):
-    stage = build_levels(SMALL_LEVELS, tmp_path / "garage.usdz").stage
+    stage = build(SMALL_LEVELS, tmp_path / "garage.usdz").stage
     assert usd_findings(stage) == []
     assert nvidia_findings(stage, tmp_path / "findings.csv", "--no-variants", "--no-instance-prototypes") == []
 

@@ -9,7 +9,7 @@ from support.small_garage import SETTINGS
 from support.small_levels import SMALL_LEVELS
 from support.soak import soak_but
 
-from garage2usd import GarageConfig, build, build_levels
+from garage2usd import GarageConfig, build
 from garage2usd.as_built.driven_ground import driven_garage
 from garage2usd.as_built.driven_levels import prove_levels
 from garage2usd.as_built.levels import BuiltLevels
@@ -139,7 +139,7 @@ def test_an_edited_stage_gives_findings_or_a_line(number, one_level, tmp_path):
 @pytest.mark.soak
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_edited_stages_of_two_levels_give_findings_or_lines(tmp_path):
-    built = build_levels(SMALL_LEVELS, tmp_path / "g.usda").stage
+    built = build(SMALL_LEVELS, tmp_path / "g.usda").stage
     for number in range(40):
         folder = tmp_path / str(number)
         folder.mkdir()

@@ -12,8 +12,8 @@ from support.sign_judge import signs_are_right
 from garage2usd import GarageConfig
 from garage2usd.as_built.contents import read_contents
 from garage2usd.as_built.driven_floor import DrivenFloor
-from garage2usd.buildings import generate_levels
 from garage2usd.config.building import BuildingConfig
+from garage2usd.pipeline import generate
 from garage2usd.profiles import PROFILE_NAMES
 from garage2usd.reading.labels import read_labels
 from garage2usd.reading.levels import levels_of
@@ -50,7 +50,7 @@ def test_helices_are_reached_and_a_large_car_drives_over_them(number, tmp_path):
 
 def test_four_levels_have_a_helix_down_and_one_up_between_each_two():
     config = settings(0).model_copy(update={"building": BuildingConfig(levels=4, ramps="helix")})
-    lanes = generate_levels(config).joined.lane_graph
+    lanes = generate(config).joined.lane_graph
     for lower in (1, 2, 3):
         between = [
             number

@@ -10,8 +10,8 @@ import shapely
 import trimesh
 from pxr import Usd, UsdGeom
 
-from garage2usd.buildings import build_levels
 from garage2usd.checks import Severity
+from garage2usd.pipeline import build
 from support.rays import fans
 
 ALLOWED = {"personnel-exits", "exit-distance", "exit-distance-sprinklered", "column-spacing", "portal-count"}
@@ -171,13 +171,13 @@ class LevelJudge:
 
 def findings_of(made):
     """What `check` finds on a garage of several levels, but for remarks, as words for each severity and rule."""
-    found = [finding for level in made.findings for finding in level if finding.severity is not Severity.INFO]
+    found = [finding for finding in made.findings if finding.severity is not Severity.INFO]
     return sorted(f"{finding.severity}: {finding.rule}" for finding in found)
 
 
 def built_and_judged(config, path):
     """Build a garage of several levels; `check` has nothing against it but for want of room, and all is reached."""
-    made = build_levels(config, path)
+    made = build(config, path)
     assert {words.partition(": ")[2] for words in findings_of(made)} <= ALLOWED
     judge = LevelJudge(made.stage)
     assert judge.unreached() == []

@@ -22,7 +22,7 @@ FORMS = [StageForm.INSTANCED, pytest.param(StageForm.NESTED, marks=pytest.mark.s
 @pytest.fixture(scope="module", params=FORMS, ids=str)
 def imported(request, prefabs, tmp_path_factory):
     config = SMALL_LEVELS.model_copy(update={"stage": StageConfig(form=request.param)})
-    built = garage2usd.build_levels(config, tmp_path_factory.mktemp("levels") / "garage.usdc")
+    built = garage2usd.build(config, tmp_path_factory.mktemp("levels") / "garage.usdc")
     return built, prefabs(built.stage), LevelJudge(built.stage)
 
 

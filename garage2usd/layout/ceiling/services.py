@@ -29,6 +29,8 @@ __all__ = ["LINES_REACH_M", "cable_trays", "ducts", "sprinklers"]
 _QUARTER_TURN = np.pi / 2
 _LEAST_SQUARE_M = 4.8
 """Least side of a square with room for all services beside each other."""
+_LEAST_JOIN_M = 0.3
+"""Least distance of a perpendicular service from a square that is joined to it."""
 _HEAD_PITCH_M = 3.3
 _HANGER_FROM_BEAM_M = 0.1
 _FREE_OF_LINES_M = 1.65
@@ -169,7 +171,9 @@ def _service_pieces(line: _Service, grid: Tiles) -> Iterator[_ServicePiece]:
             start = step * tile.half_z_m
             beside = line.side * from_middle_m(other.half_z_m) - step * line.half_width_m
             end = tile.local(other.at((0.0, beside)))[1]
-            length = round(abs(end - start), 6)
+            length = round(step * (end - start), 6)
+            if length < _LEAST_JOIN_M:
+                continue
             yield _ServicePiece(
                 f"{line.name}{turn}", tile, (x, (start + end) / 2), length, False, other.half_z_m, step, joins=True
             )

@@ -26,6 +26,8 @@ def surveyed_beams(
     Parameters are those of `garage2usd.layout.ceiling.beams.beams`.
     """
     fields = ground.fields
+    if fields is None:
+        return []
     lines = fields.column_edges_m, fields.row_edges_m
     snapped = [_on_lines(place, lines) for place in pillars]
     found = beams(fields, bay, ceiling_m, depth_m, snapped)

@@ -137,7 +137,7 @@ def _core(
         local = np.array([tile.local(corner) for corner in ground])
         along, across = local.T if edge.along_x else local.T[::-1]
         inwards = across_m / 2 + (across if edge in {Edge.UP, Edge.LEFT} else -across)
-        if inwards.max() < _TOUCH_M or along.min() > high_m or along.max() < low_m:
+        if inwards.max() < _TOUCH_M or along.min() - clear_m > high_m or along.max() + clear_m < low_m:
             continue
         if inwards.min() > across_m - _TOUCH_M:
             rear_m = min(rear_m, float(inwards.min()) - clear_m)

@@ -20,6 +20,8 @@ from garage2usd.survey.survey import SurveyedColumn
 
 __all__ = ["GroundTile", "SurveyedGround"]
 
+_MOST_SPAN_M = 25.0
+"""Greatest distance between two lines that beams span."""
 _FIELD = 0.9
 """Share of a field between lines from which it lies inside the outline."""
 _MOST_SIDE_M = 2000.0
@@ -77,8 +79,9 @@ class SurveyedGround:
             raise ConfigError("outline", f"{width_m:.1f} by {depth_m:.1f} m", f"at most {_MOST_SIDE_M:g} m a side")
         self.polygon = shapely.orient_polygons(polygon)
         self.lines = structural_lines(self.polygon, columns)
-        self.fields = self._structure(self.lines.x_m, self.lines.z_m, _FIELD)
-        """The fields between its lines; those outside are obstacles."""
+        spans_m = [float(np.diff(lines).max()) for lines in self.lines]
+        self.fields = self._structure(self.lines.x_m, self.lines.z_m, _FIELD) if max(spans_m) < _MOST_SPAN_M else None
+        """The fields between its lines, those outside being obstacles; None where lines are too far apart for beams."""
         x_m = self.lines.cuts_m((0.0, 0.0), (self.lines.x_m[-1], 0.0))
         self.structure = self._structure(x_m, self.lines.cuts_m((0.0, 0.0), (0.0, self.lines.z_m[-1])), 0.0)
         cells = self.structure.cells

@@ -30,6 +30,8 @@ _BEYOND_TIP_M = 1.2
 """Greatest distance to a wall or stalls ahead of a dead end, beyond half its width, up to which it is driven."""
 _LANES = -1
 """First number of the pairs by which pieces are known: no (row, col) of a tile."""
+_TURNS_RAD = {Edge.RIGHT: 0.0, Edge.UP: math.pi / 2, Edge.LEFT: math.pi, Edge.DOWN: -math.pi / 2}
+"""Turn of the way over each edge of a piece from its +X."""
 _DIGITS = 6
 
 
@@ -86,7 +88,8 @@ class LanePieces:
             for edge, node in joint.beyond.items():
                 way = self._way_from(joint.node, node, joints)
                 end = joints.get(way[-1])
-                if end is not None and (end.node, way[-2]) < (joint.node, way[1]):
+                back = [] if end is None else [turn for turn, at in end.beyond.items() if at == way[-2]]
+                if end is not None and back and (end.node, way[-2]) < (joint.node, way[1]):
                     continue  # cut from its other end
                 pieces = list(self._cut(way, joint, end, count))
                 count += len(pieces)
@@ -94,7 +97,7 @@ class LanePieces:
                 chain = [square_of[joint.node], *(piece.square for piece in pieces)]
                 chain += [square_of[end.node]] if end is not None else []
                 turns = [edge, *(turn for piece in pieces for turn in _ends_of(piece, way, self._lanes))]
-                turns += [next(turn for turn, at in end.beyond.items() if at == way[-2])] if end is not None else []
+                turns += back
                 self._join(chain, turns, way)
 
     def _is_joint(self, node: int) -> bool:
@@ -133,10 +136,17 @@ class LanePieces:
         main = max(beside, key=lambda other: (round(self._width_m(node, other), 3), -other))
         yaw = _axis_yaw_rad(self._heading_rad(node, main))
         beyond: dict[Edge, int] = {}
-        for other in beside:
-            turned = math.remainder(self._heading_rad(node, other) - yaw, math.tau)
-            edge = (Edge.RIGHT, Edge.UP, Edge.LEFT, Edge.DOWN)[round(turned / (math.pi / 2)) % 4]
-            beyond.setdefault(edge, other)
+        off = [
+            (round(abs(math.remainder(self._heading_rad(node, other) - yaw - turn, math.tau)), 6), number, edge)
+            for number, other in enumerate(beside)
+            for edge, turn in _TURNS_RAD.items()
+        ]
+        joined: set[int] = set()
+        # each lane at the edge that it leaves most directly; of five or more lanes the last ones end beside the piece
+        for _, number, edge in sorted(off):
+            if edge not in beyond and number not in joined:
+                beyond[edge] = beside[number]
+                joined.add(number)
         if lane.is_portal:
             along_m = (lane.sides_m or lane.widths_m)[0]
             across_m = max(along_m, self._width_m(node, main))

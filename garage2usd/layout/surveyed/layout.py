@@ -1,19 +1,18 @@
 """The layout of a surveyed garage: its stalls and columns where the survey has them, in a shell along its outline."""
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import partial
 from typing import Any
 
-import networkx as nx
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, LookConfig
-from garage2usd.garage import LaneGraph, LaneKind, Stall
+from garage2usd.garage import LaneGraph, LaneKind
 from garage2usd.layout import Layout
 from garage2usd.layout.ceiling.beams import ceiling_levels
 from garage2usd.layout.draws import SquareDraws
@@ -21,7 +20,8 @@ from garage2usd.layout.floor_area import FloorArea
 from garage2usd.layout.furnishing import Floor, furnished
 from garage2usd.layout.garage_stalls import stall_quads
 from garage2usd.layout.parking.stall_table import StallTable
-from garage2usd.layout.placement import Placement, placed
+from garage2usd.layout.placement import PlacedStall, Placement, placed
+from garage2usd.layout.source import FloorSource
 from garage2usd.layout.surveyed.beams import surveyed_beams
 from garage2usd.layout.surveyed.cores import surveyed_blocks, surveyed_cores
 from garage2usd.layout.surveyed.floor import surveyed_floor
@@ -34,19 +34,18 @@ from garage2usd.layout.tiles import CEILING_THICKNESS_M
 from garage2usd.look import drawn_look
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.column import ColumnSpec
-from garage2usd.structure.grid import Structure
-from garage2usd.structure.lane_graph import LaneSquares, StallType
+from garage2usd.structure.lane_graph import Square, StallType
 from garage2usd.survey.clear_widths import with_clear_widths
 from garage2usd.survey.fitted_stalls import FittedStall, fitted_stalls
 from garage2usd.survey.lane_network import lane_network
 from garage2usd.survey.survey import Survey, Unplaced
 
-__all__ = ["SurveyedLayout", "lay_out_survey"]
+__all__ = ["SurveyedFloor", "lay_out_survey"]
 
 
 @dataclass(frozen=True, eq=False)
-class SurveyedLayout(Layout):
-    """The layout of a surveyed garage. Its squares are tiles of the floor alone; it has no S, R, C, cores and tape.
+class SurveyedFloor(FloorSource):
+    """The floor of a surveyed garage. Its squares are tiles alone; it has no S, R, C and tape.
 
     Attributes
     ----------
@@ -57,40 +56,38 @@ class SurveyedLayout(Layout):
     fitted
         Its stalls in the order of `Layout.stalls`.
     unplaced
-        Parts of the survey that it lacks, with the reasons.
+        Parts of the survey that the garage lacks, with the reasons.
+    labels
+        Semantic label of each tile with a lane or stalls.
     """
 
-    survey: Survey = field(default_factory=lambda: Survey(()))
-    network: LaneGraph = field(default_factory=lambda: LaneGraph((), ()))
-    fitted: tuple[FittedStall, ...] = ()
-    unplaced: tuple[Unplaced, ...] = ()
+    survey: Survey
+    network: LaneGraph
+    fitted: tuple[FittedStall, ...]
+    unplaced: tuple[Unplaced, ...]
+    labels: Mapping[Square, str] = field(repr=False)
+    matrices: None = None
 
     @property
-    def matrices(self) -> Structure | None:
-        """None, as a surveyed garage has no S, R and C."""
-        return None
-
-    @property
-    def lane_graph(self) -> LaneGraph:
+    def lanes(self) -> LaneGraph:
         """The lane graph in metres."""
         return self.network
 
-    @cached_property
-    def quads(self) -> tuple[Stall, ...]:
-        """The stalls as those of the neutral garage, in the order of `Layout.stalls`, with the facts of a stage."""
-        occupied = self.are_occupied().tolist()
-        return tuple(stall_quads(tuple(self.stalls), _access(self.fitted), self.network, self.blocked, occupied))
-
     @property
-    def again(self) -> "partial[SurveyedLayout]":  # type: ignore[override]
-        """Lay the same survey out again."""
+    def again(self) -> "partial[Layout]":
+        """Lays the same survey out again."""
         return partial(lay_out_survey, self.survey)
 
     @property
     def area(self) -> FloorArea:
-        """The ground inside the outline, of which nothing is known to be no floor."""
-        area = float(shapely.Polygon(self.survey.outline).area)
-        return FloorArea(area, area)
+        """The ground inside the outline, without and with its blocks."""
+        ground = shapely.Polygon(self.survey.outline)
+        solids = shapely.union_all(self.survey.solid_polygons())
+        return FloorArea(float(ground.difference(solids).area), float(ground.area))
+
+    def access(self, stalls: Sequence[PlacedStall]) -> list[int]:
+        """Return the number of the lane node before the mouth of each stall, which are all its stalls in order."""
+        return [stall.access for _, stall in zip(stalls, self.fitted, strict=True)]
 
     def node_squares(self) -> NDArray[np.int32]:
         """Return the (row, col) by which files name each lane node, which are counted in one row."""
@@ -103,20 +100,8 @@ class SurveyedLayout(Layout):
         return {str(kind): counts[str(kind)] for kind in LaneKind}
 
     def label_of_square(self, row: int, col: int) -> str:
-        """Return the semantic label of a tile: the kind of the first lane node on it, else that of its stalls."""
-        return self._labels.get((row, col), f"stall_{StallType.TYPE_4.value}")
-
-    @cached_property
-    def _labels(self) -> dict[tuple[int, int], str]:
-        edges = self.structure.row_edges_m, self.structure.column_edges_m
-        labels = dict.fromkeys(map(tuple, self.stalls.square.tolist()), f"stall_{StallType.TYPE_3.value}")
-        for node in reversed(self.network.nodes):
-            row, col = (
-                int(np.clip(np.searchsorted(lines, at, side="right") - 1, 0, len(lines) - 2))
-                for lines, at in zip(edges, node.position[::-1], strict=True)
-            )
-            labels[row, col] = node.kind
-        return labels
+        """Return the kind of the first lane node on a tile, else the type of its stalls."""
+        return self.labels.get((row, col), f"stall_{StallType.TYPE_4.value}")
 
 
 def lay_out_survey(
@@ -128,7 +113,7 @@ def lay_out_survey(
     kept_clear: shapely.Geometry | None = None,
     open_boots: Collection[str] = (),
     **_of_plans: Any,  # noqa: ANN401 - what only layouts of plans take
-) -> SurveyedLayout:
+) -> Layout:
     """Place every object of a surveyed garage.
 
     Parameters
@@ -198,9 +183,11 @@ def lay_out_survey(
         laid=lambda panels: surveyed_floor(ground, panels, stalls),
     )
     furnishing = furnished(floor, config, look, held_back=held_back, kept_clear=kept_clear, open_boots=open_boots)
-    return SurveyedLayout(
+    labels = {stall.square: f"stall_{StallType.TYPE_3.value}" for stall in stalls}
+    labels |= {ground.square_at(node.position): node.kind for node in reversed(network.nodes)}
+    return Layout(
         ground.structure,
-        LaneSquares(ground.structure, 0.0, nx.freeze(nx.Graph()), {}, ()),
+        SurveyedFloor(survey, network, fitted, (*survey.unread, *unplaced), labels),
         ObjectTable(ground.on_tiles(furnishing.objects)),
         StallTable(stalls),
         fittings.ceiling_height_m,
@@ -212,10 +199,6 @@ def lay_out_survey(
         furnishing.reaching,
         furnishing.misparked,
         frozenset(held_back),
-        survey=survey,
-        network=network,
-        fitted=fitted,
-        unplaced=(*survey.unread, *unplaced),
     )
 
 

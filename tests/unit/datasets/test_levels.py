@@ -13,7 +13,7 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.datasets import cluster, make_dataset, verify_dataset
 from garage2usd.datasets.drawn_plan import plan_table, plans_of
 from garage2usd.datasets.garage_choice import chosen_garages
-from garage2usd.datasets.plans import levels_replanned, planned
+from garage2usd.datasets.plans import planned, remade
 from garage2usd.reading.levels_report import LevelsReport
 from garage2usd.structure.symmetry import levels_digest, plan_digest
 
@@ -120,12 +120,12 @@ def test_plans_of_levels_survive_their_table_and_become_the_same_garages_again()
     recipe = recipe_of_levels(garage={**LEVELS, "building": {**LEVELS["building"], "levels": 2}})
     drawn = plans_of(plan_table(planned(recipe, [(0, 0)])))
     config, _ = recipe.drawn(drawn[0].seed)
-    made, again = garage2usd.generate_levels(config), levels_replanned(drawn[0], config)
+    made, again = garage2usd.generate(config), remade(drawn[0], config)
     assert [level.layout.counts() for level in made.levels] == [level.layout.counts() for level in again.levels]
     assert made.building.levels == again.building.levels
     wrong = drawn[0].model_copy(update={"lower": (drawn[0].rows,)})
     with pytest.raises(ConfigError, match="the plans of garage 0"):
-        levels_replanned(wrong, config)
+        remade(wrong, config)
 
 
 def test_digests_of_levels_are_equal_for_the_whole_building_turned_alone():
@@ -155,5 +155,5 @@ def test_garages_of_levels_come_to_contact_sheets_with_their_tape(made, is_finis
     (garage,) = chosen_garages(path, [row.number])
     assert garage.name == f"garage {row.number}"
     assert garage.plan is None
-    levels = garage2usd.generate_levels(garage.config, tape=garage.tape).levels
+    levels = garage2usd.generate(garage.config, tape=garage.tape).levels
     assert [level.layout.parking_stalls for level in levels] == [*row.level_stalls]

@@ -31,7 +31,7 @@ def config(building, **changes):
 
 @pytest.fixture(scope="module", params=[STRAIGHT, HELIX], ids=["straight", "helix"])
 def made(request):
-    return garage2usd.generate_levels(config(request.param))
+    return garage2usd.generate(config(request.param))
 
 
 @pytest.mark.parametrize("preset", ["paper", "tuned"])
@@ -53,7 +53,7 @@ def test_the_site_of_each_level_is_that_of_a_build(made):
 
 def test_chosen_sides_leave_obstacles_and_portals_those_of_a_build():
     settings = config(HELIX, bay={"square_side_m": 8.1})
-    for name, level in zip(("U1", "U2", "U3"), garage2usd.generate_levels(settings).levels, strict=True):
+    for name, level in zip(("U1", "U2", "U3"), garage2usd.generate(settings).levels, strict=True):
         assert (LanesEnvironment(settings, level=name).process.site.cells == level.site.cells).all()
 
 
@@ -67,7 +67,7 @@ def test_episodes_on_each_level_are_a_garage_together(building, dimensioned):
         drive_to_every_portal(environment, seed)
     structures = [environment.structure for environment in environments]
     tape = "/".join([environments[0].sites.ramps.tape, *map(tape_of, structures)])
-    made = garage2usd.generate_levels(settings, tape=tape)
+    made = garage2usd.generate(settings, tape=tape)
     assert [str(level) for level in made.building.levels] == [str(structure) for structure in structures]
     assert made.tape == tape
     assert made.parking_stalls > 20 * len(environments)
@@ -130,5 +130,5 @@ def test_what_no_build_of_levels_takes_is_refused():
 @pytest.mark.parametrize("level", [None, "U1"])
 def test_the_only_level_is_the_garage(level):
     environment = LanesEnvironment(config({}), level=level)
-    assert environment.sites is None
+    assert environment.sites.ramps is None
     assert environment.process.site == garage2usd.generate(config({})).site

@@ -7,14 +7,14 @@ from support.overlaps import Solids
 from support.small_levels import SMALL_HELICES, SMALL_LEVELS
 from support.soak import soak_but
 
-from garage2usd import GarageConfig, build_levels, generate_levels
+from garage2usd import GarageConfig, build, generate
 
 GARAGES = {"straight": SMALL_LEVELS, "helix": SMALL_HELICES}
 
 
 @pytest.fixture(scope="module", params=soak_but(["straight"], GARAGES))
 def built(request, tmp_path_factory):
-    made = build_levels(GARAGES[request.param], tmp_path_factory.mktemp("shutters") / "garage.usdc")
+    made = build(GARAGES[request.param], tmp_path_factory.mktemp("shutters") / "garage.usdc")
     return made.garage, LevelJudge(made.stage)
 
 
@@ -61,5 +61,5 @@ def test_they_touch_nothing_else(built):
 @pytest.mark.parametrize("fittings", [{"fire_shutters": False}, {"clear_height_m": 2.6, "ceiling_height_m": 2.8}])
 def test_there_are_none_without_room_or_where_they_are_switched_off(fittings):
     config = GarageConfig(**{**GARAGES["straight"].model_dump(mode="json"), "fittings": fittings})
-    for level in generate_levels(config).levels:
+    for level in generate(config).levels:
         assert not level.layout.of_kind("fire_shutter")

@@ -11,7 +11,7 @@ from support.sign_judge import SignJudge
 from support.small_levels import SMALL_HELICES, SMALL_LEVELS
 from support.soak import soak_but
 
-from garage2usd import GarageConfig, build_levels, export, generate_levels
+from garage2usd import GarageConfig, build, export, generate
 from garage2usd.assets.countries import Country
 from garage2usd.objects.signage import SIGNAGE
 
@@ -24,7 +24,7 @@ GARAGES = {
 
 @pytest.fixture(scope="module", params=soak_but(["straight"], GARAGES))
 def built(request, tmp_path_factory):
-    made = build_levels(GARAGES[request.param], tmp_path_factory.mktemp("signs") / "garage.usdc")
+    made = build(GARAGES[request.param], tmp_path_factory.mktemp("signs") / "garage.usdc")
     return made.garage, SignJudge(LevelJudge(made.stage))
 
 
@@ -116,5 +116,5 @@ def test_signs_of_levels_are_in_the_words_of_the_country(built):
 def test_there_are_no_signs_over_lanes_without_room_or_where_they_are_switched_off():
     for fittings in ({"exit_signs": False}, {"clear_height_m": 2.6, "ceiling_height_m": 2.9}):
         config = GarageConfig(**{**SMALL_LEVELS.model_dump(mode="json"), "fittings": fittings})
-        for level in generate_levels(config).levels:
+        for level in generate(config).levels:
             assert not level.layout.of_kind("lane_sign")

@@ -64,7 +64,7 @@ def assert_built_in_free_ground(layout):
         assert stall.polygon.intersection(taken).area < 1e-6
     assert not {stall.name for stall in layout.quads} & {name for core in layout.cores for name in core.stalls}
     lanes = shapely.union_all(
-        [shapely.box(*_bounds(layout.structure, square)) for square in layout.lane_squares.graph.nodes]
+        [shapely.box(*_bounds(layout.structure, square)) for square in layout.source.lane_squares.graph.nodes]
     )
     for core in layout.cores:
         passage = core.ground.difference(shapely.from_wkt(next(iter(blocks([core])))))

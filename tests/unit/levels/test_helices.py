@@ -39,7 +39,7 @@ def config(levels=2, **changes):
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    return garage2usd.build_levels(config(), tmp_path_factory.mktemp("helices") / "garage.usdc")
+    return garage2usd.build(config(), tmp_path_factory.mktemp("helices") / "garage.usdc")
 
 
 @pytest.fixture(scope="module")
@@ -91,18 +91,18 @@ def test_landings_are_portals_and_blocks_obstacles_of_the_levels_that_they_join(
 
 
 def test_the_tape_makes_the_same_helices_and_straight_ramps_are_another_tape(made):
-    again = garage2usd.generate_levels(config(), tape=made.garage.tape)
+    again = garage2usd.generate(config(), tape=made.garage.tape)
     assert again.building.ramps == made.garage.building.ramps
     assert again.tape == made.garage.tape
     with pytest.raises(ConfigError, match=r"tape: .*the tape of helix ramps"):
-        garage2usd.generate_levels(config(), tape="3,7,DOWN,4/S/S")
+        garage2usd.generate(config(), tape="3,7,DOWN,4/S/S")
 
 
 def test_helices_that_are_too_steep_or_have_no_place_are_refused_by_name():
     with pytest.raises(GenerationError, match=r"two helices side by side.*inner radius of 6 m.*find no place on 6 x 6"):
-        garage2usd.generate_levels(config(site={"width_cells": 6, "height_cells": 6}))
+        garage2usd.generate(config(site={"width_cells": 6, "height_cells": 6}))
     with pytest.raises(GenerationError, match="at most 10 %"):
-        garage2usd.generate_levels(config(profile="uk-istructe", building={"storey_m": 5.0}))
+        garage2usd.generate(config(profile="uk-istructe", building={"storey_m": 5.0}))
     with pytest.raises(ConfigError, match=r"building.ramps: .*'straight'.*'helix'"):
         config(building={"ramps": "spiral"})
 

@@ -24,7 +24,7 @@ from garage2usd.as_built.levels import built_levels, laid_out_levels
 from garage2usd.checks import RULES
 from garage2usd.checks.levels import check_levels, read_stage
 from garage2usd.cli import main
-from garage2usd.common.errors import StageError
+from garage2usd.common.errors import Garage2UsdError, StageError
 from garage2usd.config.building import RampsPlace
 from garage2usd.maps.level_drives import LevelsDrivePlanner
 from garage2usd.maps.level_networks import level_networks
@@ -57,7 +57,7 @@ def config(levels=2, **changes):
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
-    return garage2usd.build_levels(config(), tmp_path_factory.mktemp("levels") / "garage.usdz")
+    return garage2usd.build(config(), tmp_path_factory.mktemp("levels") / "garage.usdz")
 
 
 def test_one_level_is_what_it_was_before_there_were_several():
@@ -103,14 +103,14 @@ def test_levels_that_do_not_stand_above_one_another_are_refused():
 
 
 def test_the_tape_makes_the_same_garage_and_seeds_other_ramps(built):
-    again = garage2usd.generate_levels(config(), tape=built.garage.tape)
+    again = garage2usd.generate(config(), tape=built.garage.tape)
     assert again.building.levels == built.garage.building.levels
     assert again.building.ramps == built.garage.building.ramps
     assert again.tape == built.garage.tape
-    flights = {garage2usd.generate_levels(config(), seed=seed).building.ramps for seed in (1, 2, 3)}
+    flights = {garage2usd.generate(config(), seed=seed).building.ramps for seed in (1, 2, 3)}
     assert len(flights) > 1
     with pytest.raises(ConfigError, match=r"tape: .*the tapes of 2 levels"):
-        garage2usd.generate_levels(config(), tape="S")
+        garage2usd.generate(config(), tape="S")
 
 
 @pytest.mark.parametrize(
@@ -124,7 +124,7 @@ def test_the_tape_makes_the_same_garage_and_seeds_other_ramps(built):
 )
 def test_settings_that_do_not_go_together_are_named(changes, said):
     with pytest.raises(ConfigError, match=said):
-        garage2usd.generate_levels(GarageConfig(**{**SMALL, "building": {"levels": 2}, **changes}))
+        garage2usd.generate(GarageConfig(**{**SMALL, "building": {"levels": 2}, **changes}))
 
 
 @pytest.mark.parametrize(
@@ -175,7 +175,7 @@ def test_landings_have_no_door_to_the_street(kind):
 )
 def test_given_ramps_without_room_are_refused_by_name(building, said):
     with pytest.raises(ConfigError, match=said):
-        garage2usd.generate_levels(GarageConfig(**{**SMALL, "building": {"levels": 2, **building}}))
+        garage2usd.generate(GarageConfig(**{**SMALL, "building": {"levels": 2, **building}}))
 
 
 @pytest.mark.parametrize(
@@ -205,7 +205,7 @@ TIGHT = GarageConfig(
 @pytest.mark.soak
 def test_ramps_are_drawn_elsewhere_where_cars_cannot_turn_into_them():
     first = make_level_sites(TIGHT).ramps
-    garage = garage2usd.generate_levels(TIGHT)
+    garage = garage2usd.generate(TIGHT)
     assert garage.building.ramps != first
     assert garage.building.ramps in [make_level_sites(TIGHT, attempt).ramps for attempt in range(1, 4)]
     planner = LevelsDrivePlanner(laid_out_levels(garage.layouts, garage.joined, source="a layout"))
@@ -213,23 +213,23 @@ def test_ramps_are_drawn_elsewhere_where_cars_cannot_turn_into_them():
     assert drive.route.stall.startswith("U2/")
     assert (drive.route.entrance.name, drive.route.exit.name) == ("[4, 6]", "[1, 0]")
     # the tape makes that garage, and the first place is refused where it is given
-    again = garage2usd.generate_levels(TIGHT, tape=garage.tape).building
+    again = garage2usd.generate(TIGHT, tape=garage.tape).building
     assert (again.ramps, again.levels) == (garage.building.ramps, garage.building.levels)
     square, way, _, count = first.place
     place = {"square": square, "way": way.name.lower(), "count": count}
     given = TIGHT.model_copy(update={"building": TIGHT.building.model_copy(update={"place": RampsPlace(**place)})})
     with pytest.raises(ConfigError, match=r"building\.place.*room to turn before the ramps.*U2/"):
-        garage2usd.generate_levels(given)
+        garage2usd.generate(given)
 
 
 def test_a_site_without_room_for_ramps_says_so():
     small = {"width_cells": 6, "height_cells": 6}
     with pytest.raises(GenerationError, match=r"ramps of 28.2 m, two squares wide.*find no place on 6 x 6"):
-        garage2usd.generate_levels(config(site=small))
+        garage2usd.generate(config(site=small))
 
 
 def test_files_are_the_same_every_time_but_for_seconds(built, tmp_path):
-    again = garage2usd.build_levels(config(), tmp_path / "garage.usdz")
+    again = garage2usd.build(config(), tmp_path / "garage.usdz")
     assert again.stage.read_bytes() == built.stage.read_bytes()
     assert again.labels.read_bytes() == built.labels.read_bytes()
     first, second = (json.loads(made.report.read_text()) for made in (built, again))
@@ -418,26 +418,86 @@ def test_below_a_ramp_that_leads_nowhere_no_stall_is_proven(built):
     assert {proof.stall.partition("/")[0] for proof in shut if proof.is_proven} == {"U1"}
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ("plan", "{stage}", "--stall", "U2/A1-01"),
-        ("check", "{report}"),
-        ("export", "{report}", "-o", "a.xodr"),
-    ],
-)
-def test_what_is_not_built_for_levels_refuses_them_and_writes_nothing(arguments, built, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    places = {"stage": str(built.stage), "report": str(built.report)}
-    ran = CliRunner().invoke(main, [argument.format(**places) for argument in arguments])
-    assert ran.exit_code != 0
-    said = " ".join(f"{ran.output} {ran.exception or ''}".split())
-    assert "several levels" in said
-    assert list(tmp_path.iterdir()) == []
+def test_one_road_makes_one_level_and_several(built):
+    assert [level.name for level in built.garage.levels] == ["U1", "U2"]
+    assert {stall.name.partition("/")[0] for stall in built.garage.stalls} == {"U1", "U2"}
+    for field in ("site", "plan", "graph", "layout"):
+        with pytest.raises(Garage2UsdError, match=rf"garage of 2 levels.*levels\[i\]\.{field}"):
+            getattr(built.garage, field)
+    one = garage2usd.generate(GarageConfig(seed=1, site={"structure": "....\nE==X\n...."}))
+    (level,) = one.levels
+    assert (level.layout, level.plan, level.site, level.graph) == (one.layout, one.plan, one.site, one.graph)
+    assert one.building.ramps is None
+    assert one.stalls == one.layout.quads
 
 
-def test_one_level_alone_is_refused_where_several_are_asked_for_and_the_other_way_round():
-    with pytest.raises(ConfigError, match=r"garage2usd\.build_levels"):
-        garage2usd.generate(config())
-    with pytest.raises(ConfigError, match="2 or more here"):
-        garage2usd.generate_levels(GarageConfig(**SMALL))
+def test_plans_of_all_levels_make_their_garage_again(built):
+    again = garage2usd.generate(config(), plan=built.garage.plans, jobs=2)
+    assert again.building.ramps == built.garage.building.ramps
+    assert again.building.levels == built.garage.building.levels
+    assert again.stalls == built.garage.stalls
+    with pytest.raises(ConfigError, match="2, one for each level"):
+        garage2usd.generate(config(), plan=built.garage.plans[:1])
+    with pytest.raises(ConfigError, match="plans made with these settings"):
+        garage2usd.generate(config(), plan=built.garage.plans, seed=6)
+
+
+def _ran(*arguments, code=0):
+    ran = CliRunner().invoke(main, [str(argument) for argument in arguments])
+    assert ran.exit_code == code, f"{ran.output} {ran.exception!r}"
+    return ran
+
+
+def test_a_report_of_levels_that_is_edited_has_findings_on_the_level(built, tmp_path):
+    report = json.loads(built.report.read_text())
+    gone = report["levels"][1]["report"]["stalls"].pop()
+    (tmp_path / "a_report.json").write_text(json.dumps(report))
+    findings = json.loads(_ran("check", tmp_path / "a_report.json", "--json", code=1).stdout)["findings"]
+    (lost,) = (finding for finding in findings if finding["severity"] == "error")
+    assert (lost["rule"], lost["place"]) == ("report-stalls", f"U2/{gone['name']}")
+    _ran("plan", tmp_path / "a_report.json", "--findings", "-o", tmp_path / "a.svg")
+    said = {name: (tmp_path / f"a_{name}.svg").read_text().count("report-stalls") for name in ("U1", "U2")}
+    assert said == {"U1": 0, "U2": 1}
+    del report["links"]
+    (tmp_path / "a_report.json").write_text(json.dumps(report))
+    ran = _ran("check", tmp_path / "a_report.json", code=1)
+    assert "not a report of a garage of several levels: links" in " ".join(ran.output.split())
+
+
+def test_the_route_to_a_stall_is_drawn_on_each_level_that_it_leads_over(built, tmp_path):
+    stall = next(stall for stall in built.garage.stalls if stall.level == 1 and stall.number)
+    for name, number in (("a", stall.name), ("b", str(stall.number).lower())):
+        _ran("plan", built.stage, "--stall", number, "-o", tmp_path / f"{name}.svg")
+    for level, chosen_stalls in (("U1", 0), ("U2", 1)):
+        drawn = (tmp_path / f"a_{level}.svg").read_text()
+        assert drawn == (tmp_path / f"b_{level}.svg").read_text()
+        assert drawn.count('class="chosen"') == chosen_stalls
+        assert min(drawn.count('class="way in"'), drawn.count('class="way out"')) >= 1
+    ran = _ran("plan", built.stage, "--stall", "A1-01", "-o", tmp_path / "c.svg", code=1)
+    assert "numbers as U1/" in ran.output
+
+
+def test_one_command_builds_levels_with_exports_and_pictures_of_learning_on_each(built, tmp_path):
+    settings = tmp_path / "two.toml"
+    sections = {name: value for name, value in SMALL.items() if isinstance(value, dict)} | {"building": {"levels": 2}}
+    lines = ["seed = 5"]
+    for section, values in sections.items():
+        lines += [f"[{section}]", *(f"{key} = {value}" for key, value in values.items())]
+    settings.write_text("\n".join(lines))
+    asked = ("--with", "xodr", "--learning-curve", "--best-plans", 2, "--jobs", 2, "--verbose")
+    ran = _ran("build", settings, "-o", tmp_path / "garage.usdz", *asked)
+    assert (tmp_path / "garage.usdz").read_bytes() == built.stage.read_bytes()
+    names = [f"garage_{level}_{what}.png" for level in ("U1", "U2") for what in ("plan", "learning", "best")]
+    assert {*names, "garage.xodr"} <= {path.name for path in tmp_path.iterdir()}
+    logged = [line.partition(":")[0] for line in ran.stderr.splitlines() if line.endswith(" s")]
+    assert logged == ["site", "plan", "layout", "stage", "check"]
+    _ran("export", tmp_path / "garage_report.json", "-o", tmp_path / "again.xodr")
+    again = (tmp_path / "again.xodr").read_text()
+    assert again == (tmp_path / "garage.xodr").read_text().replace('name="garage"', 'name="garage_report"')
+    stall = built.garage.stalls[-1].name
+    driven = _ran("drive", tmp_path / "garage_report.json", "--stall", stall, "--leg", "in").stdout
+    assert "from the portal" in driven
+    proven = _ran("drive", settings).stdout
+    assert proven.startswith(f"{built.garage.parking_stalls} of {built.garage.parking_stalls} stalls")
+    ran = _ran("build", settings, "-o", tmp_path / "b.usdc", "--tape", built.garage.tape, "--best-plans", 1, code=1)
+    assert "best_plans: got 1; allowed: only where lanes are learnt" in ran.output

@@ -123,8 +123,7 @@ def passes_below_itself(ring):
     ids=["one level", "two levels", "helices"],
 )
 def test_no_two_points_are_nearer_than_lanelet2_allows(config, tmp_path):
-    build = garage2usd.build if config.building.levels == 1 else garage2usd.build_levels
-    stage = build(config, tmp_path / "garage.usdc").stage
+    stage = garage2usd.build(config, tmp_path / "garage.usdc").stage
     (path,) = garage2usd.export(stage, [tmp_path / "garage.osm"])
     assert list(complaints(path)) == []
 

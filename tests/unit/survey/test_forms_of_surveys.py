@@ -44,10 +44,10 @@ def test_numbers_are_placed_as_given_and_painted_where_the_lettering_has_them(tm
         if prim.GetName().startswith("Stall_")
     }
     assert found == set(given)
-    assert [stall.number for stall in made.layout.quads] == given
-    unpainted = {stall.source.number for stall in made.layout.fitted if "not painted" in stall.note}
+    assert [stall.number for stall in made.garage.layout.quads] == given
+    unpainted = {stall.source.number for stall in made.garage.layout.source.fitted if "not painted" in stall.note}
     assert unpainted == {'a"b\\', "车1", "🚗", "½"}
-    digits = {place.spec.digits for place in made.layout.of_kind("stall_number")}
+    digits = {place.spec.digits for place in made.garage.layout.of_kind("stall_number")}
     assert {"2A", "/2", "Ä2"} <= digits
 
 
@@ -218,4 +218,4 @@ def test_lines_over_joints_that_differ_by_micrometres_leave_no_empty_mesh(tmp_pa
     stalls = [feature("stall", "Polygon", [box(2.5 * at + 2e-6 * (at % 2))]) for at in range(4)]
     crossing = feature("lane", "LineString", [[5.000001, -3], [5.000001, 12]], width=6)
     made = import_layout(write_geojson(tmp_path / "a.geojson", [*stalls, crossing]), tmp_path / "a.usda", proves=False)
-    assert made.layout.parking_stalls + len(made.layout.unplaced) == 4
+    assert made.garage.layout.parking_stalls + len(made.garage.layout.source.unplaced) == 4

@@ -184,8 +184,8 @@ def test_directions_keep_right_and_portals_are_one_way(garage):
 
 @pytest.mark.parametrize("number", ["A2-04", "B1-22", "C1-14", "C3-01"])
 def test_the_route_is_the_shortest_over_lanes(garage, number):
-    stall = find_stall(garage.layout, number)
-    assert {find_stall(garage.layout, name).name for name in (number.lower(), stall.name.upper())} == {stall.name}
+    stall = find_stall(garage.layout.quads, number)
+    assert {find_stall(garage.layout.quads, name).name for name in (number.lower(), stall.name.upper())} == {stall.name}
     lanes, graph = garage.layout.lane_graph, garage.graph.graph
     route = route_of(lanes, stall)
     (kind_in, kind_out) = (lanes.nodes[node].kind for node in (route.to_stall[0], route.from_stall[-1]))
@@ -212,7 +212,7 @@ def test_the_route_is_the_shortest_over_lanes(garage, number):
         assert outline.buffer(CENTIMETRE).contains(shapely.Point(end))
         assert head[1] == line[-1]
     with pytest.raises(ConfigError, match="numbers as A1-01"):
-        find_stall(garage.layout, "A9-99")
+        find_stall(garage.layout.quads, "A9-99")
 
 
 def test_findings_stand_at_their_places_and_in_the_list(drawn):

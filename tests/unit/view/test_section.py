@@ -33,7 +33,7 @@ FINE_M, MOST_M = 0.01, 1.6
 
 @pytest.fixture(scope="module", params=soak_but([SMALL_LEVELS], [SMALL_LEVELS, HELICES]), ids=["straight", "helix"])
 def drawn(request, tmp_path_factory):
-    built = garage2usd.build_levels(request.param, tmp_path_factory.mktemp("section") / "garage.usdc")
+    built = garage2usd.build(request.param, tmp_path_factory.mktemp("section") / "garage.usdc")
     drawing = draw_section(built.garage.layouts, storey_m=built.garage.building.storey_m)
     return built, drawing, LevelJudge(built.stage)
 

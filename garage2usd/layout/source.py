@@ -1,0 +1,126 @@
+"""Where the floor of a layout comes from: a plan on squares, or the survey of a garage that exists."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.garage import LaneGraph
+from garage2usd.layout.egress.exits import Egress
+from garage2usd.layout.floor_area import FloorArea
+from garage2usd.layout.placement import PlacedStall
+from garage2usd.layout.shell.well import Well
+from garage2usd.structure.grid import Structure, outside_squares
+from garage2usd.structure.lane_graph import LaneSquares
+
+if TYPE_CHECKING:
+    from garage2usd.layout import Layout
+
+__all__ = ["FloorSource", "PlannedFloor"]
+
+
+class FloorSource:
+    """What a floor was laid out from, and how files name its parts.
+
+    Attributes
+    ----------
+    matrices
+        S, R and C; None for a floor without squares.
+    lanes
+        The lane graph in metres.
+    """
+
+    matrices: Structure | None
+
+    @property
+    def lanes(self) -> LaneGraph:
+        """The lane graph in metres."""
+        raise NotImplementedError
+
+    @property
+    def again(self) -> "Callable[..., Layout]":
+        """Lays the same floor out again, with the settings and further arguments of `garage2usd.layout.lay_out`."""
+        raise NotImplementedError
+
+    @property
+    def area(self) -> FloorArea:
+        """The floor without and with what is no floor."""
+        raise NotImplementedError
+
+    def access(self, stalls: Sequence[PlacedStall]) -> Sequence[int]:
+        """Return the number of the lane node before the mouth of each stall."""
+        raise NotImplementedError
+
+    def node_squares(self) -> NDArray[np.int32]:
+        """Return the (row, col) by which files name each lane node; int32, shape (nodes, 2)."""
+        raise NotImplementedError
+
+    def kinds_of_squares(self) -> dict[str, int]:
+        """Count the squares, or nodes, of each kind of lane and portal, and of each stall type."""
+        raise NotImplementedError
+
+    def label_of_square(self, row: int, col: int) -> str:
+        """Return the semantic label of a tile: the kind of its lane, or the type of its stalls."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, eq=False)
+class PlannedFloor(FloorSource):
+    """The floor of a plan.
+
+    Attributes
+    ----------
+    matrices
+        S, R and C.
+    lane_squares
+        The squares of its lanes.
+    laid_out
+        `garage2usd.layout.lay_out`.
+    egress
+        Its fire compartments and stair cores.
+    well
+        The ramps to other levels; None without any.
+    """
+
+    matrices: Structure
+    lane_squares: LaneSquares
+    laid_out: "Callable[..., Layout]"
+    egress: Egress
+    well: Well | None = None
+
+    @property
+    def lanes(self) -> LaneGraph:
+        """The lane graph in metres."""
+        return self.lane_squares.lanes
+
+    @property
+    def again(self) -> "Callable[..., Layout]":
+        """Lays the same plan out again."""
+        return partial(self.laid_out, self.matrices, self.lane_squares, well=self.well, egress=self.egress)
+
+    @property
+    def area(self) -> FloorArea:
+        """The floor without and with obstacles."""
+        ground = ~outside_squares(self.matrices.cells)
+        for square in self.well.squares if self.well else ():
+            ground[square] = True
+        return FloorArea(self.matrices.floor_m2, self.matrices.area_m2(ground))
+
+    def access(self, stalls: Sequence[PlacedStall]) -> list[int]:
+        """Return the number of the lane node before the mouth of each stall."""
+        return [self.lane_squares.number_of[stall.access_square] for stall in stalls]
+
+    def node_squares(self) -> NDArray[np.int32]:
+        """Return the (row, col) of each lane node; int32, shape (nodes, 2)."""
+        return np.array([*self.lane_squares.number_of], dtype=np.int32).reshape(-1, 2)
+
+    def kinds_of_squares(self) -> dict[str, int]:
+        """Count the squares of each kind of lane and portal, and of each stall type."""
+        return self.lane_squares.kind_counts()
+
+    def label_of_square(self, row: int, col: int) -> str:
+        """Return the kind of a square's lane, or the type of its stalls."""
+        return self.lane_squares.label_of((row, col))
