@@ -42,7 +42,7 @@ def test_carla_and_sumo_drive_as_the_lane_graph_does(exported, tmp_path):
 
 @pytest.mark.parametrize("number", [1, 2], ids=["OpenDRIVE", "Lanelet2"])
 def test_the_map_is_read_back_as_the_same_layout(number, exported):
-    stalls = exported[0].layout.quads
+    stalls = exported[0].garage.layout.quads
     found = read_survey(exported[number]).stall_polygons()
     assert len(found) == len(stalls)
     for stall in stalls:

@@ -139,9 +139,8 @@ def test_the_judge_sees_what_stands_in_the_way():
         ((-3.0, -3.0), 0.2, "the floor, 0.2 m"),
     ):
         wrong = placed("Person_99", person, point, height_m=height)
-        faults, _ = clutter_judge.faults_of(
-            replace(made, layout=replace(layout, placements=ObjectTable([[*layout.placements, wrong]])))
-        )
+        crowded = replace(layout, placements=ObjectTable([[*layout.placements, wrong]]))
+        faults, _ = clutter_judge.faults_of(replace(made, levels=(replace(made.levels[0], layout=crowded),)))
         assert any(name == "Person_99" and met in what for _, name, what in faults), met
 
 
