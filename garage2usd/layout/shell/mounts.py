@@ -273,5 +273,8 @@ def carriageway(tile: Tile, setback_m: float) -> shapely.Polygon:
     margin = 0.0 if tile.cell in {Cell.ENTRANCE, Cell.EXIT} else setback_m
     up, down, left, right = (0.0 if drivable else margin for drivable in tile.drivable)
     x, z = tile.half_x_m, tile.half_z_m
+    if not tile.yaw_rad:
+        # what touches it is measured against these very sums
+        return shapely.box(tile.x_m - x + left, tile.z_m - z + up, tile.x_m + x - right, tile.z_m + z - down)
     ground = shapely.box(left - x, up - z, x - right, z - down)
     return shapely.Polygon([tile.at(corner) for corner in shapely.get_coordinates(ground.exterior)[:-1].tolist()])

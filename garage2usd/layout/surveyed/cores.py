@@ -36,6 +36,8 @@ _BESIDE_M = 0.8
 _RECTANGULAR = 0.98
 """Least share of its rectangle that a block fills to be one."""
 _TOUCH_M = 0.01
+_LONGEST_M = 15.0
+"""Greatest distance between two corners of a stall or column."""
 _SOLIDS = -4
 """First number of the pairs by which blocks are known: no (row, col) of a tile."""
 
@@ -134,6 +136,8 @@ def _core(
     low_m, high_m = -side_m / 2, side_m / 2
     rear_m = min(config.bay.stall_length_m, across_m) - _FROM_REAR_M
     for ground, clear_m in beside:
+        if math.dist(ground[0], tile.middle_m) > side_m + across_m + _LONGEST_M:
+            continue
         local = np.array([tile.local(corner) for corner in ground])
         along, across = local.T if edge.along_x else local.T[::-1]
         inwards = across_m / 2 + (across if edge in {Edge.UP, Edge.LEFT} else -across)

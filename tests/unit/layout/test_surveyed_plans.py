@@ -3,6 +3,7 @@
 import math
 from functools import cache
 
+import numpy as np
 import pytest
 import shapely
 from support.surveyed_plans import survey_of
@@ -12,6 +13,7 @@ from garage2usd import GarageConfig
 from garage2usd.checks import judged_layout
 from garage2usd.imports import import_layout
 from garage2usd.layout.surveyed import lay_out_survey
+from garage2usd.layout.surveyed.rectangles import rectangles
 from garage2usd.survey.alignment import aligned
 from garage2usd.survey.survey import PortalKind, Survey, SurveyedLane, SurveyedPortal, SurveyedStall
 
@@ -111,3 +113,15 @@ def test_lanes_askew_are_furnished_along_their_own_direction():
         for place in layout.of_kind(kind):
             x, _, z = place.position_m
             assert place.square is None or walls.contains(shapely.Point(x, z))
+
+
+def test_rectangles_fill_a_ground_with_many_corners_without_overlap():
+    """A ring with a jagged rim of 400 corners, as the ground around curved lanes is."""
+    turns = np.linspace(0.0, math.tau, 400, endpoint=False)
+    far = 40.0 + 3.0 * np.random.default_rng(1).random(400)
+    rim = shapely.Polygon(np.stack([60.0 + far * np.cos(turns), 60.0 + far * np.sin(turns)], axis=1))
+    ground = rim.difference(shapely.Point(60.0, 60.0).buffer(15.0))
+    found = list(rectangles(ground, 3.5))
+    assert shapely.union_all(found).area == pytest.approx(sum(box.area for box in found), rel=0.01)
+    assert shapely.union_all(found).difference(ground.buffer(0.1)).area < 0.01 * ground.area
+    assert sum(box.area for box in found) > 0.6 * ground.area
