@@ -11,15 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from garage2usd.checks import judged_layout
-from garage2usd.checks.swept_path import design_car
 from garage2usd.common.processes import without_collector
 from garage2usd.common.progress import Progress, silent
 from garage2usd.config import GarageConfig
-from garage2usd.driving import DesignCar, StallProof, prove_stalls, with_clutter, with_truth_of_misparked
+from garage2usd.driving import StallProof, prove_stalls
 from garage2usd.garage_files import draw_pictures
 from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.layout.surveyed import SurveyedFloor, lay_out_survey
-from garage2usd.pipeline import Build, Judged, checked_output, written
+from garage2usd.pipeline import Build, Judged, checked_output, with_things, written
 from garage2usd.structure.building import Building, level_name
 from garage2usd.survey.alignment import Alignment, aligned
 from garage2usd.survey.medial_lanes import with_medial_lanes
@@ -72,9 +71,7 @@ def import_layout(
     start = time.perf_counter()
     survey = source if isinstance(source, Survey) else read_survey(Path(source))
     survey, alignment = aligned(with_medial_lanes(survey))
-    layout = with_truth_of_misparked(lay_out_survey(survey, config), config, progress=progress)
-    if config.clutter.is_any:
-        layout = with_clutter(layout, config, cars=(DesignCar(), design_car(config.standard)), progress=progress)
+    layout = with_things(lay_out_survey(survey, config), config, progress=progress)
     proofs = prove_stalls(layout, progress=progress) if proves else ()
     level = GarageLevel(level_name(0), 0.0, config, layout, is_only=True, planned=None)
     building = Building((layout.structure,), None, config.building.storey_m)

@@ -52,6 +52,7 @@ __all__ = [
     "checked_output",
     "generate",
     "generate_plan",
+    "with_things",
     "written",
 ]
 
@@ -443,21 +444,26 @@ def _layout(
     well = None if sites.ramps is None else make_well(sites.ramps, number, config)
     layout = lay_out(planned.plan.structure, graph, planned.config, well=well, egress=egress)
     layout = _driven(layout, planned.config, progress)
-    if planned.config.clutter.is_any:
-        cars = (DesignCar(), design_car(planned.config.standard))
-        layout = with_clutter(layout, planned.config, cars=cars, progress=progress)
+    return with_things(layout, planned.config, progress=progress)
+
+
+def with_things(layout: Layout, config: GarageConfig, *, progress: Progress = silent) -> Layout:
+    """Return a layout with the truth beside cars over lines, and the clutter that leaves stalls their drives."""
+    layout = with_truth_of_misparked(layout, config, progress=progress)
+    if config.clutter.is_any:
+        layout = with_clutter(layout, config, cars=(DesignCar(), design_car(config.standard)), progress=progress)
     return layout
 
 
 def _driven(layout: Layout, config: GarageConfig, progress: Progress) -> Layout:
-    """The layout with what is asked of stalls that no car gets into, and the truth beside cars over lines."""
+    """Return a layout with what is asked of stalls that no car gets into."""
     choice = config.plan.unreachable_stalls
     if choice.are_proven:
         layout = without_unreachable(layout, config, progress=progress)
     tight = tight_stalls(layout.lane_graph, layout.quads) if choice is UnreachableStalls.REFUSE else ()
     if tight:
         refuse_undrivable(layout, config, tight, progress=progress)
-    return with_truth_of_misparked(layout, config, progress=progress)
+    return layout
 
 
 def _unreached(garage: Garage, *, may_turn_back: bool) -> list[str]:

@@ -1,4 +1,5 @@
 """Placements of objects and stalls: engine-neutral values in metres, Y up, +X along columns, +Z along rows."""
+# Over 300 lines: what is placed, and the turns and frames in which all else places it.
 
 import math
 from collections.abc import Iterable, Iterator
@@ -28,6 +29,7 @@ __all__ = [
     "rounded",
     "stall_name",
     "sum_of_yaws",
+    "to_local",
     "to_world",
     "turned_yaw_rad",
 ]
@@ -72,6 +74,11 @@ class Placement:
         """Transform a point of the shape to (x, z) in the garage."""
         x, _, z = self.position_m
         return to_world(point, (x, z), self.yaw_rad)
+
+    def local(self, point: Point) -> Point:
+        """Transform a point (x, z) in the garage to the coordinates of the shape."""
+        x, _, z = self.position_m
+        return to_local(point, (x, z), self.yaw_rad)
 
     @property
     def stall(self) -> str | None:
@@ -295,3 +302,8 @@ def to_world(point: Point, origin: Point, yaw_rad: float) -> Point:
     cos, sin = cos_sin(yaw_rad)
     x, z = point
     return origin[0] + x * cos + z * sin, origin[1] - x * sin + z * cos
+
+
+def to_local(point: Point, origin: Point, yaw_rad: float) -> Point:
+    """Transform (x, z) in the garage to local coordinates, the inverse of `to_world`."""
+    return to_world((point[0] - origin[0], point[1] - origin[1]), (0.0, 0.0), -yaw_rad + 0.0)

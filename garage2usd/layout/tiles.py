@@ -19,6 +19,7 @@ from garage2usd.layout.placement import (
     placed,
     stall_name,
     sum_of_yaws,
+    to_local,
     to_world,
 )
 from garage2usd.objects.ceiling import CeilingSpec
@@ -100,7 +101,7 @@ class Tile:
 
     def local(self, point: Point) -> Point:
         """Transform a point (x, z) in the garage to its own coordinates."""
-        return to_world((point[0] - self.x_m, point[1] - self.z_m), (0.0, 0.0), -self.yaw_rad + 0.0)
+        return to_local(point, (self.x_m, self.z_m), self.yaw_rad)
 
     def placed(
         self, name: str, spec: Spec, point: Point = (0.0, 0.0), *, height_m: float = 0.0, yaw_rad: float = 0.0

@@ -1,18 +1,16 @@
 """Repairs of patched asphalt: cracks sealed with bitumen, and patches, at places that the seed draws."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 
 import numpy as np
 import shapely
 
 from garage2usd.common.randomness import Step
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.floor.stains import drain_box, drawn_yaw, overlap, overlaps_paint, stain_box
-from garage2usd.layout.placement import Placement, of_spec, placed, sum_of_yaws, to_world
+from garage2usd.layout.floor.stains import drain_box_on, drawn_yaw, overlap, overlaps_paint, stain_box
+from garage2usd.layout.placement import Placement, of_spec, placed, sum_of_yaws
 from garage2usd.objects.drain import DrainSpec
 from garage2usd.objects.floor_stain import StainMark, StainSpec
-from garage2usd.objects.outline import Box
 from garage2usd.objects.panel import PanelSpec
 from garage2usd.structure.lane_graph import Square
 
@@ -52,7 +50,7 @@ def floor_repairs(
         if floor.square is None:
             continue
         # in the coordinates of the panel, as all that follows
-        taken = [_in_panel(floor, drain, spec) for drain, spec in drained.get(floor.square, [])]
+        taken = [drain_box_on(floor, drain, spec) for drain, spec in drained.get(floor.square, [])]
         openings = shapely.union_all([shapely.Polygon(opening) for opening in panel.openings])
         half_x, half_z = panel.width_m / 2, panel.depth_m / 2
         for number, ((mark, share), tries) in enumerate(zip(_SLOTS, numbers[floor.square].tolist(), strict=True), 1):
@@ -77,14 +75,6 @@ def floor_repairs(
                 yaw = sum_of_yaws(yaw, floor.yaw_rad)
                 yield placed(name, spec, floor.to_world(place), height_m=_LIFT_M, yaw_rad=yaw, square=floor.square)
                 break
-
-
-def _in_panel(floor: Placement, drain: Placement, spec: DrainSpec) -> Box:
-    """Return the bounding box of a drain along an axis of a panel, in the coordinates of the panel."""
-    (x, _, z), (left, _, top) = drain.position_m, floor.position_m
-    x, z = to_world((x - left, z - top), (0.0, 0.0), -floor.yaw_rad + 0.0)
-    turned = replace(drain, position_m=(x, 0.0, z), yaw_rad=sum_of_yaws(drain.yaw_rad, -floor.yaw_rad))
-    return drain_box(turned, spec)
 
 
 def _drains_by_square(drains: Iterable[Placement]) -> dict[Square | None, list[tuple[Placement, DrainSpec]]]:

@@ -26,7 +26,7 @@ from garage2usd.objects.panel import PanelSpec
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["drain_box", "drawn_yaw", "floor_stains", "overlap", "overlaps_paint", "stain_box"]
+__all__ = ["drain_box_on", "drawn_yaw", "floor_stains", "overlap", "overlaps_paint", "stain_box"]
 
 _WEAR_LIFT_M = 0.0008
 _CONCRETE_LIFT_M = 0.0012
@@ -133,7 +133,7 @@ def floor_stains(
     numbers = draws.of_step(Step.FLOOR_STAINS, max(_LANE_SLOTS + most, 2 * most), _DRAWS)
     drain_on = {drain.square: (drain, spec) for drain, spec in of_spec(drains, DrainSpec)}
     for tile, panel in zip(grid, floors, strict=True):
-        floor = _SquareStains(tile, _drain_box(tile, *drain_on[tile.square]) if tile.square in drain_on else None)
+        floor = _SquareStains(tile, drain_box_on(tile, *drain_on[tile.square]) if tile.square in drain_on else None)
         drawn = numbers[tile.square]
         if tile.cell is Cell.FREE:
             _stain_stalls(floor, stalls_on.get(tile.square, []), drawn, rate)
@@ -233,7 +233,7 @@ def _positive_edge(tile: Tile) -> Edge:
     return Edge.RIGHT if tile.axis_is_x else Edge.DOWN
 
 
-def drain_box(drain: Placement, spec: DrainSpec) -> Box:
+def _drain_box(drain: Placement, spec: DrainSpec) -> Box:
     """Return the bounding box of an axis-aligned drain in the garage."""
     x, _, z = drain.position_m
     half_x, half_z = spec.width_m / 2, spec.length_m / 2
@@ -242,11 +242,11 @@ def drain_box(drain: Placement, spec: DrainSpec) -> Box:
     return x - half_x, z - half_z, x + half_x, z + half_z
 
 
-def _drain_box(tile: Tile, drain: Placement, spec: DrainSpec) -> Box:
-    """Return the bounding box of a drain along an axis of its tile, in the coordinates of that tile."""
-    x, z = tile.local((drain.position_m[0], drain.position_m[2]))
-    turned = replace(drain, position_m=(x, 0.0, z), yaw_rad=sum_of_yaws(drain.yaw_rad, -tile.yaw_rad))
-    return drain_box(turned, spec)
+def drain_box_on(floor: Tile | Placement, drain: Placement, spec: DrainSpec) -> Box:
+    """Return the bounding box of a drain along an axis of a tile or panel, in the coordinates of that."""
+    x, z = floor.local((drain.position_m[0], drain.position_m[2]))
+    turned = replace(drain, position_m=(x, 0.0, z), yaw_rad=sum_of_yaws(drain.yaw_rad, -floor.yaw_rad))
+    return _drain_box(turned, spec)
 
 
 def _mark_turns(

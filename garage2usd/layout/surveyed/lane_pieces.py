@@ -1,9 +1,7 @@
 """The lanes of a floor without squares, cut into pieces: junctions, bends, portals and what lies between them."""
-# Over 300 lines: junctions and the stretches between them are cut at common edges.
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -11,7 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.garage import LaneGraph, LaneKind, Point
+from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, Point
 from garage2usd.layout.surveyed.lines import StructuralLines
 from garage2usd.layout.tiles import Tile
 from garage2usd.native import elementary
@@ -32,7 +30,7 @@ _BEYOND_TIP_M = 1.2
 _LANES = -1
 """First number of the pairs by which pieces are known: no (row, col) of a tile."""
 _TURNS_RAD = {Edge.RIGHT: 0.0, Edge.UP: math.pi / 2, Edge.LEFT: math.pi, Edge.DOWN: -math.pi / 2}
-"""Turn of the way over each edge of a piece from its +X."""
+"""Turn of the way over each edge of a piece from its +X, by quarters."""
 _DIGITS = 6
 
 
@@ -102,7 +100,7 @@ class LanePieces:
                 self._join(chain, turns, way)
 
     def _is_joint(self, node: int) -> bool:
-        beside = self._around[node]
+        beside = self._lanes.beside[node]
         if self._lanes.nodes[node].is_portal or len(beside) > 2:  # noqa: PLR2004 - a junction
             return True
         if len(beside) != 2:  # noqa: PLR2004 - a tip
@@ -110,14 +108,9 @@ class LanePieces:
         one, other = (self._heading_rad(node, end) for end in beside)
         return abs(math.remainder(one - other - math.pi, math.tau)) > _STRAIGHT_RAD
 
-    @cached_property
-    def _around(self) -> dict[int, list[int]]:
-        around: dict[int, list[int]] = {node: [] for node in range(len(self._lanes.nodes))}
-        for edge in self._lanes.edges:
-            for one, other in ((edge.start, edge.end), (edge.end, edge.start)):
-                if other not in around[one]:
-                    around[one].append(other)
-        return around
+    def _edge(self, one: int, other: int) -> LaneEdge:
+        """Return the edge between two adjacent nodes."""
+        return self._lanes.arcs.get((one, other)) or self._lanes.arcs[other, one]
 
     def _heading_rad(self, start: int, end: int) -> float:
         """Return the yaw that turns +X towards the way from one node to another."""
@@ -126,11 +119,10 @@ class LanePieces:
 
     def _width_m(self, one: int, other: int) -> float:
         """Return the extent of a lane across its direction, with the clearance of columns on both sides."""
-        edge = next(edge for edge in self._lanes.edges if {edge.start, edge.end} == {one, other})
-        return edge.width_m + 2 * self._setback_m
+        return self._edge(one, other).width_m + 2 * self._setback_m
 
     def _joint(self, node: int) -> _Joint:
-        beside = self._around[node]
+        beside = self._lanes.beside[node]
         lane = self._lanes.nodes[node]
         if not beside:
             return _Joint(node, 0.0, lane.sides_m or lane.widths_m, {})
@@ -184,7 +176,7 @@ class LanePieces:
         """Return the nodes of a lane from a joint to the next one, or to its tip."""
         way = [start, onward]
         while way[-1] not in joints:
-            others = [node for node in self._around[way[-1]] if node != way[-2]]
+            others = [node for node in self._lanes.beside[way[-1]] if node != way[-2]]
             if not others:
                 break
             way.append(others[0])
@@ -241,9 +233,9 @@ class LanePieces:
     def _piece(self, step: tuple[int, int], middle: Point, length_m: float, square: Square) -> Tile:
         heading = self._heading_rad(*step)
         yaw = _axis_yaw_rad(heading)
-        along_x = _along_x(heading, yaw)
+        along_x = not edge_towards(heading, yaw).along_x
         width_m = self._width_m(*step)
-        edge = next(edge for edge in self._lanes.edges if {edge.start, edge.end} == set(step))
+        edge = self._edge(*step)
         sides = (length_m, width_m) if along_x else (width_m, length_m)
         ahead = edge_towards(self._heading_rad(edge.start, edge.end), yaw)
         return Tile(
@@ -263,7 +255,7 @@ class LanePieces:
 
     def _join(self, chain: Sequence[Square], turns: Sequence[Edge], way: Sequence[int]) -> None:
         """Note which pieces of a lane follow one another, over which edges, and in which direction."""
-        edge = next(edge for edge in self._lanes.edges if {edge.start, edge.end} == {way[0], way[1]})
+        edge = self._edge(way[0], way[1])
         for number, (one, other) in enumerate(pairwise(chain)):
             self.beside[one, turns[2 * number]] = other
             if 2 * number + 1 < len(turns):
@@ -277,14 +269,10 @@ def _axis_yaw_rad(heading_rad: float) -> float:
     return 0.0 if abs(yaw) < AXIS_RAD else round(yaw, 9)
 
 
-def _along_x(heading_rad: float, yaw_rad: float) -> bool:
-    return abs(math.cos(heading_rad - yaw_rad)) > math.sin(math.pi / 4)
-
-
 def edge_towards(heading_rad: float, yaw_rad: float) -> Edge:
     """Return the edge of a piece with a yaw that lies towards a heading."""
     turned = math.remainder(heading_rad - yaw_rad, math.tau)
-    return (Edge.RIGHT, Edge.UP, Edge.LEFT, Edge.DOWN)[round(turned / (math.pi / 2)) % 4]
+    return tuple(_TURNS_RAD)[round(turned / (math.pi / 2)) % 4]
 
 
 def _ends_of(piece: Tile, way: Sequence[int], lanes: LaneGraph) -> tuple[Edge, Edge]:

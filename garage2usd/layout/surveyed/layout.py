@@ -1,7 +1,7 @@
 """The layout of a surveyed garage: its stalls and columns where the survey has them, in a shell along its outline."""
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
@@ -162,6 +162,9 @@ def lay_out_survey(
         reasons = ", ".join(dict.fromkeys(each.reason for each in unplaced)) or "it has none"
         raise ConfigError("stalls", reasons, "one stall or more that can be placed")
     stalls, fitted = placed_stalls(found, ground)
+    labels = {stall.square: f"stall_{StallType.TYPE_3.value}" for stall in stalls}
+    labels |= {ground.square_at(node.position): node.kind for node in reversed(network.nodes)}
+    source = SurveyedFloor(survey, network, fitted, (*survey.unread, *unplaced), labels)
     tiles = SurveyedTiles(ground, network, stalls, config.bay, survey.solid_polygons())
     pillars = _columns(survey, config, look)
     cores = surveyed_cores(tiles, stalls, pillars, config)
@@ -170,7 +173,7 @@ def lay_out_survey(
         tiles=tiles,
         lanes=network,
         stalls=stalls,
-        quads=tuple(stall_quads(stalls, _access(fitted), network)),
+        quads=tuple(stall_quads(stalls, source.access(stalls), network)),
         shell=surveyed_walls(ground, gates, fittings, look.walls),
         pillars=pillars,
         blocks=surveyed_blocks(tiles, cores, fittings.ceiling_height_m, look.walls),
@@ -183,11 +186,9 @@ def lay_out_survey(
         laid=lambda panels: surveyed_floor(ground, panels, stalls),
     )
     furnishing = furnished(floor, config, look, held_back=held_back, kept_clear=kept_clear, open_boots=open_boots)
-    labels = {stall.square: f"stall_{StallType.TYPE_3.value}" for stall in stalls}
-    labels |= {ground.square_at(node.position): node.kind for node in reversed(network.nodes)}
     return Layout(
         ground.structure,
-        SurveyedFloor(survey, network, fitted, (*survey.unread, *unplaced), labels),
+        source,
         ObjectTable(ground.on_tiles(furnishing.objects)),
         StallTable(stalls),
         fittings.ceiling_height_m,
@@ -200,10 +201,6 @@ def lay_out_survey(
         furnishing.misparked,
         frozenset(held_back),
     )
-
-
-def _access(fitted: Iterable[FittedStall]) -> Iterator[int]:
-    return (stall.access for stall in fitted)
 
 
 def _columns(survey: Survey, config: GarageConfig, look: LookConfig) -> list[Placement]:

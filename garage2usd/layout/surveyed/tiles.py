@@ -75,11 +75,11 @@ class SurveyedTiles(Tiles):
     ) -> None:
         self.bay, self.setback_m = bay, bay.column_size_m / 2
         self.stall_places = {}
-        self._outline, self._lines, self._lanes, self._stalls = ground.polygon, ground.lines, lanes, tuple(stalls)
+        self._outline, self._lines, self._stalls = ground.polygon, ground.lines, tuple(stalls)
         self.solids = tuple(solids)
         walls = self._outline.boundary
-        self._standing = shapely.union_all([walls, *solids, *(shapely.Polygon(stall.corners_m()) for stall in stalls)])
-        pieces = LanePieces(lanes, ground.lines, self._standing, self.setback_m)
+        standing = shapely.union_all([walls, *solids, *(shapely.Polygon(stall.corners_m()) for stall in stalls)])
+        pieces = LanePieces(lanes, ground.lines, standing, self.setback_m)
         self.doors, self._beside, self._steps = pieces.doors, pieces.beside, pieces.steps
         found = {tile.square: tile for tile in pieces.tiles}
         self._opening: dict[tuple[Square, Edge], list[PlacedStall]] = defaultdict(list)
@@ -107,9 +107,9 @@ class SurveyedTiles(Tiles):
 
     def openings(self, tile: Tile) -> tuple[Polygon, ...]:
         """All of a row of stalls, whose floor is theirs."""
-        return (rectangle(-tile.half_x_m, -tile.half_z_m, tile.half_x_m, tile.half_z_m),) * (
-            tile.square in self._rows_on
-        )
+        if tile.square not in self._rows_on:
+            return ()
+        return (rectangle(-tile.half_x_m, -tile.half_z_m, tile.half_x_m, tile.half_z_m),)
 
     def row_along_x(self, tile: Tile) -> bool | None:
         """True for a row of stalls, which lies along its X; None for another piece."""
