@@ -22,10 +22,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from garage2usd.as_built import BuiltGarage
-from garage2usd.as_built.driven_levels import prove_levels
-from garage2usd.as_built.levels import BuiltLevels
+from garage2usd.as_built.proofs import prove_built
 from garage2usd.checks import as_json
-from garage2usd.checks.levels import read_stage
 from garage2usd.common.errors import Garage2UsdError
 from garage2usd.config import config_from_mapping
 from garage2usd.config.maps import GridConfig, MapsConfig
@@ -35,7 +33,7 @@ from garage2usd.exports import export
 from garage2usd.garage_sources import read_built
 from garage2usd.imports import import_layout
 from garage2usd.layout import Layout
-from garage2usd.maps.level_drives import drive_planner
+from garage2usd.maps.drives import DrivePlanner
 from garage2usd.pipeline import GarageLevel, build
 from garage2usd.reading.content import stage_digest
 from garage2usd.reading.files import open_stage
@@ -203,11 +201,11 @@ def digests_of(settings: Mapping[str, Any]) -> dict[str, str]:
                 found[name] = _digest(str(error).replace(place, ""))
         slots = read_slots(open_stage(made.stage)).slots
         found["slots"] = _digest([_plain(slot.facts | {"at": slot.corners_m}) for slot in slots])
-        garage, _ = read_stage(made.stage)
+        garage = read_built(made.stage).garage
         proofs = [prove_stalls(layout) for layout in made.layouts]
         found["proofs"] = _digest([repr(proof) for of_level in proofs for proof in of_level])
-        if isinstance(garage, BuiltLevels):
-            found["proofs_of_all"] = _digest([repr(proof) for proof in prove_levels(garage)])
+        if len(garage.levels) > 1:
+            found["proofs_of_all"] = _digest([repr(proof) for proof in prove_built(garage)])
         found["difficulty"] = _digest(
             [
                 [_plain(asdict(each)) for each in stall_difficulties(planned, proofs=of_level)]
@@ -236,10 +234,10 @@ def layout_digest(layout: Layout) -> str:
     return _digest([repr(each).partition("(")[2] for each in (*layout.stalls, *layout.placements)])
 
 
-def _drive(garage: BuiltGarage | BuiltLevels) -> dict[str, Any]:
+def _drive(garage: BuiltGarage) -> dict[str, Any]:
     """The states of a drive to the first stall of a garage, or why there is none."""
     try:
-        drive = drive_planner(garage).drive()
+        drive = DrivePlanner(garage).drive()
     except Garage2UsdError as error:
         return {"refused": str(error)}
     return {**drive.facts, "columns": drive.trajectory.columns()}

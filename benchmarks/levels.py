@@ -15,7 +15,7 @@ from pxr import Sdf
 
 import garage2usd
 from garage2usd.config import GarageConfig
-from garage2usd.garage_files import write_garage_stage
+from garage2usd.stage import write_stage
 
 __all__ = ["levels"]
 
@@ -75,7 +75,7 @@ def _stage(folder: Path) -> dict[str, float]:
     def author(name: str) -> Path:
         path = folder / name / "garage.usdc"
         path.parent.mkdir()
-        write_garage_stage(garage, path, shared=shared)
+        write_stage(garage, path, shared=shared)
         return path.parent
 
     author("first")

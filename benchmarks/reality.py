@@ -9,7 +9,7 @@ import argparse
 import time
 from collections import Counter
 
-from garage2usd.as_built.layout_reader import garage_of_layout
+from garage2usd.as_built.garage import garage_as_made
 from garage2usd.checks import Severity, check
 from garage2usd.config import GarageConfig
 from garage2usd.driving import Limits, prove_stalls
@@ -46,7 +46,7 @@ def main() -> int:
     planned, left, plan_m2, layout_m2 = 0, 0, 0.0, 0.0
     for seed in range(asked.first, asked.first + asked.seeds):
         garage = generate(GarageConfig(seed=seed, profile=asked.profile, site=site))
-        subject = garage_of_layout(garage.layout, source=f"seed {seed}", kind="report")
+        subject = garage_as_made(garage, source=f"seed {seed}", kind="report")
         findings = check(subject, garage.config.standard)
         grave = [finding for finding in findings if finding.severity is not Severity.INFO]
         found.update(f"{finding.severity.value} {finding.rule}" for finding in findings)

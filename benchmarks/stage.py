@@ -19,12 +19,13 @@ from garage2usd.config import GarageConfig
 from garage2usd.config.stage import StageForm
 from garage2usd.layout import Layout, lay_out
 from garage2usd.objects import KINDS, Spec
-from garage2usd.stage import arrangement_of, write_stage
+from garage2usd.stage import arrangement_of
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.asset_files import asset_file
 from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.lane_curves import LANE_GRAPH_FILE
+from garage2usd.stage.level_stage import write_level_stage
 from garage2usd.stage.prototypes import Prototype, name_prototypes
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneSquares, build_lane_graph
@@ -156,7 +157,7 @@ def _lay_out(rows: int, cols: int, form: str, path: Path) -> dict[str, float]:
     figures = {"seconds": time.perf_counter() - start, "peak_mb": peak_mb(), "objects": len(layout.placements)}
     (path.parent / _LAYOUT_FILE).write_bytes(pickle.dumps((layout, graph, config)))
     arrangement = arrangement_of(layout, config.stage)
-    write_stage(layout, path, arrangement=arrangement, metadata={}, config=config.stage)
+    write_level_stage(layout, path, arrangement=arrangement, metadata={}, config=config.stage)
     return figures
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pxr import Usd
 from strips import SIDES
 
-from garage2usd.as_built.stage_reader import garage_of_stage
+from garage2usd.as_built.garage import garage_of_stage
 from garage2usd.config.maps import DriveConfig
 from garage2usd.recordings.way import Way
 from garage2usd.sensors.rig.rig import AroundViewCamera, Rig
@@ -64,7 +64,7 @@ class StripPoses:
         self._random, self._body = random, rig.body
         self._cameras = {camera.name: camera for camera in rig.sensors if isinstance(camera, AroundViewCamera)}
         self._slots_m = np.stack([slot.corners_m for slot in read_slots(stage).slots])
-        self._solids = garage_of_stage(stage, source=str(path)).solids
+        self._solids = garage_of_stage(stage, source=str(path)).levels[0].solids
         way = Way(stage, path, DRIVE_NAME, _DRIVE_STEP_M, DriveConfig())
         self._drive = [pose.vehicle_to_world for pose in way.poses]
 

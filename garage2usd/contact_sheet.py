@@ -18,13 +18,13 @@ from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
 from garage2usd.config.look_text import look_in_words
 from garage2usd.config.stage import AssetPlace, StageForm, TextureQuality
-from garage2usd.garage_files import stages_of_levels, write_garage_stage
 from garage2usd.layout import Layout
 from garage2usd.pipeline import generate
 from garage2usd.planning import Plan
 from garage2usd.render import Device, Picture, render_stage
 from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
 from garage2usd.render.devices import CPU, find_device
+from garage2usd.stage import stages_of_levels, write_stage
 from garage2usd.stage.cameras import APERTURE_MM, FOCAL_MM
 
 __all__ = ["SHEET_SUFFIXES", "SheetGarage", "draw_contact_sheet"]
@@ -193,7 +193,7 @@ def _written(garage: SheetGarage, folder: Path) -> tuple[Path, list[_Level]]:
     # more is not seen in small pictures, and a flat stage of several levels has none of each level beside it
     plain = {"assets": AssetPlace.OWN, "texture_quality": TextureQuality.LOW, "form": StageForm.AUTO}
     made = generate(garage.config, plan=garage.plan, tape=garage.tape)
-    write_garage_stage(made, stage, config=garage.config.stage.model_copy(update=plain))
+    write_stage(made, stage, config=garage.config.stage.model_copy(update=plain))
     return stage, [
         _Level(garage.name if level.is_only else f"{garage.name} {level.name}", level.layout, own)
         for level, own in zip(made.levels, stages_of_levels(made, stage), strict=True)

@@ -7,25 +7,22 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import NamedTuple
 
-from garage2usd.as_built import BuiltGarage
-from garage2usd.as_built.levels import BuiltLevels, built_levels
-from garage2usd.as_built.stage_reader import garage_of_stage
+from garage2usd.as_built.garage import BuiltGarage, garage_of_stage
 from garage2usd.common.errors import ConfigError, MissingExtraError
 from garage2usd.common.extras import require
 from garage2usd.common.output import check_file, check_name, drafting, publish_at, staging_folder
 from garage2usd.common.processes import run_in_forks, without_collector
 from garage2usd.common.progress import Progress, silent, unheard
 from garage2usd.config.maps import MapsConfig, ScenarioConfig
+from garage2usd.garage.level_place import ONLY_LEVEL, LevelPlace
 from garage2usd.garage_files import read_garage_report
+from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.glb import write_glb
-from garage2usd.maps.level_drives import drive_planner
 from garage2usd.maps.level_networks import LevelNetwork, level_networks
-from garage2usd.maps.network import Network
 from garage2usd.maps.occupancy import grid_files, write_grid
-from garage2usd.maps.opendrive import write_opendrive, write_opendrive_levels
-from garage2usd.maps.parked_cars import parked_cars, parked_cars_of_levels
+from garage2usd.maps.opendrive import write_opendrive
+from garage2usd.maps.parked_cars import parked_cars
 from garage2usd.maps.parking_areas import NETWORK_SUFFIX, write_parking_areas
-from garage2usd.maps.road_builder import network_of
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.pipeline import build
 from garage2usd.reading.files import STAGE_SUFFIXES
@@ -54,36 +51,14 @@ class _Source:
 
     def read_for(self, formats: Sequence[str]) -> None:
         """Read the data that several files need, so that forks of this process share it."""
-        if levels_of(self.stage):
-            if len({*formats} - {_SCENE}) > 1:
-                _ = self.levels
-            if len({_LANELET2, _MAP, _AREAS} & {*formats}) > 1:
-                _ = self.level_networks
-            return
         of_lanes = [suffix for suffix in formats if suffix != _SCENE]
         if len(formats) > 1:
             _ = self.objects
         if len(of_lanes) > 1:
-            _ = self.garage.taken_stalls
+            for level in self.garage.levels:
+                _ = level.taken_stalls
         if len({_LANELET2, _MAP, _AREAS} & {*of_lanes}) > 1:
-            _ = self.network
-
-    @cached_property
-    def levels(self) -> BuiltLevels | None:
-        """The levels of a garage of several; None of a garage of one level."""
-        return built_levels(self.stage, self.name)
-
-    @cached_property
-    def level_networks(self) -> tuple[LevelNetwork, ...]:
-        """The road networks of all levels of a garage of several."""
-        return () if self.levels is None else level_networks(self.levels)
-
-    @property
-    def networks(self) -> list[tuple[BuiltGarage, Network]]:
-        """The garage and its road network, or those of each level."""
-        if self.levels is None:
-            return [(self.garage, self.network)]
-        return [(level.garage, level.network) for level in self.level_networks]
+            _ = self.networks
 
     @cached_property
     def objects(self) -> list[PlacedObject]:
@@ -92,13 +67,13 @@ class _Source:
 
     @cached_property
     def garage(self) -> BuiltGarage:
-        """The garage: lanes, stalls and objects."""
+        """The garage: levels with lanes, stalls and objects."""
         return garage_of_stage(self.stage, source=self.name, objects=self.objects, is_judged=False)
 
     @cached_property
-    def network(self) -> Network:
-        """The road network of the garage."""
-        return network_of(self.garage)
+    def networks(self) -> tuple[LevelNetwork, ...]:
+        """The road networks of all levels."""
+        return level_networks(self.garage)
 
 
 class _Asked(NamedTuple):
@@ -115,14 +90,14 @@ class _Asked(NamedTuple):
     road_file
         Name of the map beside it to which a scenario and SUMO's parking areas refer.
     levels
-        Names of the levels of a garage of several levels, each of which has an occupancy grid of its own.
+        The levels, each of which has an occupancy grid of its own.
     """
 
     place: Path
     settings: MapsConfig
     joint: str
     road_file: str
-    levels: tuple[str, ...] = ()
+    levels: tuple[LevelPlace, ...] = (ONLY_LEVEL,)
 
     @property
     def format(self) -> str:
@@ -142,7 +117,7 @@ class _Asked(NamedTuple):
     def grids(self, folder: Path) -> list[Path]:
         """Paths in `folder` of the occupancy grids, one for each level."""
         path = folder / self.place.name
-        return [path.with_stem(f"{path.stem}{self.joint}{name}") for name in self.levels] or [path]
+        return [path.with_stem(self.joint.join(filter(None, (path.stem, level.name)))) for level in self.levels]
 
 
 _Write = Callable[["_Source", Path, _Asked, Remarks], object]
@@ -153,39 +128,27 @@ def _glb(source: _Source, path: Path, _asked: _Asked, remarks: Remarks) -> None:
 
 
 def _opendrive(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
-    if source.levels is not None:
-        write_opendrive_levels(source.networks, path, asked.settings, stage=source.stage)
-        return
-    write_opendrive(source.garage, path, asked.settings, network=source.network)
+    write_opendrive(source.garage, path, asked.settings, networks=source.networks)
 
 
 def _grid(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
-    levels = source.levels
-    garages = [source.garage] if levels is None else [level.garage for level in levels.levels]
-    for garage, file in zip(garages, asked.grids(path.parent), strict=True):
-        write_grid(garage, file, asked.settings.grid, joint=asked.joint)
+    for level, file in zip(source.garage.levels, asked.grids(path.parent), strict=True):
+        write_grid(level, file, asked.settings.grid, joint=asked.joint)
 
 
 def _lanelet2(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
-    from garage2usd.maps.lanelet2 import (  # noqa: PLC0415 - other formats do without its extra
-        write_lanelet2,
-        write_lanelet2_levels,
-    )
+    from garage2usd.maps.lanelet2 import write_lanelet2  # noqa: PLC0415 - other formats do without its extra
 
-    if source.levels is not None:
-        write_lanelet2_levels(source.level_networks, path, asked.settings, stage=source.stage)
-        return
-    write_lanelet2(source.garage, path, asked.settings, network=source.network)
+    write_lanelet2(source.garage, path, asked.settings, networks=source.networks)
 
 
 def _scenario(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
     from garage2usd.maps.openscenario import write_scenario  # noqa: PLC0415 - other formats do without its extra
 
-    driven, levels = asked.settings.scenario, source.levels
-    planner = drive_planner(source.garage if levels is None else levels, asked.settings.drive)
-    drive = planner.drive(driven.stall, entrance=driven.entrance, exit=driven.exit, leg=driven.leg)
-    free = [drive.route.stall]
-    parked = parked_cars(source.garage, free=free) if levels is None else parked_cars_of_levels(levels, free=free)
+    driven, garage = asked.settings.scenario, source.garage
+    drive = DrivePlanner(garage, asked.settings.drive).drive(
+        driven.stall, entrance=driven.entrance, exit=driven.exit, leg=driven.leg
+    )
     seed = stage_facts(source.stage).get("seed")
     write_scenario(
         path,
@@ -193,7 +156,7 @@ def _scenario(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> 
         car=drive.car,
         settings=drive.settings,
         road_file=asked.road_file,
-        parked=parked,
+        parked=parked_cars(garage, free=[drive.route.stall]),
         name=f"{drive.route.stall} {drive.leg}",
         seed=None if seed is None else int(seed),
     )
@@ -323,10 +286,9 @@ def export(
         with without_collector():
             opened = _Source(stage, str(source))
             opened.read_for([asked.format for asked in files])
-            names = tuple(level.name for level in levels_of(opened.stage))
-            if names:
-                files = [asked._replace(levels=names) for asked in files]
-                _check_files(files)
+            levels = tuple(levels_of(opened.stage))
+            files = [asked._replace(levels=levels) for asked in files]
+            _check_files(files)
             tasks = [partial(_write, opened, staging / str(number), files[number]) for number in order]
             progress("export", 0, len(files))
             for number, (written, lines) in zip(order, run_in_forks(tasks, workers), strict=True):

@@ -11,17 +11,13 @@ from typing import NamedTuple
 from PIL import Image
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.progress import Progress, silent
 from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
-from garage2usd.config.stage import StageConfig
 from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.layout.shell.well import SLAB_M
 from garage2usd.reading.levels_report import LevelReport, LevelsReport, ReportedLink, read_levels_report
 from garage2usd.reading.report import LearningFigures, Report, UnmetClause, read_report
 from garage2usd.report import area_figures, make_report
-from garage2usd.stage import StageFiles, arrangement_of, asset_folder_name, write_labels, write_stage
-from garage2usd.stage.levels import write_level_labels, write_levels_stage
 from garage2usd.view.learning_picture import draw_learning_curve, draw_structures
 from garage2usd.view.plan_picture import draw_plan
 from garage2usd.view.raster import to_image
@@ -32,73 +28,7 @@ __all__ = [
     "make_garage_report",
     "read_garage_report",
     "reported_links",
-    "stages_of_levels",
-    "write_garage_labels",
-    "write_garage_stage",
 ]
-
-
-def write_garage_stage(
-    garage: Garage,
-    path: Path,
-    *,
-    config: StageConfig | None = None,
-    shared: Path | None = None,
-    own: str | None = None,
-    progress: Progress = silent,
-) -> StageFiles:
-    """Write the stage of a garage.
-
-    Parameters
-    ----------
-    garage
-        The garage.
-    path
-        The stage's file in an existing, empty folder; its extension decides the format.
-    config
-        Texture quality and form; those of the garage if left out.
-    shared, own, progress
-        As for `garage2usd.stage.write_stage`.
-    """
-    config = config or garage.config.stage
-    if garage.building.ramps is None:
-        layout = garage.layout
-        return write_stage(
-            layout,
-            path,
-            arrangement=arrangement_of(layout, config),
-            metadata=garage.metadata,
-            config=config,
-            shared=shared,
-            own=own,
-            progress=progress,
-        )
-    return write_levels_stage(
-        garage.layouts,
-        garage.joined,
-        path,
-        metadata=garage.metadata,
-        config=config,
-        shared=shared,
-        own=own,
-        progress=progress,
-    )
-
-
-def stages_of_levels(garage: Garage, stage: Path) -> list[Path]:
-    """Return the stage of each level by itself, beside that of a garage whose form is not flat."""
-    if garage.building.ramps is None:
-        return [stage]
-    return [stage.parent / asset_folder_name(stage) / f"{level.name}.usdc" for level in garage.levels]
-
-
-def write_garage_labels(garage: Garage, path: Path) -> None:
-    """Write the table of all labelled objects of the stage of a garage as JSON."""
-    config = garage.config.stage
-    if garage.building.ramps is None:
-        write_labels(garage.layout, path, arrangement=arrangement_of(garage.layout, config))
-    else:
-        write_level_labels(garage.layouts, path, config)
 
 
 def draw_pictures(
@@ -129,7 +59,7 @@ def draw_pictures(
         if asked and not all(level.plan.archive for level in garage.levels):
             raise ConfigError(field, asked, "only where lanes are learnt, not with a tape or lanes that are given")
     return {
-        level.in_whole(name, joint=joint): picture
+        level.place.in_whole(name, joint=joint): picture
         for level in garage.levels
         for name, picture in _pictures(level, learning_curve=learning_curve, best_plans=best_plans).items()
     }

@@ -12,9 +12,9 @@ from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
 from garage2usd.garage import LaneGraph, Stall
 from garage2usd.garage.joined_levels import JoinedLevels, LevelLanes, RampLane, join_levels
+from garage2usd.garage.level_place import ONLY_LEVEL, LevelPlace
 from garage2usd.layout import Layout
 from garage2usd.planning import Plan, plan_tape_of, tape_of
-from garage2usd.stage.levels import LevelLayout
 from garage2usd.structure.building import Building
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneSquares
@@ -92,9 +92,10 @@ class GarageLevel:
             raise Garage2UsdError(f"{field}: a garage that was imported has none")
         return self.planned
 
-    def in_whole(self, name: str, *, joint: str = "/") -> str:
-        """Return the name in the whole garage of a stall or file of this level: ``U2/A1-08``, ``U2_plan``."""
-        return name if self.is_only else f"{self.name}{joint}{name}"
+    @property
+    def place(self) -> LevelPlace:
+        """Its place in the stage of the garage."""
+        return ONLY_LEVEL if self.is_only else LevelPlace.among_several(self.name, self.floor_m)
 
     @property
     def metadata(self) -> dict[str, str | int]:
@@ -157,12 +158,12 @@ class Garage:
     @property
     def lanes(self) -> LaneGraph:
         """Lanes of the whole garage, with the ramps between levels."""
-        return self.levels[0].layout.lane_graph if self.building.ramps is None else self.joined.lane_graph
+        return self.joined.lane_graph
 
     @property
     def stalls(self) -> tuple[Stall, ...]:
         """Stalls of the whole garage; among several levels their names and numbers begin with the level, ``U2/``."""
-        return self.levels[0].layout.quads if self.building.ramps is None else self.joined.quads
+        return self.joined.quads
 
     @property
     def parking_stalls(self) -> int:
@@ -181,11 +182,6 @@ class Garage:
         if self.building.ramps is None:
             return plan_tape_of(self.levels[0].plan)
         return TAPE_JOINT.join([self.building.ramps.tape, *(tape_of(structure) for structure in self.building.levels)])
-
-    @property
-    def layouts(self) -> list[LevelLayout]:
-        """Layout, floor and description of each level, as its stage is written from."""
-        return [LevelLayout(level.name, level.floor_m, level.layout, level.metadata) for level in self.levels]
 
     @property
     def metadata(self) -> dict[str, str | int]:
@@ -211,6 +207,9 @@ def _metadata(config: GarageConfig) -> dict[str, str | int]:
 
 def _joined(building: Building, levels: Sequence[GarageLevel]) -> JoinedLevels:
     """Join the lanes of all levels by the ramps."""
+    if levels[0].is_only:
+        layout = levels[0].layout
+        return JoinedLevels(layout.lane_graph, layout.quads, layout.node_squares())
     of_levels = [
         LevelLanes(level.name, level.floor_m, layout.lane_graph, layout.quads, layout.node_squares())
         for level in levels

@@ -1,31 +1,26 @@
 """A garage from the file that a command is given: a configuration, the report of a build, or a stage."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 from garage2usd import checks
-from garage2usd.as_built import BuiltGarage
-from garage2usd.as_built.driven_ground import driven_garage
-from garage2usd.as_built.driven_levels import floors_of_stalls, prove_levels
-from garage2usd.as_built.layout_reader import garage_of_layout
-from garage2usd.as_built.levels import BuiltLevels, laid_out_levels
+from garage2usd.as_built.garage import BuiltGarage, garage_as_made, garage_of_file
 from garage2usd.as_built.plan_reader import garage_of_plan, report_differences
+from garage2usd.as_built.proofs import prove_built
+from garage2usd.as_built.stage_reader import profile_name
 from garage2usd.checks import Finding
-from garage2usd.checks.levels import check_levels, read_stage
 from garage2usd.common.documents import is_file
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.progress import Progress, silent
 from garage2usd.config import load_config
 from garage2usd.config.maps import DriveConfig
-from garage2usd.driving import StallProof, prove_garage, prove_stalls
+from garage2usd.driving import StallProof
 from garage2usd.garage import Fault
 from garage2usd.garage_files import read_garage_report
 from garage2usd.garage_model import Garage
-from garage2usd.layout import Layout
 from garage2usd.pipeline import generate
-from garage2usd.profiles import Profile
+from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
 from garage2usd.reading.files import STAGE_SUFFIXES
 from garage2usd.reading.levels_report import LevelReport, read_levels_report
 from garage2usd.stage import StageFormat
@@ -36,43 +31,23 @@ _SETTINGS, _REPORT = ".toml", ".json"
 
 
 class BuiltSource(NamedTuple):
-    """A garage as built, the profile to check it against, and the settings of drives in it.
+    """A garage as built, the profile to check it against, and the settings of drives in it."""
 
-    Attributes
-    ----------
-    garage, profile, drive
-        These three.
-    layout
-        The layout of a generated garage of one level, whose stalls are proven among its outlines.
-    """
-
-    garage: BuiltGarage | BuiltLevels
+    garage: BuiltGarage
     profile: Profile
     drive: DriveConfig
-    layout: Layout | None = None
 
     def findings(self) -> list[Finding]:
         """Return the findings under the profile and by the rules that need none, errors first."""
-        if isinstance(self.garage, BuiltLevels):
-            return check_levels(self.garage, self.profile, checks.RULES)
         return checks.check(self.garage, self.profile)
 
     def not_checked(self) -> dict[str, str]:
         """Return the profile clauses that no rule can check on the garage, each with the reason."""
-        garage = self.garage
-        return checks.not_checked(garage.levels[0].garage if isinstance(garage, BuiltLevels) else garage, self.profile)
+        return checks.not_checked(self.garage.levels[0], self.profile)
 
     def proofs(self, *, progress: Progress = silent) -> tuple[StallProof, ...]:
         """Prove for each stall that the design car drives in and out, from the street and back to it."""
-        if isinstance(self.garage, BuiltLevels):
-            return prove_levels(self.garage, progress=progress)
-        if self.layout is not None:
-            return prove_stalls(self.layout, progress=progress)
-        return prove_garage(driven_garage(self.garage), progress=progress)
-
-    def floors_m(self) -> Mapping[str, float] | None:
-        """Return the height of the floor under each stall, by its name; None in a garage of one level."""
-        return floors_of_stalls(self.garage) if isinstance(self.garage, BuiltLevels) else None
+        return prove_built(self.garage, progress=progress)
 
 
 def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[list[Finding], Profile]:
@@ -96,11 +71,11 @@ def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[lis
     ConfigError, ReportError, StageError
         If the file is none of these.
     """
-    source = read_built(Path(path), profile=profile)
+    source = read_built(path, profile=profile)
     return source.findings(), source.profile
 
 
-def read_built(path: Path, *, profile: Profile | None = None, progress: Progress = silent) -> BuiltSource:
+def read_built(path: str | Path, *, profile: Profile | None = None, progress: Progress = silent) -> BuiltSource:
     """Read a garage as it is in a stage, a report, or a plan.
 
     Parameters
@@ -117,10 +92,13 @@ def read_built(path: Path, *, profile: Profile | None = None, progress: Progress
     ConfigError, ReportError, StageError
         If the file is none of these.
     """
+    path = Path(path)
     if not is_file(path):
         raise ConfigError("PATH", str(path), "an existing file")
     if path.suffix.lower() in STAGE_SUFFIXES:
-        garage, against = read_stage(path, profile=profile)
+        garage = garage_of_file(path)
+        name = profile_name(garage.stage)
+        against = profile or load_profile(name if name in PROFILE_NAMES else DEFAULT_PROFILE)
         return BuiltSource(garage, against, DriveConfig())
     levels = read_levels_report(path) if path.suffix.lower() == _REPORT else None
     if levels is None:
@@ -133,12 +111,8 @@ def read_built(path: Path, *, profile: Profile | None = None, progress: Progress
 
 def built_source(garage: Garage, *, source: str, faults: tuple[Fault, ...] = ()) -> BuiltSource:
     """Return a generated garage as built; `faults` are contradictions in the file that it comes from."""
-    profile, drive = garage.config.standard, garage.config.maps.drive
-    if garage.building.ramps is None:
-        layout = garage.layout
-        return BuiltSource(garage_of_layout(layout, source=source, kind="plan", faults=faults), profile, drive, layout)
-    built = laid_out_levels(garage.layouts, garage.joined, source=source)
-    return BuiltSource(replace(built, faults=faults), profile, drive)
+    built = garage_as_made(garage, source=source, kind="plan", faults=faults)
+    return BuiltSource(built, garage.config.standard, garage.config.maps.drive)
 
 
 def generated_of(path: Path, seed: int | None, *, progress: Progress = silent) -> Garage:
@@ -181,5 +155,5 @@ def _differences(garage: Garage, told: Sequence[LevelReport]) -> tuple[Fault, ..
         if matrices != (report.S, report.R, report.C):
             faults.append(Fault("report-stalls", level.name, None, "the report has another plan than its tape"))
         found = [] if report.stalls is None else report_differences(level.layout, report.stalls)
-        faults += [fault._replace(place=level.in_whole(fault.place)) for fault in found]
+        faults += [fault._replace(place=level.place.in_whole(fault.place)) for fault in found]
     return tuple(faults)

@@ -12,7 +12,7 @@ from typing import Any
 
 from PIL import Image
 
-from garage2usd.as_built.levels import laid_out_levels
+from garage2usd.as_built.garage import garage_as_made
 from garage2usd.checks import Finding, judged_layout
 from garage2usd.checks.swept_path import design_car
 from garage2usd.common.errors import ConfigError, GenerationError
@@ -25,7 +25,7 @@ from garage2usd.config.plan import UnreachableStalls
 from garage2usd.driving import DesignCar, StallProof, with_clutter, with_truth_of_misparked, without_unreachable
 from garage2usd.driving.refusal import refuse_undrivable
 from garage2usd.garage.joined_levels import unreached_stalls
-from garage2usd.garage_files import draw_pictures, make_garage_report, write_garage_labels, write_garage_stage
+from garage2usd.garage_files import draw_pictures, make_garage_report
 from garage2usd.garage_model import Garage, GarageLevel, PlannedParts
 from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.egress.exits import Egress, plan_egress
@@ -33,12 +33,11 @@ from garage2usd.layout.egress.shafts import LevelPlan
 from garage2usd.layout.parking.tight import tight_stalls
 from garage2usd.layout.shell.wells import make_well
 from garage2usd.level_plans import ATTEMPTS, PlannedLevel, lane_squares_of, plan_levels, sites_and_tapes, sites_of_plans
-from garage2usd.maps.level_drives import LevelsDrivePlanner
+from garage2usd.maps.drives import DrivePlanner
 from garage2usd.planning import Plan
 from garage2usd.reading.report import UnmetClause
 from garage2usd.site.levels import LevelSites
-from garage2usd.stage import StageFormat, shared_folder
-from garage2usd.stage.levels import path_on_level
+from garage2usd.stage import StageFormat, shared_folder, write_labels, write_stage
 from garage2usd.structure.building import Building, level_name
 from garage2usd.structure.lane_graph import LaneSquares
 from garage2usd.view.raster import write_png
@@ -120,7 +119,7 @@ class Build:
         if self.judged is None:
             return None
         found = [
-            finding if level.is_only else replace(finding, place=path_on_level(finding.place, level.name))
+            replace(finding, place=level.place.path_in_whole(finding.place))
             for level, judged in zip(self.garage.levels, self.judged, strict=True)
             for finding in judged.findings
         ]
@@ -132,7 +131,7 @@ class Build:
         if self.judged is None:
             return None
         return tuple(
-            entry.model_copy(update={"reason": level.in_whole(entry.reason, joint=": ")})
+            entry.model_copy(update={"reason": level.place.in_whole(entry.reason, joint=": ")})
             for level, judged in zip(self.garage.levels, self.judged, strict=True)
             for entry in judged.unmet
         )
@@ -289,9 +288,9 @@ def written(
             folder = staging / "stage"
             folder.mkdir()
             place = folder / f"{path.stem}{path.suffix.lower()}"
-            made = write_garage_stage(garage, place, shared=shared, progress=progress)
+            made = write_stage(garage, place, shared=shared, progress=progress)
             labels = staging / f"{path.stem}_labels.json"
-            write_garage_labels(garage, labels)
+            write_labels(garage, labels)
             told.append(f"{place.name}, its labels and {len(drawn)} pictures")
         with _timed(seconds, "check") as told:
             judged = judge()
@@ -481,8 +480,7 @@ def _unreached_in_words(stalls: list[str]) -> str:
 
 def _is_driven_through(garage: Garage) -> bool:
     """Return True if the design car drives from the street to the lowest level, and back."""
-    built = laid_out_levels(garage.layouts, garage.joined, source="a layout")
-    return LevelsDrivePlanner(built).is_driven_through()
+    return DrivePlanner(garage_as_made(garage, source="a layout", kind="layout")).is_driven_through()
 
 
 def _judged(garage: Garage) -> tuple[Judged, ...] | None:

@@ -8,11 +8,10 @@ import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.garage import Fault, LaneEdge, LaneGraph, LaneKind, LaneNode, Stall
 from garage2usd.objects.ramp import KIND as RAMP
 from garage2usd.reading.lanes import Lanes
-from garage2usd.reading.levels import StageLevel
 from garage2usd.scenes.polygons import triangulated
 
 __all__ = ["AttachedLevels", "FoundLevel", "attached_levels", "numbers_of_levels", "sloped_nodes"]
@@ -29,19 +28,16 @@ class FoundLevel(NamedTuple):
 
     Attributes
     ----------
-    place
-        Its name, the path of its prim and the height of its floor.
+    built
+        The level.
     number
         Its number in the lane graph of the building; None for a level that the lane graph does not have.
-    garage
-        The level as a garage of its own.
     matrix
-        From the garage of its own to the whole, in metres with Y up, for row vectors; float64, shape (4, 4).
+        From the level as a garage of its own to the whole, in metres with Y up, for row vectors; float64, shape (4, 4).
     """
 
-    place: StageLevel
+    built: BuiltLevel
     number: int | None
-    garage: BuiltGarage
     matrix: NDArray[np.float64]
 
 
@@ -88,7 +84,7 @@ def attached_levels(whole: Lanes, names: Sequence[str], levels: Sequence[FoundLe
         far_m = _moved_m(whole.nodes, number, levels[index])
         if far_m > _MOVED_M:
             said = f"the level lies up to {far_m:.2f} m from where its ramps and the lane graph have it"
-            faults.append(Fault("level-moved", levels[index].place.name, None, said))
+            faults.append(Fault("level-moved", levels[index].built.place.name, None, said))
         else:
             attached[number] = index
     left_out = {node for node, at in enumerate(whole.nodes) if at.level not in attached}
@@ -111,7 +107,7 @@ def attached_levels(whole: Lanes, names: Sequence[str], levels: Sequence[FoundLe
         _add_alone(index, levels[index], nodes, edges, stalls)
         if levels[index].number is None:
             said = "the level is not in the lane graph of the building, so no ramp leads to it"
-            faults.append(Fault("level-ramp", levels[index].place.name, None, said))
+            faults.append(Fault("level-ramp", levels[index].built.place.name, None, said))
     return AttachedLevels(LaneGraph(tuple(nodes), tuple(edges)), tuple(stalls), tuple(faults))
 
 
@@ -140,7 +136,7 @@ def sloped_nodes(lanes: LaneGraph) -> set[int]:
 
 def _moved_m(nodes: Sequence[LaneNode], number: int, level: FoundLevel) -> float:
     """Return how far a level's own lanes lie from those of the whole at most."""
-    own = [(node.position[0], node.height_m, node.position[1]) for node in level.garage.lanes.nodes]
+    own = [(node.position[0], node.height_m, node.position[1]) for node in level.built.lanes.nodes]
     told = [(node.position[0], node.height_m, node.position[1]) for node in nodes if node.level == number]
     if not own:
         return 0.0
@@ -165,7 +161,7 @@ def _broken_ramps(
             left_out |= inner
             continue
         node = lanes.nodes[present[0]]
-        place = f"{levels[attached[node.level]].place.name}/{node.name.rpartition('/')[2]}"
+        place = f"{levels[attached[node.level]].built.place.name}/{node.name.rpartition('/')[2]}"
         if not attached.keys() >= ends:
             faults.append(Fault("level-ramp", place, node.position, "the ramp at this landing leads to no level"))
             left_out |= inner
@@ -180,7 +176,7 @@ def _ramp_floors(levels: Sequence[FoundLevel]) -> NDArray[np.float64]:
     """Return the triangles of all ramps that a car can drive on; float64, shape (triangles, 3, 3)."""
     parts = [np.zeros((0, 3, 3))]
     for level in levels:
-        for body in (body for thing in level.garage.things if thing.label == RAMP.label for body in thing.bodies):
+        for body in (body for thing in level.built.things if thing.label == RAMP.label for body in thing.bodies):
             corners, _ = triangulated(body.shape.points, body.shape.indices, body.shape.counts)
             places = body.world_points() @ level.matrix[:3, :3] + level.matrix[3, :3]
             parts.append(places[body.shape.indices[corners]])
@@ -224,10 +220,10 @@ def _crossed(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np
 
 def _of_levels(stalls: Sequence[Stall], levels: Sequence[FoundLevel], faults: list[Fault]) -> Iterator[Stall]:
     """Yield the stalls that their levels have too, named after the prims of their levels."""
-    own = [{stall.name for stall in level.garage.stalls} for level in levels]
+    own = [{stall.name for stall in level.built.stalls} for level in levels]
     for stall in stalls:
         before, _, name = stall.name.rpartition("/")
-        level = levels[stall.level].place.name
+        level = levels[stall.level].built.place.name
         if name not in own[stall.level]:
             said = "the stall is in the lane graph of the building, but not in that of its level"
             faults.append(Fault("lane-graph", stall.name, stall.centre, said))
@@ -243,11 +239,11 @@ def _add_alone(
     index: int, level: FoundLevel, nodes: list[LaneNode], edges: list[LaneEdge], stalls: list[Stall]
 ) -> None:
     """Add the lanes and stalls of a level that no ramp joins with the others; only the top level has a street."""
-    first, own, name = len(nodes), level.garage, level.place.name
+    first, own, name = len(nodes), level.built, level.built.place.name
     for node in own.lanes.nodes:
         is_cut = node.is_portal and (index > 0 or node.name in own.landings)
         kind = LaneKind.STRAIGHT.value if is_cut else node.kind
-        nodes.append(replace(node, kind=kind, height_m=node.height_m + level.place.floor_m, level=index))
+        nodes.append(replace(node, kind=kind, height_m=node.height_m + level.built.place.floor_m, level=index))
     edges += [edge._replace(start=edge.start + first, end=edge.end + first) for edge in own.lanes.edges]
     for stall in own.stalls:
         prefixed = ("number", "blocked_by")

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.as_built.solids import Solid
 from garage2usd.garage import Point
 
@@ -41,14 +41,14 @@ class CoreDoor(NamedTuple):
     node: int
 
 
-def core_doors(garage: BuiltGarage) -> list[CoreDoor]:
+def core_doors(level: BuiltLevel) -> list[CoreDoor]:
     """Detect the doors of stair cores onto lanes, one for each core and lane, in models of any origin.
 
     A door is a thin upright piece of an obstacle, from the floor to 1.9 to 2.5 m and 0.7 to 2 m wide, on a side of the
     obstacle with a lane within a metre, or at the end of a passage of up to four metres without stalls.
     """
     pieces: dict[str, list[Solid]] = defaultdict(list)
-    for solid in garage.solids.standing(_LABEL):
+    for solid in level.solids.standing(_LABEL):
         pieces[solid.name].append(solid)
     doors: dict[tuple[str, int], CoreDoor] = {}
     for name, parts in pieces.items():
@@ -57,7 +57,7 @@ def core_doors(garage: BuiltGarage) -> list[CoreDoor]:
             step = _step_out(part, (block.x, block.y))
             if step is None:
                 continue
-            for node in _lanes_beyond(part, step, garage):
+            for node in _lanes_beyond(part, step, level):
                 doors.setdefault((name, node), CoreDoor(name, part.centre, node))
     return list(doors.values())
 
@@ -81,19 +81,19 @@ def _step_out(part: Solid, block: Point) -> Point | None:
     return x, z
 
 
-def _lanes_beyond(part: Solid, step: Point, garage: BuiltGarage) -> Iterator[int]:
+def _lanes_beyond(part: Solid, step: Point, level: BuiltLevel) -> Iterator[int]:
     """Yield the lanes at the end of the passage before a door; none if stalls lie between."""
     for far_m in _STEPS_OUT_M:
         place = part.footprint.centroid.x + far_m * step[0], part.footprint.centroid.y + far_m * step[1]
-        nodes = list(_lanes_at(place, garage))
-        if nodes or len(garage.stall_grounds.tree.query(shapely.Point(place), predicate="intersects")):
+        nodes = list(_lanes_at(place, level))
+        if nodes or len(level.stall_grounds.tree.query(shapely.Point(place), predicate="intersects")):
             yield from nodes
             return
 
 
-def _lanes_at(place: Point, garage: BuiltGarage) -> Iterator[int]:
+def _lanes_at(place: Point, level: BuiltLevel) -> Iterator[int]:
     """Yield the lane nodes on whose ground a place lies, else the nearest one of a carriageway between nodes."""
-    lanes = garage.lanes
+    lanes = level.lanes
     found = False
     for number, node in enumerate(lanes.nodes):
         off_x, off_z = (abs(at - middle) for at, middle in zip(place, node.position, strict=True))

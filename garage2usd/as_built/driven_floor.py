@@ -10,7 +10,7 @@ from garage2usd.as_built.driven_road import bent_floors, floors_of_ramps
 from garage2usd.as_built.shapes import Thing
 from garage2usd.driving import SlopedFloor, heights_m
 from garage2usd.garage import LaneGraph
-from garage2usd.reading.levels import StageLevel
+from garage2usd.garage.level_place import LevelPlace
 
 __all__ = ["BEYOND_TOP_M", "DrivenFloor"]
 
@@ -34,12 +34,9 @@ class DrivenFloor:
     ramps: tuple[SlopedFloor, ...]
 
     @classmethod
-    def of(cls, lanes: LaneGraph, things: Iterable[Thing]) -> "DrivenFloor":
-        """Find the floor of the lanes and of the ramps among objects."""
-        return cls(lanes.floor_m(), floors_of_ramps(things))
-
-    @classmethod
-    def of_levels(cls, levels: Sequence[StageLevel], things: Iterable[Thing]) -> "tuple[DrivenFloor, ...]":
+    def of_levels(
+        cls, levels: Sequence[LevelPlace], lanes: LaneGraph, things: Iterable[Thing]
+    ) -> "tuple[DrivenFloor, ...]":
         """Find the floor of each level among the objects of all, by the paths of these; ramps belong to their foot."""
         named = list(things)
         floors = []
@@ -48,7 +45,8 @@ class DrivenFloor:
             ramps = floors_of_ramps(own)
             if number:  # those of the top level lead to the street and go on
                 ramps = tuple(replace(ramp, end_m=float(ramp.runs_m[-1]) + BEYOND_TOP_M) for ramp in ramps)
-            floors.append(cls(level.floor_m, (*ramps, *bent_floors(own))))
+            floor_m = lanes.floor_m() if level.is_only else level.floor_m
+            floors.append(cls(floor_m, (*ramps, *bent_floors(own))))
         return tuple(floors)
 
     def heights_m(self, x_m: ArrayLike, z_m: ArrayLike) -> NDArray[np.float64]:

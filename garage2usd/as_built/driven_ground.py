@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.as_built.openings import section_of
 from garage2usd.as_built.placed_pieces import placed_pieces
 from garage2usd.as_built.shapes import Thing
@@ -38,15 +38,13 @@ _DIGITS = 4
 """Decimals of rounded metres, so that the single precision of a stage makes no difference."""
 
 
-def driven_garage(
-    garage: BuiltGarage, *, height_m: float = CAR_HEIGHT_M, left_out: Collection[str] = ()
-) -> DrivenGarage:
+def driven_garage(level: BuiltLevel, *, height_m: float = CAR_HEIGHT_M, left_out: Collection[str] = ()) -> DrivenGarage:
     """Assemble the garage for driving from a garage as built: stalls, lanes, and obstacles by prim path.
 
     Parameters
     ----------
-    garage
-        The garage.
+    level
+        The level.
     height_m
         Height of the car; pieces that begin higher are no obstacles.
     left_out
@@ -56,23 +54,23 @@ def driven_garage(
     -----
     A process with limits of time is granted the time for the proof.
     """
-    allow_seconds(_ONCE_S + _STALL_S * len(garage.parking_stalls))
+    allow_seconds(_ONCE_S + _STALL_S * len(level.parking_stalls))
     driven = assembled(
-        garage.stalls,
-        _rounded_lanes(garage.lanes),
-        (thing for thing in _standing(garage, height_m) if thing.name not in left_out),
+        level.stalls,
+        _rounded_lanes(level.lanes),
+        (thing for thing in _standing(level, height_m) if thing.name not in left_out),
     )
     return replace(driven, standing=replace(driven.standing, pieces=np.round(driven.standing.pieces, _DIGITS)))
 
 
-def _standing(garage: BuiltGarage, height_m: float) -> Iterator[StandingThing]:
+def _standing(level: BuiltLevel, height_m: float) -> Iterator[StandingThing]:
     """Return each obstacle to a car; doors and ramps by their sections."""
-    grounds = [ground for ground in garage.solids.grounds(height_m) if ground[1] not in _DRIVEN_THROUGH | _DRIVEN_OVER]
+    grounds = [ground for ground in level.solids.grounds(height_m) if ground[1] not in _DRIVEN_THROUGH | _DRIVEN_OVER]
     owner = np.repeat(np.arange(len(grounds)), [len(pieces) for _, _, pieces in grounds])
     pieces = np.array([piece for _, _, pieces in grounds for piece in pieces], dtype=object)
     owner, pieces = _simple(owner, pieces)
     hulls = _hulls(owner, pieces)
-    things = {thing.name: thing for thing in garage.things if thing.label in CAR_LABELS}
+    things = {thing.name: thing for thing in level.things if thing.label in CAR_LABELS}
     cars = {number: things[name] for number, (name, _, _) in enumerate(grounds) if name in things}
     out_of, mirrors = _standing_out(cars, hulls, height_m)
     owner = np.concatenate([owner, out_of])
@@ -80,11 +78,11 @@ def _standing(garage: BuiltGarage, height_m: float) -> Iterator[StandingThing]:
     owner, pieces = owner[order], np.concatenate([pieces, mirrors])[order]
     covered = shapely.geometrycollections(pieces, indices=owner) if len(pieces) else pieces
     belongings = [number for number, (_, label, _) in enumerate(grounds) if label in BELONGINGS]
-    homes = dict(zip(belongings, garage.stall_grounds.homes_of(_hulls(owner, pieces)[belongings]), strict=True))
+    homes = dict(zip(belongings, level.stall_grounds.homes_of(_hulls(owner, pieces)[belongings]), strict=True))
     for number, ((name, label, _), ground) in enumerate(zip(grounds, covered, strict=True)):
         home = homes.get(number)
         yield StandingThing(name, label, ground, home.name if home else None)
-    for thing in garage.things:
+    for thing in level.things:
         if thing.label in _DRIVEN_THROUGH:
             cuts = shapely.MultiLineString([cut for cut in section_of(thing) if len(cut) > 1])
             yield StandingThing(thing.name, thing.label, cuts)

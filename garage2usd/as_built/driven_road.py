@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 
 from garage2usd.as_built.driven_ground import CAR_HEIGHT_M, driven_garage, rounded
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.as_built.openings import Door, is_bent
 from garage2usd.as_built.shapes import Array, Face, Thing
 from garage2usd.driving import BentFloor, DesignCar, DrivenRoad, Obstacles, Portal, Pose, RampFloor, heights_m
@@ -65,13 +65,13 @@ class Mouth(NamedTuple):
         return (top[0] - middle[0]) * self.outwards[0] + (top[1] - middle[1]) * self.outwards[1]
 
 
-def driven_road(garage: BuiltGarage, *, car: DesignCar | None = None, height_m: float = CAR_HEIGHT_M) -> DrivenRoad:
+def driven_road(level: BuiltLevel, *, car: DesignCar | None = None, height_m: float = CAR_HEIGHT_M) -> DrivenRoad:
     """Find the road through a garage as built.
 
     Parameters
     ----------
-    garage
-        The garage.
+    level
+        The level.
     car
         The car.
     height_m
@@ -84,28 +84,28 @@ def driven_road(garage: BuiltGarage, *, car: DesignCar | None = None, height_m: 
     may be up to 4 m on a straight ramp, or on the level floor before a helix.
     """
     car = car or DesignCar()
-    driven = driven_garage(garage, height_m=height_m)
-    floors = floors_of_ramps(garage.things)
-    opened = [thing.name for thing in garage.things if thing.label in {_GATE, _RAMP}]
-    gates = ((solid.name, solid.footprint) for solid in garage.solids.standing(_GATE) if solid.bottom_m < _ARM_FROM_M)
-    ramps = [(thing, floors) for thing in garage.things if thing.label == _RAMP]
-    ramps += [(thing, (*floors, *floors_of_ramps([thing]))) for thing in garage.ramps_below]
+    driven = driven_garage(level, height_m=height_m)
+    floors = floors_of_ramps(level.things)
+    opened = [thing.name for thing in level.things if thing.label in {_GATE, _RAMP}]
+    gates = ((solid.name, solid.footprint) for solid in level.solids.standing(_GATE) if solid.bottom_m < _ARM_FROM_M)
+    ramps = [(thing, floors) for thing in level.things if thing.label == _RAMP]
+    ramps += [(thing, (*floors, *floors_of_ramps([thing]))) for thing in level.ramps_below]
     sides = ((thing.name, shapely.MultiLineString([*_sides(thing, near, height_m)])) for thing, near in ramps)
     standing = driven.standing.without(opened).joined(Obstacles.of([*gates, *sides]))
-    portals = tuple(_portals(garage, floors, car))
+    portals = tuple(_portals(level, floors, car))
     return DrivenRoad(driven, standing, portals, floors)
 
 
-def portal_mouths(garage: BuiltGarage) -> tuple[Mouth, ...]:
+def portal_mouths(level: BuiltLevel) -> tuple[Mouth, ...]:
     """Return the mouth of each portal of a garage, in the order of the nodes."""
-    return tuple(_mouths(garage, floors_of_ramps(garage.things)))
+    return tuple(_mouths(level, floors_of_ramps(level.things)))
 
 
-def _mouths(garage: BuiltGarage, ramps: Sequence[RampFloor]) -> Iterator[Mouth]:
-    for number, node in enumerate(garage.lanes.nodes):
+def _mouths(level: BuiltLevel, ramps: Sequence[RampFloor]) -> Iterator[Mouth]:
+    for number, node in enumerate(level.lanes.nodes):
         if not node.is_portal:
             continue
-        door, outwards, edge_m = _outwards(garage, number)
+        door, outwards, edge_m = _outwards(level, number)
         middle = rounded(node.position)
         ramp = next((ramp for ramp in ramps if _is_behind(ramp, middle, outwards, edge_m)), None)
         width_m = node.widths_m[0] if outwards[0] == 0 else node.widths_m[1]
@@ -116,14 +116,14 @@ def _mouths(garage: BuiltGarage, ramps: Sequence[RampFloor]) -> Iterator[Mouth]:
         yield Mouth(number, outwards, edge_m, width_m, ramp)
 
 
-def _portals(garage: BuiltGarage, ramps: Sequence[RampFloor], car: DesignCar) -> Iterator[Portal]:
-    for mouth in _mouths(garage, ramps):
-        node = garage.lanes.nodes[mouth.number]
+def _portals(level: BuiltLevel, ramps: Sequence[RampFloor], car: DesignCar) -> Iterator[Portal]:
+    for mouth in _mouths(level, ramps):
+        node = level.lanes.nodes[mouth.number]
         is_entrance = node.kind == LaneKind.ENTRANCE
         yaw = math.atan2(mouth.outwards[0] + 0.0, mouth.outwards[1] + 0.0)  # into the garage
         x, z = rounded(node.position)
         end_m = mouth.top_m((x, z)) - (_FROM_DOOR_M if mouth.ramp is None else _FROM_END_M)
-        end_m += garage.way_beyond_m.get(node.name, 0.0)
+        end_m += level.way_beyond_m.get(node.name, 0.0)
         axle_m = end_m - (car.rear_overhang_m if is_entrance else car.ahead_m)
         pose = Pose(x + axle_m * mouth.outwards[0], z + axle_m * mouth.outwards[1], yaw if is_entrance else _about(yaw))
         yield Portal(mouth.number, node.name, LaneKind.ENTRANCE if is_entrance else LaneKind.EXIT, pose)
@@ -134,22 +134,22 @@ def _about(yaw_rad: float) -> float:
     return turned - math.tau if turned > math.pi else turned
 
 
-def _outwards(garage: BuiltGarage, number: int) -> tuple[Door | None, Point, float]:
+def _outwards(level: BuiltLevel, number: int) -> tuple[Door | None, Point, float]:
     """Return a portal's door, its direction along an axis, and the distance to the square's edge there."""
-    node = garage.lanes.nodes[number]
-    if node.name in garage.landings:
-        return None, garage.landings[node.name], _half_m(garage, number, garage.landings[node.name])
-    ways = [(way, door) for door in garage.doors if (way := _towards(node, door.position)) is not None]
+    node = level.lanes.nodes[number]
+    if node.name in level.landings:
+        return None, level.landings[node.name], _half_m(level, number, level.landings[node.name])
+    ways = [(way, door) for door in level.doors if (way := _towards(node, door.position)) is not None]
     if ways:
         (_, outwards), door = min(ways, key=lambda found: found[0])
     else:
         door = None
         ways_in = [
-            _axis(garage.lanes.nodes[other].position, node.position) for other in sorted(garage.lanes.beside[number])
+            _axis(level.lanes.nodes[other].position, node.position) for other in sorted(level.lanes.beside[number])
         ]
         taken = {(-x, -z) for x, z in ways_in}
         outwards = next((way for way in (*ways_in, *_AXES) if way not in taken), _AXES[0])
-    return door, outwards, _half_m(garage, number, outwards)
+    return door, outwards, _half_m(level, number, outwards)
 
 
 def _axis(start: Point, end: Point) -> Point:
@@ -169,9 +169,9 @@ def _towards(node: LaneNode, door: Point) -> tuple[float, Point] | None:
     return along, _axis(node.position, door)
 
 
-def _half_m(garage: BuiltGarage, number: int, outwards: Point) -> float:
+def _half_m(level: BuiltLevel, number: int, outwards: Point) -> float:
     """Return the distance from a portal's middle to the edge of its clear floor."""
-    widths = garage.lanes.nodes[number].widths_m
+    widths = level.lanes.nodes[number].widths_m
     return float(abs(outwards[0]) * widths[0] + abs(outwards[1]) * widths[1]) / 2
 
 

@@ -1,30 +1,36 @@
-"""A garage as built: lanes, stalls and objects, as far as a stage, a report or a plan describes them; metres, Y up."""
+"""A garage as built: its levels, and the lanes and stalls of the whole; metres, Y up."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
+from pathlib import Path
 
+import networkx as nx
 import numpy as np
-import shapely
-from numpy.typing import NDArray
-from pxr import Usd
+from pxr import Usd, Vt
 
-from garage2usd.as_built.circulation import LaneCirculation, lane_circulation
-from garage2usd.as_built.openings import Door, Ramp, doors_of, ramps_of
+from garage2usd.as_built.attached_levels import FoundLevel, attached_levels, numbers_of_levels, sloped_nodes
+from garage2usd.as_built.layout_reader import level_of_layout
+from garage2usd.as_built.level import BuiltLevel
+from garage2usd.as_built.ramp_line import RampLine
 from garage2usd.as_built.shapes import Thing
-from garage2usd.as_built.solids import Solid, Solids
-from garage2usd.as_built.stall_grounds import StallGrounds
-from garage2usd.garage import Fault, LaneGraph, Point, Stall, StallUse
-from garage2usd.objects import CAR_LABELS
-from garage2usd.site.portals import outer_squares
-from garage2usd.structure.grid import Cell, Structure
+from garage2usd.as_built.stage_reader import level_of_stage
+from garage2usd.common.errors import StageError
+from garage2usd.garage import Fault, LaneGraph, Point, Stall
+from garage2usd.garage.level_place import LevelPlace
+from garage2usd.garage_model import Garage
+from garage2usd.objects.ramp import KIND as RAMP
+from garage2usd.reading.lanes import read_lanes
+from garage2usd.reading.levels import level_stage, levels_of, placed_level
+from garage2usd.reading.whole_garage import garage_root, open_garage
+from garage2usd.scenes.objects import PlacedObject
 
-__all__ = ["BuiltGarage"]
+__all__ = ["BuiltGarage", "garage_as_made", "garage_of_file", "garage_of_stage"]
 
-_MM2_PER_M2 = 1_000_000
-_LINE_M = 0.06
-"""Half the width of a stall's painted line in metres; the line is centred on the stall's border."""
+_SAME_PLACE_DIGITS = 2
+_ONTO_RAMP_M = 4.0
+"""Length in metres of a straight ramp on which a car that drives onto it, or comes up, may still be turning."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,156 +40,200 @@ class BuiltGarage:
     Attributes
     ----------
     source
-        File of the garage.
-    kind
-        ``stage``, ``report`` or ``plan``.
-    lanes, stalls
-        Lane graph and stalls.
-    things
-        All objects; empty for a plan that could not be laid out.
-    structure
-        S, R and C, if known.
-    compartments
-        Number of the fire compartment of each square of S, from 1; None where none are declared.
-    lane_lux, stall_lux
-        Mean illuminance of the floor; None if unknown.
-    lamps, dead_lamps
-        Number of lamps, and of those without light.
+        File of the garage, or what it was laid out from.
+    lanes
+        The lane graph of all levels; portals are those to the street.
+    stalls
+        The stalls of all levels; among several levels their names begin with that of their level, ``U2/``.
+    levels
+        The levels, the top one first.
     faults
-        Contradictions in the file's lanes and stalls.
+        Levels and ramps of the file that do not fit together; contradictions of a level are its own.
     stage
         The stage, if the file is one.
-    landings
-        Portals that are landings of ramps to other levels, not portals to the street: the unit vector (x, z) from each
-        towards its ramp, by name.
-    way_beyond_m
-        How far beyond the edge of a landing a car drives before its way through the level ends, by name.
-    ramps_below
-        The ramps that lead down from the landings, at their heights over the floor.
     """
 
     source: str
-    kind: str
     lanes: LaneGraph
     stalls: tuple[Stall, ...]
-    things: tuple[Thing, ...] = ()
-    structure: Structure | None = None
-    compartments: NDArray[np.int32] | None = None
-    lane_lux: float | None = None
-    stall_lux: float | None = None
-    lamps: int = 0
-    dead_lamps: int = 0
+    levels: tuple[BuiltLevel, ...]
     faults: tuple[Fault, ...] = ()
     stage: Usd.Stage | None = None
-    landings: Mapping[str, Point] = field(default_factory=dict)
-    way_beyond_m: Mapping[str, float] = field(default_factory=dict)
-    ramps_below: tuple[Thing, ...] = ()
 
-    @property
-    def street_portals(self) -> list[int]:
-        """Numbers of the entrances and exits that lead to the street."""
-        portals = self.lanes.portals("entrance", "exit")
-        return [number for number in portals if self.lanes.nodes[number].name not in self.landings]
+    @classmethod
+    def of_level(cls, level: BuiltLevel) -> "BuiltGarage":
+        """Return the garage whose only level is this one."""
+        return cls(level.source, level.lanes, level.stalls, (level,), stage=level.stage)
 
     @cached_property
-    def solids(self) -> Solids:
-        """Solid pieces of all objects that a car can touch."""
-        return Solids(self.things)
+    def ramp_nodes(self) -> tuple[int, ...]:
+        """Numbers of the lane nodes at the ends of edges that rise or fall, the landings included."""
+        return tuple(sorted(sloped_nodes(self.lanes)))
 
     @cached_property
-    def doors(self) -> tuple[Door, ...]:
-        """The vehicle doors."""
-        return tuple(doors_of(self.things))
+    def ramp_lines(self) -> tuple[RampLine, ...]:
+        """The lanes of the ramps between levels, in the order of their nodes."""
+        lanes, sloped = self.lanes, set(self.ramp_nodes)
+        ways = lanes.graph
+        found = []
+        for part in sorted(map(sorted, nx.weakly_connected_components(ways.subgraph(sloped)))):
+            graph = ways.subgraph(part)
+            order = list(nx.topological_sort(graph)) if nx.is_directed_acyclic_graph(graph) else part
+            inner = tuple(order)
+            for _ in range(2):  # the level part at the end, and the landing
+                order = [*[*ways.predecessors(order[0])][:1], *order, *[*ways.successors(order[-1])][:1]]
+            places = np.array(
+                [(node.position[0], node.height_m, node.position[1]) for node in map(lanes.nodes.__getitem__, order)]
+            )
+            width_m = min(edge.width_m for edge in lanes.edges if edge.start in sloped and edge.start in part)
+            found.append(RampLine(tuple(order), places, inner, width_m))
+        return tuple(found)
 
     @cached_property
-    def ramps(self) -> tuple[Ramp, ...]:
-        """The ramps."""
-        return tuple(ramps_of(self.things))
+    def things(self) -> tuple[Thing, ...]:
+        """All objects of all levels, at their heights."""
+        return tuple(
+            replace(_raised(thing, level.place.floor_m), name=level.place.path_in_whole(thing.name))
+            for level in self.levels
+            for thing in level.things
+        )
 
-    @cached_property
-    def circulation(self) -> LaneCirculation | None:
-        """Circulation of traffic on the lanes; None if S, R and C are unknown."""
-        return None if self.structure is None else lane_circulation(self.structure)
 
-    @cached_property
-    def parking_stalls(self) -> tuple[Stall, ...]:
-        """Stalls that take cars."""
-        return tuple(stall for stall in self.stalls if stall.takes_cars)
+def garage_of_file(path: str | Path) -> BuiltGarage:
+    """Read a garage from a stage's file; raises as `garage_of_stage`, and if the stage cannot be opened."""
+    return garage_of_stage(open_garage(Path(path)), source=str(path))
 
-    @cached_property
-    def stall_grounds(self) -> StallGrounds:
-        """Spatial index of the ground of all stalls."""
-        return StallGrounds(self.stalls)
 
-    @cached_property
-    def standing_in_stalls(self) -> dict[Stall, list[Solid]]:
-        """Standing pieces inside each stall, without those only on its lines."""
-        inside = shapely.buffer(self.stall_grounds.polygons, -_LINE_M)
-        return dict(zip(self.stalls, self.solids.standing_at_each(inside), strict=True))
+def garage_of_stage(
+    stage: Usd.Stage, *, source: str, objects: Iterable[PlacedObject] | None = None, is_judged: bool = True
+) -> BuiltGarage:
+    """Read a garage from an open stage in its current composition.
 
-    @cached_property
-    def cars(self) -> dict[str, tuple[shapely.Polygon, Stall | None]]:
-        """Convex ground of each car, and the stall that contains more than half of it."""
-        pieces = list(self.solids.standing(*CAR_LABELS))
-        names = list(dict.fromkeys(solid.name for solid in pieces))
-        number_of = {name: number for number, name in enumerate(names)}
-        owner = np.array([number_of[solid.name] for solid in pieces], dtype=np.int64)
-        order = np.argsort(owner, kind="stable")
-        parts = np.array([solid.footprint for solid in pieces], dtype=object)[order]
-        if not pieces:
-            return {}
-        grounds = shapely.convex_hull(shapely.multipolygons(parts, indices=owner[order]))
-        homes = self.stall_grounds.homes_of(grounds)
-        return {name: (ground, home) for name, ground, home in zip(names, grounds, homes, strict=True)}
+    Parameters
+    ----------
+    stage
+        The stage, opened by `garage2usd.reading.whole_garage.open_garage`.
+    source
+        File of the stage.
+    objects
+        Objects of the stage, if already known, as for `garage2usd.as_built.contents.read_contents`; only a garage
+        without levels in its stage is read from them.
+    is_judged
+        True to read also the data that only rules need: illuminance, and stalls moved without their outlines.
 
-    @cached_property
-    def taken_stalls(self) -> frozenset[Stall]:
-        """Stalls with a car or motorcycle, and stalls blocked by a misparked car."""
-        own = frozenset(home for _, home in self.cars.values() if home is not None)
-        names = {stall.name for stall in own}
-        return own.union(self._motorcycle_homes, (stall for stall in self.stalls if stall.blocked_by in names))
+    Raises
+    ------
+    StageError
+        If it has levels of which none is active, one cannot be read, or its prims are nested too deeply.
+    """
+    try:
+        places = levels_of(stage)
+        if places[0].is_only:
+            place = places[0]
+            return BuiltGarage.of_level(
+                level_of_stage(stage, source=source, place=place, objects=objects, is_judged=is_judged)
+            )
+        return _of_levels(stage, places, source=source, is_judged=is_judged)
+    except RecursionError:
+        raise StageError(source, "its prims are nested too deeply to be read") from None
 
-    @cached_property
-    def _motorcycle_homes(self) -> frozenset[Stall]:
-        """Stalls for motorcycles with a motorbike."""
-        pieces = np.array([solid.footprint for solid in self.solids.standing("motorbike")], dtype=object)
-        homes = self.stall_grounds.homes_of(pieces) if len(pieces) else []
-        return frozenset(home for home in homes if home is not None and home.use is StallUse.MOTORCYCLE)
 
-    def compartment_at(self, place: Point) -> int:
-        """Return the number of the fire compartment at a place; 0 where none are declared."""
-        if self.structure is None or self.compartments is None:
-            return 0
-        return int(self.compartments[_square_at(place, self.structure)])
+def garage_as_made(garage: Garage, *, source: str, kind: str, faults: tuple[Fault, ...] = ()) -> BuiltGarage:
+    """Return a garage as it will be built.
 
-    def compartment_areas_m2(self) -> dict[int, float]:
-        """Return the floor area of each fire compartment by its number; of the floor as 0 where none are declared.
+    Parameters
+    ----------
+    garage
+        The garage as a value.
+    source, kind
+        As for `garage2usd.as_built.level.BuiltLevel`.
+    faults
+        Contradictions in the file that it comes from.
+    """
+    levels = tuple(
+        level_of_layout(level.layout, source=source, kind=kind, place=level.place) for level in garage.levels
+    )
+    joined = garage.joined
+    return _with_ramps(BuiltGarage(source, joined.lane_graph, joined.quads, levels, faults))
 
-        It is NaN if S, R and C are unknown.
-        """
-        if self.structure is None:
-            return {0: math.nan}
-        areas = np.outer(self.structure.row_depths_mm, self.structure.column_widths_mm) / _MM2_PER_M2
-        inside = self.structure.cells != Cell.OBSTACLE
-        numbers = np.zeros(inside.shape, np.int32) if self.compartments is None else self.compartments
-        return {
-            number: float(areas[inside & (numbers == number)].sum()) for number in np.unique(numbers[inside]).tolist()
+
+def _of_levels(stage: Usd.Stage, places: Sequence[LevelPlace], *, source: str, is_judged: bool) -> BuiltGarage:
+    """Read the levels of a stage, and join them as its lane graph tells."""
+    whole, told = read_lanes(stage), garage_root(stage).GetCustomDataByKey("levels")
+    names = [*map(str, told)] if isinstance(told, Sequence | Vt.StringArray) else []
+    ahead = _towards_ramps(whole.graph)
+    levels = []
+    numbers = numbers_of_levels(names, [place.name for place in places])
+    for place, number in zip(places, numbers, strict=True):
+        level = level_of_stage(level_stage(stage, place), source=source, place=place, is_judged=is_judged)
+        landings = {
+            node.name: ahead[key]
+            for node in level.lanes.nodes
+            if node.is_portal and (key := _key(node.position, number)) in ahead
         }
-
-    def is_on_contour(self, place: Point) -> bool | None:
-        """Return True if a place lies beside the edge of the contour; None if S, R and C are unknown."""
-        if self.structure is None:
-            return None
-        return bool(outer_squares(self.structure.cells)[_square_at(place, self.structure)])
-
-    @property
-    def has_whole_graph(self) -> bool:
-        """True if lane nodes and edges are consistent: a node without a route is then a finding, not a damaged file."""
-        return all(fault.rule != "lane-graph" for fault in self.faults)
+        levels.append(FoundLevel(replace(level, landings=landings), number, placed_level(stage, place)))
+    joined = attached_levels(whole, names, levels)
+    built = tuple(level.built for level in levels)
+    return _with_ramps(BuiltGarage(source, joined.lanes, joined.stalls, built, joined.faults, stage))
 
 
-def _square_at(place: Point, structure: Structure) -> tuple[int, int]:
-    """Return the (row, col) of the square at a place, or the nearest one."""
-    edges = (structure.row_edges_m, place[1]), (structure.column_edges_m, place[0])
-    row, col = (int(np.clip(np.searchsorted(lines, at) - 1, 0, len(lines) - 2)) for lines, at in edges)
-    return row, col
+def _with_ramps(built: BuiltGarage) -> BuiltGarage:
+    """Return the garage with levels that know the way onto the ramps below them."""
+    levels = built.levels
+    known = (
+        replace(level, way_beyond_m=of_level, ramps_below=_ramps_to(lower, level))
+        for level, lower, of_level in zip(levels, [*levels[1:], None], _way_beyond_m(built), strict=True)
+    )
+    return replace(built, levels=tuple(known))
+
+
+def _ramps_to(lower: BuiltLevel | None, level: BuiltLevel) -> tuple[Thing, ...]:
+    """Return the ramps that lead from a level down to the lower one, at their heights over the level's floor."""
+    if lower is None:
+        return ()
+    below_m = lower.place.floor_m - level.place.floor_m
+    return tuple(_raised(thing, below_m) for thing in lower.things if thing.label == RAMP.label)
+
+
+def _way_beyond_m(built: BuiltGarage) -> list[dict[str, float]]:
+    """Return how far the way leads on beyond the edges of landings before a route ends, by name on each level."""
+    found: list[dict[str, float]] = [{} for _ in built.levels]
+    for line in built.ramp_lines:
+        if line.bend is None:
+            head = built.lanes.nodes[line.nodes[0 if line.is_down else -1]]
+            found[head.level][head.name.rpartition("/")[2]] = _ONTO_RAMP_M
+            continue
+        for landing, edge, slope in (line.nodes[:3], line.nodes[:-4:-1]):
+            node = built.lanes.nodes[landing]
+            ends = (built.lanes.nodes[number].position for number in (edge, slope))
+            found[node.level][node.name.rpartition("/")[2]] = round(math.dist(*ends), _SAME_PLACE_DIGITS)
+    return found
+
+
+def _towards_ramps(lanes: LaneGraph) -> dict[tuple[float, float, int | None], Point]:
+    """Return the unit vector from each landing towards its ramp, by the place and level of the landing."""
+    nodes = lanes.nodes
+    on_ramps = sloped_nodes(lanes)
+    level_ends = on_ramps | {number for on in on_ramps for number in lanes.beside[on]}
+    found = {}
+    for end in level_ends:
+        for other in set(lanes.beside[end]) - level_ends:
+            (x, z), (ramp_x, ramp_z) = nodes[other].position, nodes[end].position
+            far = math.dist((x, z), (ramp_x, ramp_z)) or 1.0
+            way = round((ramp_x - x) / far) + 0.0, round((ramp_z - z) / far) + 0.0
+            found[_key(nodes[other].position, nodes[other].level)] = way
+    return found
+
+
+def _key(position: Point, level: int | None) -> tuple[float, float, int | None]:
+    return round(position[0], _SAME_PLACE_DIGITS), round(position[1], _SAME_PLACE_DIGITS), level
+
+
+def _raised(thing: Thing, height_m: float) -> Thing:
+    """Return an object some metres higher."""
+    bodies = []
+    for body in thing.bodies:
+        matrix = body.matrix.copy()
+        matrix[3, 1] += height_m
+        bodies.append(body._replace(matrix=matrix))
+    return replace(thing, bodies=tuple(bodies))

@@ -1,29 +1,32 @@
-"""Reader of layouts as garages, and of plans without a layout."""
+"""Reader of layouts as levels of a garage, and of plans without a layout."""
 
 from functools import lru_cache
 
 import numpy as np
 
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.as_built.model import Model
 from garage2usd.as_built.shapes import Body, MeshShape, Thing, turned_about_y
 from garage2usd.assets import Part
 from garage2usd.garage import Fault, LaneGraph, Stall
+from garage2usd.garage.level_place import ONLY_LEVEL, LevelPlace
 from garage2usd.layout import Layout
 from garage2usd.objects import KINDS, Spec
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import Structure
 
-__all__ = ["garage_of_layout", "garage_without_layout", "model_of"]
+__all__ = ["level_of_layout", "level_without_layout", "model_of"]
 
 _IDENTITY = np.eye(4)
 
 
-def garage_of_layout(layout: Layout, *, source: str, kind: str, faults: tuple[Fault, ...] = ()) -> BuiltGarage:
-    """Convert a layout to a garage as built, without the objects that are flat on the floor."""
+def level_of_layout(
+    layout: Layout, *, source: str, kind: str, place: LevelPlace = ONLY_LEVEL, faults: tuple[Fault, ...] = ()
+) -> BuiltLevel:
+    """Convert a layout to a level as built, without the objects that are flat on the floor."""
     lux = layout.illuminance
-    return BuiltGarage(
+    return BuiltLevel(
         source=source,
         kind=kind,
         stalls=layout.quads,
@@ -37,10 +40,11 @@ def garage_of_layout(layout: Layout, *, source: str, kind: str, faults: tuple[Fa
         dead_lamps=lux.dead_lamps,
         faults=faults,
         landings={f"[{row}, {col}]": way for (row, col), way in (layout.well.landings.items() if layout.well else ())},
+        place=place,
     )
 
 
-def garage_without_layout(
+def level_without_layout(
     structure: Structure,
     lanes: LaneGraph,
     stalls: tuple[Stall, ...],
@@ -48,9 +52,9 @@ def garage_without_layout(
     source: str,
     kind: str,
     faults: tuple[Fault, ...],
-) -> BuiltGarage:
+) -> BuiltLevel:
     """Convert a plan that cannot be laid out: stalls and lanes, without objects and lights."""
-    return BuiltGarage(
+    return BuiltLevel(
         source=source,
         kind=kind,
         stalls=stalls,

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from garage2usd.as_built.garage import BuiltGarage
-from garage2usd.as_built.layout_reader import garage_of_layout, garage_without_layout
+from garage2usd.as_built.layout_reader import level_of_layout, level_without_layout
 from garage2usd.common.documents import MAX_REPORT_BYTES, read_json, read_text
 from garage2usd.common.errors import ConfigError, ReportError, UnreachableStallError
 from garage2usd.config import GarageConfig, config_from_mapping, load_config
@@ -43,7 +43,7 @@ def garage_of_plan(path: Path, *, profile: Profile | None = None) -> tuple[Built
     Returns
     -------
     tuple
-        The garage, and the configuration of its layout.
+        The garage, of one level, and the configuration of its layout.
 
     Raises
     ------
@@ -134,9 +134,11 @@ def _read(
     if layout is None:
         faults = () if refusal is None else (Fault("plan-refused", "", None, refusal),)
         stalls = planned_stalls(graph, config.bay)
-        return garage_without_layout(structure, graph.lanes, stalls, source=str(path), kind=kind, faults=faults)
+        source = str(path)
+        level = level_without_layout(structure, graph.lanes, stalls, source=source, kind=kind, faults=faults)
+        return BuiltGarage.of_level(level)
     differences = () if listed is None else tuple(report_differences(layout, listed))
-    return garage_of_layout(layout, source=str(path), kind=kind, faults=differences)
+    return BuiltGarage.of_level(level_of_layout(layout, source=str(path), kind=kind, faults=differences))
 
 
 def _laid_out(plan: Plan, config: GarageConfig, unreachable: Sequence[str] | None) -> tuple[Layout | None, str | None]:

@@ -1,29 +1,28 @@
-"""Reader of USD stages as garages, including stages edited by other programs; needs pxr only."""
+"""Reader of the levels of USD stages, including stages edited by other programs; needs pxr only."""
 
 import math
 from collections.abc import Iterable, Mapping
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
 from garage2usd.as_built.contents import PlacedLight, read_contents
-from garage2usd.as_built.garage import BuiltGarage
-from garage2usd.common.errors import ConfigError, StageError
+from garage2usd.as_built.level import BuiltLevel
+from garage2usd.common.errors import ConfigError
 from garage2usd.garage import Point
+from garage2usd.garage.level_place import ONLY_LEVEL, LevelPlace
 from garage2usd.layout import Placement
 from garage2usd.layout.ceiling.lighting import MAINTENANCE, direct_lux, lane_points_of
 from garage2usd.layout.placement import of_spec
 from garage2usd.objects.lamp import LampSpec
 from garage2usd.reading.lanes import Lanes, moved_stalls, read_lanes
-from garage2usd.reading.levels import refuse_levels
 from garage2usd.reading.lights import LightSource
-from garage2usd.reading.whole_garage import garage_root, open_garage
+from garage2usd.reading.whole_garage import garage_root
 from garage2usd.scenes.objects import PlacedObject
 from garage2usd.structure.grid import Structure, cells_from_text
 
-__all__ = ["garage_of_file", "garage_of_opened", "garage_of_stage", "profile_name"]
+__all__ = ["level_of_stage", "profile_name"]
 
 _DISK = "DiskLight"
 _PANELS = frozenset({"RectLight", _DISK})
@@ -33,35 +32,15 @@ _LANE_MARGIN_M = 0.7
 """Difference in metres between a square's side and the carriageway between its columns, if the structure is unknown."""
 
 
-def garage_of_file(path: Path) -> BuiltGarage:
-    """Read a garage from a stage's file.
-
-    Raises
-    ------
-    StageError
-        If the stage cannot be opened.
-    """
-    return garage_of_opened(open_garage(path), path)
-
-
-def garage_of_opened(stage: Usd.Stage, path: Path) -> BuiltGarage:
-    """Read a garage from an open stage of a file.
-
-    Raises
-    ------
-    StageError
-        If its prims are nested too deeply.
-    """
-    try:
-        return garage_of_stage(stage, source=str(path))
-    except RecursionError:
-        raise StageError(str(path), "its prims are nested too deeply to be read") from None
-
-
-def garage_of_stage(
-    stage: Usd.Stage, *, source: str, objects: Iterable[PlacedObject] | None = None, is_judged: bool = True
-) -> BuiltGarage:
-    """Read a garage from an open stage in its current composition.
+def level_of_stage(
+    stage: Usd.Stage,
+    *,
+    source: str,
+    place: LevelPlace = ONLY_LEVEL,
+    objects: Iterable[PlacedObject] | None = None,
+    is_judged: bool = True,
+) -> BuiltLevel:
+    """Read a garage of one level from an open stage in its current composition.
 
     Parameters
     ----------
@@ -69,23 +48,19 @@ def garage_of_stage(
         The stage.
     source
         File of the stage.
+    place
+        The level's place in the whole garage.
     objects
         As for `garage2usd.as_built.contents.read_contents`.
     is_judged
         True to read also the data that only rules need: illuminance, and stalls moved without their outlines.
-
-    Raises
-    ------
-    StageError
-        If the garage has several levels, which `garage2usd.as_built.levels` reads.
     """
-    refuse_levels(stage, source, "this command")
     ground, contents = read_lanes(stage), read_contents(stage, objects)
     structure = _structure(stage)
     lamps = [light.source for light in contents.lights if light.source.kind in _LAMPS]
     margin_m = 0.0 if _is_imported(stage) else _LANE_MARGIN_M
     lane_lux, stall_lux = _illuminances(ground, contents.lights, structure, margin_m) if is_judged else (None, None)
-    return BuiltGarage(
+    return BuiltLevel(
         source=source,
         kind="stage",
         lanes=ground.graph,
@@ -99,6 +74,7 @@ def garage_of_stage(
         dead_lamps=sum(lamp.candela == 0 for lamp in lamps),
         faults=(*ground.faults, *(moved_stalls(stage, ground) if is_judged else ())),
         stage=stage,
+        place=place,
     )
 
 

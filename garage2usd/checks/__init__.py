@@ -1,12 +1,11 @@
 """Checks of a garage against a standard, feasibility and USD, reported as findings instead of exceptions."""
 
 from collections.abc import Iterable
-from pathlib import Path
+from dataclasses import replace
 
 from garage2usd.as_built.garage import BuiltGarage
-from garage2usd.as_built.layout_reader import garage_of_layout
-from garage2usd.as_built.plan_reader import garage_of_plan
-from garage2usd.as_built.stage_reader import garage_of_file, profile_name
+from garage2usd.as_built.layout_reader import level_of_layout
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks import (
     accessible,
     aisle,
@@ -25,14 +24,12 @@ from garage2usd.checks import (
     usd,
 )
 from garage2usd.checks.finding import Finding, Severity, as_json, as_table
+from garage2usd.checks.levels import findings_of_whole
 from garage2usd.checks.rule import Rule
 from garage2usd.checks.unmet import clauses_in_words, found_in_words, not_checked_lines, unmet_clauses
-from garage2usd.common.documents import is_file
-from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
 from garage2usd.layout import Layout
-from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
-from garage2usd.reading.files import STAGE_SUFFIXES
+from garage2usd.profiles import Profile
 from garage2usd.reading.report import UnmetClause
 
 __all__ = [
@@ -50,7 +47,6 @@ __all__ = [
     "judged_layout",
     "not_checked",
     "not_checked_lines",
-    "read_garage",
 ]
 
 RULES: tuple[Rule, ...] = tuple(
@@ -79,12 +75,20 @@ _LONG = (*usd.BOOK.rules, *swept_path.BOOK.rules)
 
 
 def check(garage: BuiltGarage, profile: Profile) -> list[Finding]:
-    """Return the findings of a garage under a profile and the rules that need no profile, errors first."""
-    findings = (finding for rule in RULES for finding in rule.findings(garage, profile))
-    return sorted(findings, key=Finding.sort_key)
+    """Return the findings of a garage under a profile and the rules that need no profile, errors first.
+
+    Each level is checked with its landings as portals; a finding's place is its path or name in the whole garage.
+    """
+    found = [
+        replace(finding, place=level.place.path_in_whole(finding.place))
+        for level in garage.levels
+        for rule in RULES
+        for finding in rule.findings(level, profile)
+    ]
+    return sorted([*found, *findings_of_whole(garage, profile)], key=Finding.sort_key)
 
 
-def not_checked(garage: BuiltGarage, profile: Profile) -> dict[str, str]:
+def not_checked(level: BuiltLevel, profile: Profile) -> dict[str, str]:
     """Return the profile clauses that no rule can check on a garage, each with the reason.
 
     A clause about a part that the garage lacks, such as the slope of ramps, is included.
@@ -92,7 +96,7 @@ def not_checked(garage: BuiltGarage, profile: Profile) -> dict[str, str]:
     reasons = {}
     for clause, _ in profile.clauses():
         rules = [rule for rule in RULES if clause in rule.clauses[: rule.asking]]
-        hindrances = [rule.hindrance(garage, profile) for rule in rules]
+        hindrances = [rule.hindrance(level, profile) for rule in rules]
         if hindrances and all(hindrances):
             reasons[clause] = hindrances[0]
     return reasons
@@ -121,23 +125,8 @@ def judged_layout(
 
     With ways it proves too that a car drives into each stall, so that its findings are those of its stage.
     """
-    garage = garage_of_layout(layout, source="", kind="report")
+    garage = level_of_layout(layout, source="", kind="report")
     left_out = usd.BOOK.rules if with_ways else _LONG
     found = (finding for rule in RULES if rule not in left_out for finding in rule.findings(garage, config.standard))
     findings = sorted(found, key=Finding.sort_key)
     return findings, unmet_clauses(findings, not_checked(garage, config.standard))
-
-
-def read_garage(path: str | Path, *, profile: Profile | None = None) -> tuple[BuiltGarage, Profile]:
-    """Read a garage of one level and the profile to check it against; parameters as for `garage2usd.check_file`."""
-    path = Path(path)
-    if not is_file(path):
-        raise ConfigError("PATH", str(path), "an existing file")
-    if path.suffix.lower() in STAGE_SUFFIXES:
-        garage = garage_of_file(path)
-        name = profile_name(garage.stage)
-        profile = profile or load_profile(name if name in PROFILE_NAMES else DEFAULT_PROFILE)
-    else:
-        garage, config = garage_of_plan(path, profile=profile)
-        profile = profile or config.standard
-    return garage, profile

@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.as_built.solids import Solid
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
 from garage2usd.garage import Point, Stall, StallKind
@@ -30,7 +30,7 @@ _FOOT_M = 0.5
 class _ParkedCars:
     """The design car parked in each stall that takes cars."""
 
-    garage: BuiltGarage
+    garage: BuiltLevel
     profile: Profile
 
     @cached_property
@@ -62,10 +62,10 @@ class _ParkedCars:
     asks="the design car in a stall keeps away from columns",
     hindrance=where_laid_out,
 )
-def _columns(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    cars, clause = _ParkedCars(garage, profile), profile.column_clearance
+def _columns(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    cars, clause = _ParkedCars(level, profile), profile.column_clearance
     if clause:
-        near = garage.solids.standing_at_each(cars.grounds(), within_m=clause.amount)
+        near = level.solids.standing_at_each(cars.grounds(), within_m=clause.amount)
         yield from _closest(cars, near, {"column"}, clause.amount, "a column")
 
 
@@ -77,11 +77,11 @@ def _columns(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     asks="the design car in a stall keeps away from the walls beside it",
     hindrance=where_laid_out,
 )
-def _walls(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    cars, clause = _ParkedCars(garage, profile), profile.wall_clearance
+def _walls(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    cars, clause = _ParkedCars(level, profile), profile.wall_clearance
     if clause:
         # a wall that the rear touches is not beside the car
-        near = garage.solids.standing_at_each(cars.grounds(beside_m=clause.amount, behind_m=-ROUNDING_M))
+        near = level.solids.standing_at_each(cars.grounds(beside_m=clause.amount, behind_m=-ROUNDING_M))
         yield from _closest(cars, near, _WALLS, clause.amount, "the wall beside")
 
 
@@ -93,10 +93,10 @@ def _walls(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     asks="the design car in a stall keeps away from what stands behind it",
     hindrance=where_laid_out,
 )
-def _ends(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    cars, clause = _ParkedCars(garage, profile), profile.end_clearance
+def _ends(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    cars, clause = _ParkedCars(level, profile), profile.end_clearance
     if clause:
-        near = garage.solids.standing_at_each(cars.grounds(behind_m=clause.amount))
+        near = level.solids.standing_at_each(cars.grounds(behind_m=clause.amount))
         yield from _closest(cars, near, _WALLS, clause.amount, "the wall behind")
 
 
@@ -106,14 +106,14 @@ def _ends(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     asks="columns stand as far apart as the grid wants where cars park between",
     hindrance=where_laid_out,
 )
-def _spacing(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+def _spacing(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     if profile.column_spacing is None:
         return
     least, most = profile.column_spacing.bounds
     seen: set[float] = set()
-    columns = [solid for solid in garage.solids.standing("column") if solid.bottom_m < _FOOT_M]
+    columns = [solid for solid in level.solids.standing("column") if solid.bottom_m < _FOOT_M]
     places = np.array([(column.footprint.centroid.x, column.footprint.centroid.y) for column in columns]).reshape(-1, 2)
-    for stall in garage.parking_stalls:
+    for stall in level.parking_stalls:
         measured = _between_columns(stall, places)
         if (
             measured is None

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.profiles import Profile
 
@@ -11,9 +11,9 @@ __all__ = ["BOOK"]
 BOOK = RuleBook()
 
 
-def _faults(name: str) -> Callable[[BuiltGarage, Profile], Iterator[Miss]]:
-    def find(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-        for fault in garage.faults:
+def _faults(name: str) -> Callable[[BuiltLevel, Profile], Iterator[Miss]]:
+    def find(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+        for fault in level.faults:
             if fault.rule == name:
                 yield Miss(fault.place, fault.position, fault.message)
 

@@ -5,7 +5,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterator
 
 from garage2usd.as_built.core_reader import core_doors
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out, where_structure_is_known
 from garage2usd.garage import Point
 from garage2usd.layout.egress.compartments import compartment_name
@@ -16,22 +16,22 @@ __all__ = ["BOOK"]
 BOOK = RuleBook()
 
 
-def _floor_is_told(garage: BuiltGarage, profile: Profile) -> str:
-    return where_laid_out(garage, profile) or where_structure_is_known(garage, profile)
+def _floor_is_told(level: BuiltLevel, profile: Profile) -> str:
+    return where_laid_out(level, profile) or where_structure_is_known(level, profile)
 
 
-def _area_applies(garage: BuiltGarage, profile: Profile) -> str:
+def _area_applies(level: BuiltLevel, profile: Profile) -> str:
     """Explain why the area of fire compartments cannot be checked, as without sprinklers and a clause for that case."""
-    told = _floor_is_told(garage, profile)
-    return told or _applies(garage, plain=profile.fire_compartment_area is not None)
+    told = _floor_is_told(level, profile)
+    return told or _applies(level, plain=profile.fire_compartment_area is not None)
 
 
-def _distance_applies(garage: BuiltGarage, profile: Profile) -> str:
-    return where_laid_out(garage, profile) or _applies(garage, plain=profile.exit_distance is not None)
+def _distance_applies(level: BuiltLevel, profile: Profile) -> str:
+    return where_laid_out(level, profile) or _applies(level, plain=profile.exit_distance is not None)
 
 
-def _applies(garage: BuiltGarage, *, plain: bool) -> str:
-    return "" if plain or _has_sprinklers(garage) else "the garage has no sprinklers"
+def _applies(level: BuiltLevel, *, plain: bool) -> str:
+    return "" if plain or _has_sprinklers(level) else "the garage has no sprinklers"
 
 
 @BOOK.rule(
@@ -41,9 +41,9 @@ def _applies(garage: BuiltGarage, *, plain: bool) -> str:
     asks="each fire compartment, or the floor where none are declared, is small enough",
     hindrance=_floor_is_told,
 )
-def _compartment(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    if garage.things and not (_has_sprinklers(garage) and profile.fire_compartment_area_sprinklered):
-        yield from _too_large(garage, profile.fire_compartment_area)
+def _compartment(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    if level.things and not (_has_sprinklers(level) and profile.fire_compartment_area_sprinklered):
+        yield from _too_large(level, profile.fire_compartment_area)
 
 
 @BOOK.rule(
@@ -52,9 +52,9 @@ def _compartment(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     asks="each fire compartment, or the floor where none are declared, is small enough with sprinklers",
     hindrance=_area_applies,
 )
-def _sprinklered_compartment(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    if _has_sprinklers(garage):
-        yield from _too_large(garage, profile.fire_compartment_area_sprinklered)
+def _sprinklered_compartment(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    if _has_sprinklers(level):
+        yield from _too_large(level, profile.fire_compartment_area_sprinklered)
 
 
 @BOOK.rule(
@@ -63,12 +63,12 @@ def _sprinklered_compartment(garage: BuiltGarage, profile: Profile) -> Iterator[
     asks="people have enough exits in each fire compartment",
     hindrance=where_laid_out,
 )
-def _count(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    if profile.personnel_exits is None or not garage.things:
+def _count(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    if profile.personnel_exits is None or not level.things:
         return
-    doors = core_doors(garage)
-    on = Counter(garage.compartment_at(garage.lanes.nodes[door.node].position) for door in doors)
-    for number in garage.compartment_areas_m2():
+    doors = core_doors(level)
+    on = Counter(level.compartment_at(level.lanes.nodes[door.node].position) for door in doors)
+    for number in level.compartment_areas_m2():
         count = on[number]
         if count < profile.personnel_exits.amount:
             yield Miss(
@@ -83,9 +83,9 @@ def _count(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     asks="no stall is too far from an exit for people",
     hindrance=where_laid_out,
 )
-def _distance(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    if garage.things and not (_has_sprinklers(garage) and profile.exit_distance_sprinklered):
-        yield from _too_far(garage, profile.exit_distance, profile)
+def _distance(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    if level.things and not (_has_sprinklers(level) and profile.exit_distance_sprinklered):
+        yield from _too_far(level, profile.exit_distance, profile)
 
 
 @BOOK.rule(
@@ -94,15 +94,15 @@ def _distance(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     asks="no stall is too far from an exit for people where there are sprinklers",
     hindrance=_distance_applies,
 )
-def _sprinklered_distance(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    if _has_sprinklers(garage):
-        yield from _too_far(garage, profile.exit_distance_sprinklered, profile)
+def _sprinklered_distance(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    if _has_sprinklers(level):
+        yield from _too_far(level, profile.exit_distance_sprinklered, profile)
 
 
-def _too_large(garage: BuiltGarage, clause: Area | None) -> Iterator[Miss]:
-    if clause is None or garage.structure is None:
+def _too_large(level: BuiltLevel, clause: Area | None) -> Iterator[Miss]:
+    if clause is None or level.structure is None:
         return
-    for number, measured in garage.compartment_areas_m2().items():
+    for number, measured in level.compartment_areas_m2().items():
         if measured > clause.amount:
             name = _name(number)
             parts = math.ceil(measured / clause.amount)
@@ -110,16 +110,16 @@ def _too_large(garage: BuiltGarage, clause: Area | None) -> Iterator[Miss]:
             yield Miss(name, None, f"{what} needs {parts} fire compartments", measured, clause.amount)
 
 
-def _too_far(garage: BuiltGarage, clause: Length | None, profile: Profile) -> Iterator[Miss]:
+def _too_far(level: BuiltLevel, clause: Length | None, profile: Profile) -> Iterator[Miss]:
     """Yield the stall of each fire compartment farthest from an exit as the crow flies, if it is too far."""
-    if clause is None or not garage.stalls:
+    if clause is None or not level.stalls:
         return
     exits = defaultdict(list)
-    for door in core_doors(garage):
-        exits[garage.compartment_at(garage.lanes.nodes[door.node].position)].append(door.position)
+    for door in core_doors(level):
+        exits[level.compartment_at(level.lanes.nodes[door.node].position)].append(door.position)
     stalls = defaultdict(list)
-    for stall in garage.stalls:
-        stalls[garage.compartment_at(stall.centre)].append(stall)
+    for stall in level.stalls:
+        stalls[level.compartment_at(stall.centre)].append(stall)
     for number, own in stalls.items():
         doors = exits[number]
         if not doors:
@@ -142,5 +142,5 @@ def _name(number: int) -> str:
     return compartment_name(number) if number > 0 else ""
 
 
-def _has_sprinklers(garage: BuiltGarage) -> bool:
-    return "sprinkler" in garage.solids.labels
+def _has_sprinklers(level: BuiltLevel) -> bool:
+    return "sprinkler" in level.solids.labels

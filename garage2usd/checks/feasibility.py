@@ -4,7 +4,7 @@ import math
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.garage import LaneNode, Point, Stall
 from garage2usd.profiles import Profile
@@ -17,32 +17,32 @@ _BESIDE_M = 0.75
 
 
 @BOOK.rule("entrance-missing", asks="there is an entrance")
-def _entrance(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    if garage.lanes.nodes and not garage.lanes.portals("entrance"):
+def _entrance(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    if level.lanes.nodes and not level.lanes.portals("entrance"):
         yield Miss("", None, "no car can get in: there is no entrance")
 
 
 @BOOK.rule("exit-missing", asks="there is an exit")
-def _exit(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    if garage.lanes.nodes and not garage.lanes.portals("exit"):
+def _exit(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    if level.lanes.nodes and not level.lanes.portals("exit"):
         yield Miss("", None, "no car can get out: there is no exit")
 
 
 @BOOK.rule("portal-cut-off", asks="every portal joins a lane")
-def _cut_off(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    for number in garage.lanes.portals("entrance", "exit"):
-        if garage.has_whole_graph and not garage.lanes.beside[number]:
-            node = garage.lanes.nodes[number]
+def _cut_off(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    for number in level.lanes.portals("entrance", "exit"):
+        if level.has_whole_graph and not level.lanes.beside[number]:
+            node = level.lanes.nodes[number]
             yield Miss(node.name, node.position, f"the {node.kind} joins no lane")
 
 
 @BOOK.rule("stall-detached", asks="a stall's mouth opens onto the lane that serves it")
-def _detached(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    for stall in garage.stalls:
-        node = garage.lanes.nodes[stall.access]
+def _detached(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    for stall in level.stalls:
+        node = level.lanes.nodes[stall.access]
         if node.is_portal:
             yield Miss(stall.name, stall.mouth, f"the stall opens onto the {node.kind} {node.name}")
-        elif not _lies_at(stall.mouth, node) and not _lies_ahead_of_tip(stall.mouth, stall.access, garage):
+        elif not _lies_at(stall.mouth, node) and not _lies_ahead_of_tip(stall.mouth, stall.access, level):
             yield Miss(stall.name, stall.mouth, f"the stall's mouth does not lie at its lane {node.name}")
 
 
@@ -54,12 +54,12 @@ def _lies_at(mouth: Point, node: LaneNode) -> bool:
     )
 
 
-def _lies_ahead_of_tip(mouth: Point, access: int, garage: BuiltGarage) -> bool:
+def _lies_ahead_of_tip(mouth: Point, access: int, level: BuiltLevel) -> bool:
     """Return True if a mouth lies straight on beyond the dead end of a lane, no farther than the lane is wide."""
-    beside = garage.lanes.beside[access]
+    beside = level.lanes.beside[access]
     if len(beside) != 1:
         return False
-    node, before = garage.lanes.nodes[access], garage.lanes.nodes[beside[0]]
+    node, before = level.lanes.nodes[access], level.lanes.nodes[beside[0]]
     length_m = math.dist(node.position, before.position)
     ahead = [(tip - start) / length_m for tip, start in zip(node.position, before.position, strict=True)]
     away = [place - tip for place, tip in zip(mouth, node.position, strict=True)]
@@ -69,13 +69,13 @@ def _lies_ahead_of_tip(mouth: Point, access: int, garage: BuiltGarage) -> bool:
 
 
 @BOOK.rule("stall-route", asks="each stall has a route from an entrance and to an exit that keeps to lanes")
-def _routes(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    entrances, exits = garage.lanes.joined_portals("entrance"), garage.lanes.joined_portals("exit")
-    if not entrances or not exits or not garage.has_whole_graph:
+def _routes(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    entrances, exits = level.lanes.joined_portals("entrance"), level.lanes.joined_portals("exit")
+    if not entrances or not exits or not level.has_whole_graph:
         return  # that itself is found by other rules
-    reached = _reached(entrances, garage.lanes.onward, garage)
-    left = _reached(exits, garage.lanes.backward, garage)
-    for stall in garage.stalls:
+    reached = _reached(entrances, level.lanes.onward, level)
+    left = _reached(exits, level.lanes.backward, level)
+    for stall in level.stalls:
         missing = [
             words for nodes, words in ((reached, "from an entrance"), (left, "to an exit")) if stall.access not in nodes
         ]
@@ -84,34 +84,34 @@ def _routes(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 
 
 @BOOK.rule("portal-route", asks="each entrance leads to an exit, and each exit is reached from an entrance")
-def _portal_routes(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    entrances, exits = garage.lanes.portals("entrance"), garage.lanes.portals("exit")
-    served = {stall.access for stall in garage.stalls}
+def _portal_routes(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    entrances, exits = level.lanes.portals("entrance"), level.lanes.portals("exit")
+    served = {stall.access for stall in level.stalls}
     for starts, goals, ways, words in (
-        (entrances, exits, garage.lanes.onward, "no exit is reached from the entrance"),
-        (exits, entrances, garage.lanes.backward, "no entrance leads to the exit"),
+        (entrances, exits, level.lanes.onward, "no exit is reached from the entrance"),
+        (exits, entrances, level.lanes.backward, "no entrance leads to the exit"),
     ):
-        for start in starts if goals and garage.has_whole_graph else ():
-            found = _reached([start], ways, garage)
+        for start in starts if goals and level.has_whole_graph else ():
+            found = _reached([start], ways, level)
             # stalls on the way are named by their own rule, and a portal without a lane by its own
-            if found.isdisjoint(goals) and found.isdisjoint(served) and garage.lanes.beside[start]:
-                node = garage.lanes.nodes[start]
+            if found.isdisjoint(goals) and found.isdisjoint(served) and level.lanes.beside[start]:
+                node = level.lanes.nodes[start]
                 yield Miss(node.name, node.position, words)
 
 
-def way_in(garage: BuiltGarage, stall: Stall) -> list[int]:
+def way_in(level: BuiltLevel, stall: Stall) -> list[int]:
     """Return the nodes of a shortest route from an entrance to a stall's lane; empty without one."""
-    return _shortest(garage.lanes.portals("entrance"), stall.access, garage.lanes.onward, garage)
+    return _shortest(level.lanes.portals("entrance"), stall.access, level.lanes.onward, level)
 
 
-def way_out(garage: BuiltGarage, stall: Stall) -> list[int]:
+def way_out(level: BuiltLevel, stall: Stall) -> list[int]:
     """Return the nodes of a shortest route from a stall's lane to an exit; empty without one."""
-    return _shortest(garage.lanes.portals("exit"), stall.access, garage.lanes.backward, garage)[::-1]
+    return _shortest(level.lanes.portals("exit"), stall.access, level.lanes.backward, level)[::-1]
 
 
-def _shortest(starts: Iterable[int], goal: int, ways: Sequence[Sequence[int]], garage: BuiltGarage) -> list[int]:
+def _shortest(starts: Iterable[int], goal: int, ways: Sequence[Sequence[int]], level: BuiltLevel) -> list[int]:
     """Return the route with the fewest lane nodes from any start to a goal."""
-    came_from = _search(starts, ways, garage)
+    came_from = _search(starts, ways, level)
     if goal not in came_from:
         return []
     path = [goal]
@@ -120,18 +120,18 @@ def _shortest(starts: Iterable[int], goal: int, ways: Sequence[Sequence[int]], g
     return path[::-1]
 
 
-def _reached(starts: Iterable[int], ways: Sequence[Sequence[int]], garage: BuiltGarage) -> set[int]:
-    return set(_search(starts, ways, garage))
+def _reached(starts: Iterable[int], ways: Sequence[Sequence[int]], level: BuiltLevel) -> set[int]:
+    return set(_search(starts, ways, level))
 
 
-def _search(starts: Iterable[int], ways: Sequence[Sequence[int]], garage: BuiltGarage) -> dict[int, int]:
+def _search(starts: Iterable[int], ways: Sequence[Sequence[int]], level: BuiltLevel) -> dict[int, int]:
     """Search lane nodes breadth first; map each to its predecessor, and a start to itself. Routes end at portals."""
     came_from = {start: start for start in starts}
     queue = deque(came_from)
     first = set(came_from)
     while queue:
         node = queue.popleft()
-        if garage.lanes.nodes[node].is_portal and node not in first:
+        if level.lanes.nodes[node].is_portal and node not in first:
             continue
         for other in ways[node]:
             if other not in came_from:

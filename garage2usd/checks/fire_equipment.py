@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
 from garage2usd.layout.nearness import Points, distances_m
 from garage2usd.objects import MOUNTED, Mounted
@@ -22,14 +22,14 @@ BOOK = RuleBook()
 _HYDRANT = "hydrant_cabinet"
 
 
-def _out_of_reach(mounted: Mounted, garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+def _out_of_reach(mounted: Mounted, level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     """Yield the stall or lane farthest from fire-fighting equipment, if it is out of reach."""
     clause: Length | None = getattr(profile, mounted.clause)
-    places = [(stall.name, stall.centre) for stall in garage.stalls]
-    places += [(node.name, node.position) for node in garage.lanes.nodes if not node.is_portal]
-    if clause is None or not garage.things or not places:
+    places = [(stall.name, stall.centre) for stall in level.stalls]
+    places += [(node.name, node.position) for node in level.lanes.nodes if not node.is_portal]
+    if clause is None or not level.things or not places:
         return
-    hung = _places_of(garage, mounted.kind.label)
+    hung = _places_of(level, mounted.kind.label)
     what = mounted.kind.label.replace("_", " ")
     if len(hung) < mounted.count:
         yield Miss("", None, f"{len(hung)} objects of the class {what} are too few")
@@ -62,8 +62,8 @@ for _mounted in MOUNTED:
     asks="a fire hydrant is near enough to the next one",
     hindrance=where_laid_out,
 )
-def _spacing(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    hydrants = _places_of(garage, _HYDRANT)
+def _spacing(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    hydrants = _places_of(level, _HYDRANT)
     if profile.hydrant_spacing is None or len(hydrants) < 2:  # noqa: PLR2004 - one has no next one
         return
     apart = np.array([np.sort(distances_m(hydrant, hydrants))[1] for hydrant in hydrants])
@@ -74,9 +74,9 @@ def _spacing(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
         yield Miss("", place, "the next fire hydrant is too far", measured, required)
 
 
-def _places_of(garage: BuiltGarage, label: str) -> NDArray[np.float64]:
+def _places_of(level: BuiltLevel, label: str) -> NDArray[np.float64]:
     """Return the centre of the lowest piece of each object of a semantic class; float64, shape (n, 2)."""
     middles: dict[str, Point] = {}
-    for solid in garage.solids.standing(label):
+    for solid in level.solids.standing(label):
         middles.setdefault(solid.name, solid.centre)
     return np.array(list(middles.values())).reshape(-1, 2)

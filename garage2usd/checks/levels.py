@@ -1,29 +1,22 @@
-"""Check of a garage of several levels: each level by the rules of one level, ramps and routes by rules of the whole."""
+"""Rules of the levels of a garage together: floors, ramps between them, and routes from and to the street."""
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.as_built.driven_ground import CAR_HEIGHT_M
 from garage2usd.as_built.garage import BuiltGarage
-from garage2usd.as_built.levels import BuiltLevels, built_levels
-from garage2usd.as_built.stage_reader import garage_of_opened, profile_name
 from garage2usd.checks.finding import Finding, Severity
-from garage2usd.checks.rule import ROUNDING_M, Rule
-from garage2usd.common.documents import is_file
-from garage2usd.common.errors import ConfigError
+from garage2usd.checks.rule import ROUNDING_M
 from garage2usd.garage import LaneKind
-from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
-from garage2usd.reading.whole_garage import open_garage
+from garage2usd.profiles import Profile
 from garage2usd.scenes.polygons import triangulated
 from garage2usd.sensors.rays.ray_caster import BoxTree
 
-__all__ = ["check_levels", "read_stage"]
+__all__ = ["findings_of_whole"]
 
 _STREET = LaneKind.ENTRANCE, LaneKind.EXIT
 _SIDE_ROOM_M = 0.5
@@ -37,27 +30,8 @@ _FAR_M = 4.0
 """Distance around the box of a ramp in which triangles are cast at; more clearance than this is enough anywhere."""
 
 
-def read_stage(path: str | Path, *, profile: Profile | None = None) -> tuple[BuiltLevels | BuiltGarage, Profile]:
-    """Read a garage of one level or of several from a stage, and the profile to check it against.
-
-    Raises
-    ------
-    ConfigError
-        If there is no such file.
-    StageError
-        If it cannot be read.
-    """
-    path = Path(path)
-    if not is_file(path):
-        raise ConfigError("PATH", str(path), "an existing file")
-    stage = open_garage(path)
-    garage = built_levels(stage, path) or garage_of_opened(stage, path)
-    name = profile_name(stage)
-    return garage, profile or load_profile(name if name in PROFILE_NAMES else DEFAULT_PROFILE)
-
-
-def check_levels(garage: BuiltLevels, profile: Profile, rules: tuple[Rule, ...]) -> list[Finding]:
-    """Return the findings of all levels and of the whole, errors first.
+def findings_of_whole(garage: BuiltGarage, profile: Profile) -> list[Finding]:
+    """Return the findings on the levels of a garage together; an only level has none besides its own.
 
     Parameters
     ----------
@@ -65,16 +39,10 @@ def check_levels(garage: BuiltLevels, profile: Profile, rules: tuple[Rule, ...])
         The garage.
     profile
         What it is checked against.
-    rules
-        Rules of one level, which each level is checked by with its landings as portals.
     """
-    found = [
-        replace(finding, place=level.path_in_whole(finding.place))
-        for level in garage.levels
-        for rule in rules
-        for finding in rule.findings(level.garage, profile)
-    ]
-    found += [
+    if garage.levels[0].place.is_only:
+        return []
+    return [
         *(Finding(fault.rule, Severity.ERROR, fault.place, fault.message, fault.position) for fault in garage.faults),
         *_floors(garage, profile),
         *_routes(garage),
@@ -82,10 +50,9 @@ def check_levels(garage: BuiltLevels, profile: Profile, rules: tuple[Rule, ...])
         *_ramp_clearances(garage, profile),
         *_ramp_bends(garage, profile),
     ]
-    return sorted(found, key=Finding.sort_key)
 
 
-def _floors(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
+def _floors(garage: BuiltGarage, profile: Profile) -> Iterator[Finding]:
     """Yield floors that lie closer together than the clear height, and levels that no ramp leads to."""
     required = CAR_HEIGHT_M if profile.clear_height is None else profile.clear_height.amount
     places = sorted((level.place for level in garage.levels), key=lambda place: -place.floor_m)
@@ -101,7 +68,7 @@ def _floors(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
             yield Finding("level-ramp", Severity.ERROR, level.place.name, "no ramp leads to this level")
 
 
-def _routes(garage: BuiltLevels) -> Iterator[Finding]:
+def _routes(garage: BuiltGarage) -> Iterator[Finding]:
     """Yield stalls without a route from an entrance on the street, or to an exit on it."""
     for arcs, words in (
         (garage.lanes.arriving, "no route from an entrance on the street"),
@@ -113,7 +80,7 @@ def _routes(garage: BuiltLevels) -> Iterator[Finding]:
                 yield Finding("level-route", Severity.ERROR, stall.name, words, stall.centre)
 
 
-def _portals(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
+def _portals(garage: BuiltGarage, profile: Profile) -> Iterator[Finding]:
     """Yield a finding if there are too few entrances and exits on the street for the stalls of all levels."""
     if profile.portals is None:
         return
@@ -133,7 +100,7 @@ def _portals(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
         )
 
 
-def _ramp_clearances(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
+def _ramp_clearances(garage: BuiltGarage, profile: Profile) -> Iterator[Finding]:
     """Yield the lowest place and the narrowest place of each ramp between levels that misses the requirement."""
     for ramp in garage.ramp_lines:
         name, points = garage.lanes.nodes[ramp.sloped[0]].name, _sampled(ramp.slope)
@@ -178,7 +145,7 @@ def _ramp_clearances(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]
             )
 
 
-def _ramp_bends(garage: BuiltLevels, profile: Profile) -> Iterator[Finding]:
+def _ramp_bends(garage: BuiltGarage, profile: Profile) -> Iterator[Finding]:
     """Yield the helices that are too steep along the inner edge of their carriageway."""
     clause = profile.curved_ramp_slope
     if clause is None:
@@ -214,7 +181,7 @@ def _sampled(line: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack([np.interp(places, along, line[:, axis]) for axis in range(3)], axis=1)
 
 
-def _near(garage: BuiltLevels, points: NDArray[np.float64]) -> NDArray[np.float64]:
+def _near(garage: BuiltGarage, points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the corners of the triangles around some points; float64, shape (triangles, 3, 3)."""
     low, high = points.min(axis=0) - _FAR_M, points.max(axis=0) + _FAR_M
     parts = [np.zeros((0, 3, 3))]

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.profiles import Profile
 
@@ -14,15 +14,15 @@ DEAD_LAMPS = "lamps give no light"
 _ROUNDING = 0.99
 
 
-def _dark(what: str, garage: BuiltGarage) -> str:
+def _dark(what: str, level: BuiltLevel) -> str:
     """Return the message that lanes or stalls are too dark, with the number of dead lamps as a possible cause."""
-    because = f": {garage.dead_lamps} of {garage.lamps} {DEAD_LAMPS}" if garage.dead_lamps else ""
+    because = f": {level.dead_lamps} of {level.lamps} {DEAD_LAMPS}" if level.dead_lamps else ""
     return f"the {what} are too dark{because}"
 
 
-def _lights_are_told(garage: BuiltGarage, _: Profile) -> str:
+def _lights_are_told(level: BuiltLevel, _: Profile) -> str:
     """Explain why illuminance cannot be checked: the plan has no layout, or the stage has no lights."""
-    return "" if garage.lane_lux is not None else "no illuminance of the floor is known"
+    return "" if level.lane_lux is not None else "no illuminance of the floor is known"
 
 
 @BOOK.rule(
@@ -31,10 +31,10 @@ def _lights_are_told(garage: BuiltGarage, _: Profile) -> str:
     asks="the lanes' floor is bright enough",
     hindrance=_lights_are_told,
 )
-def _lanes(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    required, measured = profile.lane_illuminance, garage.lane_lux
+def _lanes(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    required, measured = profile.lane_illuminance, level.lane_lux
     if required and measured is not None and measured < required.amount * _ROUNDING:
-        yield Miss("", None, _dark("lanes", garage), measured, required.amount)
+        yield Miss("", None, _dark("lanes", level), measured, required.amount)
 
 
 @BOOK.rule(
@@ -43,7 +43,7 @@ def _lanes(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     asks="the stalls' floor is bright enough",
     hindrance=_lights_are_told,
 )
-def _stalls(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    required, measured = profile.stall_illuminance, garage.stall_lux
+def _stalls(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    required, measured = profile.stall_illuminance, level.stall_lux
     if required and measured is not None and measured < required.amount * _ROUNDING:
-        yield Miss("", None, _dark("stalls", garage), measured, required.amount)
+        yield Miss("", None, _dark("stalls", level), measured, required.amount)

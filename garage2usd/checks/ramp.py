@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks.rule import Miss, RuleBook, where_laid_out
 from garage2usd.profiles import Profile
 
@@ -14,10 +14,10 @@ _RUN_ROUNDING_M = 0.06
 
 
 @BOOK.rule("ramp-slope", "ramp_slope", asks="a straight ramp is not too steep", hindrance=where_laid_out)
-def _slope(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+def _slope(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     if profile.ramp_slope is None:
         return
-    for ramp in garage.ramps:
+    for ramp in level.ramps:
         steepest = max((stretch.slope_percent for stretch in ramp.stretches), default=0.0)
         if steepest > profile.ramp_slope.amount + _SLOPE_ROUNDING:
             yield Miss(ramp.name, ramp.position, "the ramp is too steep", steepest, profile.ramp_slope.amount)
@@ -31,9 +31,9 @@ def _slope(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     asking=2,
     hindrance=where_laid_out,
 )
-def _transition(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+def _transition(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     required = profile.transition_length_m
-    for ramp in garage.ramps:
+    for ramp in level.ramps:
         steepest = max((stretch.slope_percent for stretch in ramp.stretches), default=0.0)
         if steepest <= profile.transition_slope_percent + _SLOPE_ROUNDING:
             continue

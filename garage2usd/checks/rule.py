@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks.finding import Finding, Severity
 from garage2usd.garage import Point
 from garage2usd.profiles import Clause, Length, LengthRange, Profile
@@ -32,24 +32,24 @@ class Miss(NamedTuple):
     things: tuple[str, ...] = ()
 
 
-Find = Callable[[BuiltGarage, Profile], Iterable[Miss]]
-Hindrance = Callable[[BuiltGarage, Profile], str]
+Find = Callable[[BuiltLevel, Profile], Iterable[Miss]]
+Hindrance = Callable[[BuiltLevel, Profile], str]
 """Function that explains why a rule cannot be checked on a garage; it returns an empty string if the rule can be."""
 
 
-def always(_: BuiltGarage, __: Profile) -> str:
+def always(_: BuiltLevel, __: Profile) -> str:
     """Let a rule be checked on every garage."""
     return ""
 
 
-def where_laid_out(garage: BuiltGarage, _: Profile) -> str:
+def where_laid_out(level: BuiltLevel, _: Profile) -> str:
     """Explain why a rule about objects cannot be checked on a plan without a layout."""
-    return "" if garage.things else "there are no objects, only a plan"
+    return "" if level.things else "there are no objects, only a plan"
 
 
-def where_structure_is_known(garage: BuiltGarage, _: Profile) -> str:
+def where_structure_is_known(level: BuiltLevel, _: Profile) -> str:
     """Explain why a rule about squares cannot be checked on a stage without the matrices S, R and C."""
-    return "" if garage.structure is not None else "the stage does not tell S, R and C"
+    return "" if level.structure is not None else "the stage does not tell S, R and C"
 
 
 @dataclass(frozen=True)
@@ -96,12 +96,12 @@ class Rule:
         """Return the severity of a violation of the rule under a profile."""
         return next((clause.severity for clause in self.asked_by(profile).values()), self.severity)
 
-    def findings(self, garage: BuiltGarage, profile: Profile) -> Iterator[Finding]:
+    def findings(self, level: BuiltLevel, profile: Profile) -> Iterator[Finding]:
         """Yield the rule's violations in a garage as findings."""
         if not self.applies(profile):
             return
         name, clause = next(iter(self.asked_by(profile).items()), ("", None))
-        for miss in self.find(garage, profile):
+        for miss in self.find(level, profile):
             yield Finding(
                 rule=self.name,
                 severity=self.severity_in(profile),

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
 from garage2usd.garage import Stall, StallKind, StallUse
 from garage2usd.objects import CAR_LABELS
@@ -26,38 +26,38 @@ _BELONGS = {*CAR_LABELS, "traffic_cone", "wheel_stop", "charger", "speed_bump", 
 
 
 @BOOK.rule("stall-width", "stall_width", asks="a stall that cars park in is wide enough")
-def _width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(_sized(garage), profile.stall_width, "width_m", "narrow")
+def _width(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    return _short(_sized(level), profile.stall_width, "width_m", "narrow")
 
 
 @BOOK.rule("stall-length", "stall_length", asks="a stall that cars park in is long enough")
-def _length(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(_sized(garage), profile.stall_length, "length_m", "short")
+def _length(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    return _short(_sized(level), profile.stall_length, "length_m", "short")
 
 
 @BOOK.rule("parallel-stall-width", "parallel_stall_width", asks="a parallel stall is wide enough")
-def _parallel_width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(_sized(garage, parallel=True), profile.parallel_stall_width, "width_m", "narrow")
+def _parallel_width(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    return _short(_sized(level, parallel=True), profile.parallel_stall_width, "width_m", "narrow")
 
 
 @BOOK.rule("parallel-stall-length", "parallel_stall_length", asks="a parallel stall is long enough")
-def _parallel_length(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(_sized(garage, parallel=True), profile.parallel_stall_length, "length_m", "short")
+def _parallel_length(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    return _short(_sized(level, parallel=True), profile.parallel_stall_length, "length_m", "short")
 
 
 @BOOK.rule("compact-stall-width", "compact_stall_width", asks="a stall for compact cars is wide enough")
-def _compact_width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(_sized(garage, compact=True), profile.compact_stall_width, "width_m", "narrow")
+def _compact_width(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    return _short(_sized(level, compact=True), profile.compact_stall_width, "width_m", "narrow")
 
 
 @BOOK.rule("compact-stall-length", "compact_stall_length", asks="a stall for compact cars is long enough")
-def _compact_length(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(_sized(garage, compact=True), profile.compact_stall_length, "length_m", "short")
+def _compact_length(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    return _short(_sized(level, compact=True), profile.compact_stall_length, "length_m", "short")
 
 
 @BOOK.rule("compact-share", "compact_share", asks="no more stalls than a share are for compact cars")
-def _compact_share(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    clause, stalls = profile.compact_share, garage.parking_stalls
+def _compact_share(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    clause, stalls = profile.compact_share, level.parking_stalls
     compact = [stall for stall in stalls if stall.is_compact]
     if clause and compact and (share := 100 * len(compact) / len(stalls)) > clause.amount + ROUNDING_M:
         message = "too many of the stalls are for compact cars"
@@ -65,24 +65,24 @@ def _compact_share(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
 
 
 @BOOK.rule("motorcycle-stall-width", "motorcycle_stall_width", asks="a stall for motorcycles is wide enough")
-def _motorcycle_width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(_for_motorcycles(garage), profile.motorcycle_stall_width, "width_m", "narrow")
+def _motorcycle_width(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    return _short(_for_motorcycles(level), profile.motorcycle_stall_width, "width_m", "narrow")
 
 
 @BOOK.rule("motorcycle-stall-length", "motorcycle_stall_length", asks="a stall for motorcycles is long enough")
-def _motorcycle_length(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _short(_for_motorcycles(garage), profile.motorcycle_stall_length, "length_m", "short")
+def _motorcycle_length(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    return _short(_for_motorcycles(level), profile.motorcycle_stall_length, "length_m", "short")
 
 
-def _for_motorcycles(garage: BuiltGarage) -> list[Stall]:
-    return [stall for stall in garage.stalls if stall.use is StallUse.MOTORCYCLE]
+def _for_motorcycles(level: BuiltLevel) -> list[Stall]:
+    return [stall for stall in level.stalls if stall.use is StallUse.MOTORCYCLE]
 
 
-def _sized(garage: BuiltGarage, *, parallel: bool = False, compact: bool = False) -> list[Stall]:
+def _sized(level: BuiltLevel, *, parallel: bool = False, compact: bool = False) -> list[Stall]:
     """Return the stalls that one pair of clauses for width and length is for; no pair is for compact parallel ones."""
     return [
         stall
-        for stall in garage.parking_stalls
+        for stall in level.parking_stalls
         if (stall.kind is StallKind.PARALLEL, stall.is_compact) == (parallel, compact)
     ]
 
@@ -97,9 +97,9 @@ def _short(stalls: Iterable[Stall], clause: Length | None, side: str, word: str)
 
 
 @BOOK.rule("stall-overlap", asks="stalls do not overlap")
-def _overlap(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    stalls = garage.stalls
-    shrunk = shapely.buffer(garage.stall_grounds.polygons, -_TOUCH_M)
+def _overlap(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    stalls = level.stalls
+    shrunk = shapely.buffer(level.stall_grounds.polygons, -_TOUCH_M)
     first, second = shapely.STRtree(shrunk).query(shrunk, predicate="intersects")
     for one, other in zip(first.tolist(), second.tolist(), strict=True):
         if one < other:
@@ -107,18 +107,18 @@ def _overlap(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 
 
 @BOOK.rule("column-in-stall", asks="no column stands in a stall")
-def _column(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    for stall in garage.stalls:
-        for solid in garage.standing_in_stalls[stall]:
+def _column(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    for stall in level.stalls:
+        for solid in level.standing_in_stalls[stall]:
             if solid.label == "column":
                 yield Miss(stall.name, stall.centre, f"{solid.name} stands in the stall", things=(solid.name,))
                 break
 
 
 @BOOK.rule("stall-blocked", asks="nothing but a car, a wheel stop, a charger or a cone stands in a stall for cars")
-def _blocked(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    for stall in garage.parking_stalls:
-        for solid in garage.standing_in_stalls[stall]:
+def _blocked(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    for stall in level.parking_stalls:
+        for solid in level.standing_in_stalls[stall]:
             if solid.label not in _BELONGS:
                 message = f"a {solid.kind} stands in the stall: {solid.name}"
                 yield Miss(stall.name, stall.centre, message, things=(solid.name,))
@@ -126,8 +126,8 @@ def _blocked(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 
 
 @BOOK.rule("car-outside-stall", asks="a parked car stands between the lines of its stall, or 10 cm over one at most")
-def _outside(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    for name, (ground, stall) in garage.cars.items():
+def _outside(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    for name, (ground, stall) in level.cars.items():
         if stall is not None and not _with_lines(stall).covers(ground):
             yield Miss(name, _centre(ground), f"the car stands out of {stall.name}", things=(name,))
 
@@ -141,17 +141,17 @@ def _with_lines(stall: Stall) -> shapely.Geometry:
 
 
 @BOOK.rule("stall-kept-free", asks="no car stands where cars turn or wheelchairs pass")
-def _kept_free(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    for name, (_, stall) in garage.cars.items():
+def _kept_free(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    for name, (_, stall) in level.cars.items():
         if stall is not None and not stall.takes_cars:
             message = f"{name} stands in a stall of the use {stall.use.value}"
             yield Miss(stall.name, stall.centre, message, things=(name,))
 
 
 @BOOK.rule("stall-two-cars", asks="a stall holds one car at most")
-def _two_cars(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+def _two_cars(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
     first: dict[str, str] = {}
-    for name, (_, stall) in garage.cars.items():
+    for name, (_, stall) in level.cars.items():
         if stall is not None and first.setdefault(stall.name, name) != name:
             both = first[stall.name], name
             yield Miss(stall.name, stall.centre, f"{both[0]} and {both[1]} stand in one stall", things=both)
@@ -163,8 +163,8 @@ def _two_cars(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
     asks="a wheel stop is low enough for a car's front",
     hindrance=where_laid_out,
 )
-def _wheel_stops(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _too_high(garage, profile.wheel_stop_height, "wheel_stop")
+def _wheel_stops(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    return _too_high(level, profile.wheel_stop_height, "wheel_stop")
 
 
 @BOOK.rule(
@@ -173,15 +173,15 @@ def _wheel_stops(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     asks="a speed bump is low enough for a car's floor",
     hindrance=where_laid_out,
 )
-def _speed_bumps(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    return _too_high(garage, profile.speed_bump_height, "speed_bump")
+def _speed_bumps(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    return _too_high(level, profile.speed_bump_height, "speed_bump")
 
 
-def _too_high(garage: BuiltGarage, clause: Length | None, label: str) -> Iterator[Miss]:
+def _too_high(level: BuiltLevel, clause: Length | None, label: str) -> Iterator[Miss]:
     if clause is None:
         return
     highest: dict[str, Solid] = {}
-    for solid in garage.solids.standing(label):
+    for solid in level.solids.standing(label):
         if solid.name not in highest or solid.top_m > highest[solid.name].top_m:
             highest[solid.name] = solid
     for name, solid in highest.items():

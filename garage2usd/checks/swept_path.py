@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from weakref import WeakKeyDictionary
 
 from garage2usd.as_built.driven_ground import CAR_HEIGHT_M, driven_garage, rounded
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks import aisle, clearance, feasibility, stall
 from garage2usd.checks.finding import Severity
 from garage2usd.checks.rule import Miss, RuleBook
@@ -16,7 +16,7 @@ __all__ = ["BOOK", "design_car"]
 
 BOOK = RuleBook()
 _Proofs = tuple[tuple[Stall, StallProof], ...]
-_PROVEN: WeakKeyDictionary[BuiltGarage, tuple[Profile, _Proofs]] = WeakKeyDictionary()
+_PROVEN: WeakKeyDictionary[BuiltLevel, tuple[Profile, _Proofs]] = WeakKeyDictionary()
 """Cache of each garage's last swept-path proofs, which two rules share."""
 _NAMED = 3
 _EXPLAINED = 10
@@ -24,9 +24,9 @@ _EXPLAINED = 10
 
 
 @BOOK.rule("swept-path", asks="the design car drives into each stall and out again while all others are taken")
-def _swept(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+def _swept(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     """Yield stalls without a collision-free path, apart from stalls and objects that other rules report."""
-    for at, proof in _proofs(garage, profile):
+    for at, proof in _proofs(level, profile):
         if not (proof.is_proven or proof.is_undecided):
             required = None if proof.clearance_m is None else Limits().margin_m
             yield Miss(proof.stall, rounded(at.centre), _message(proof), proof.clearance_m, required)
@@ -37,42 +37,42 @@ def _swept(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     asks="the search for the ways of each stall ends with ways, or because there are none",
     severity=Severity.WARNING,
 )
-def _undecided(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
-    for at, proof in _proofs(garage, profile):
+def _undecided(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    for at, proof in _proofs(level, profile):
         if not proof.is_proven and proof.is_undecided:
             yield Miss(proof.stall, rounded(at.centre), _message(proof))
 
 
 @BOOK.rule("motorcycle-path", asks="ways into stalls for motorcycles are proven", severity=Severity.INFO)
-def _motorcycles(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+def _motorcycles(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
     """Yield one finding that names the stalls for motorcycles, as there is no design motorcycle to prove them with."""
-    found = [stall for stall in garage.stalls if stall.use is StallUse.MOTORCYCLE]
+    found = [stall for stall in level.stalls if stall.use is StallUse.MOTORCYCLE]
     if found:
         named = ", ".join(stall.name for stall in found[:_NAMED]) + (", ..." if len(found) > _NAMED else "")
         message = f"no way is proven into the {len(found)} stalls for motorcycles, as no motorcycle is driven: {named}"
         yield Miss(found[0].name, rounded(found[0].centre), message)
 
 
-def _proofs(garage: BuiltGarage, profile: Profile) -> _Proofs:
+def _proofs(level: BuiltLevel, profile: Profile) -> _Proofs:
     """Return the swept-path proofs of the stalls that no other rule reports."""
-    of_profile, proofs = _PROVEN.get(garage, (None, ()))
+    of_profile, proofs = _PROVEN.get(level, (None, ()))
     if of_profile is not profile:
-        proofs = _proven(garage, profile)
-        _PROVEN[garage] = profile, proofs
+        proofs = _proven(level, profile)
+        _PROVEN[level] = profile, proofs
     return proofs
 
 
-def _proven(garage: BuiltGarage, profile: Profile) -> _Proofs:
-    lanes = garage.lanes
+def _proven(level: BuiltLevel, profile: Profile) -> _Proofs:
+    lanes = level.lanes
     has_way = lanes.joined_portals("entrance") and lanes.joined_portals("exit")
-    if not (has_way and garage.has_whole_graph and garage.things):
+    if not (has_way and level.has_whole_graph and level.things):
         return ()
-    faults = _reported(garage, profile)
+    faults = _reported(level, profile)
     places = {fault.place for fault in faults}
     missed = {node for edge in lanes.edges if lanes.edge_name(edge) in places for node in (edge.start, edge.end)}
     height_m = _amount(profile.design_car_height, CAR_HEIGHT_M)
     things = {name for fault in faults for name in fault.things}
-    driven = driven_garage(garage, height_m=height_m, left_out=things)
+    driven = driven_garage(level, height_m=height_m, left_out=things)
     asked = [at for at in driven.stalls if at.name not in places and at.access not in missed]
     proofs = prove_garage(driven, asked, car=design_car(profile), with_all_taken_only=True, most_explained=_EXPLAINED)
     return tuple(zip(asked, proofs, strict=True))
@@ -98,12 +98,12 @@ def design_car(profile: Profile) -> DesignCar:
     )
 
 
-def _reported(garage: BuiltGarage, profile: Profile) -> list[Miss]:
+def _reported(level: BuiltLevel, profile: Profile) -> list[Miss]:
     """Return the errors that the rules of stalls, aisles, clearances and routes report."""
     faults = []
     for rule in (rule for module in (stall, aisle, clearance, feasibility) for rule in module.BOOK.rules):
         if rule.applies(profile) and rule.severity_in(profile) is Severity.ERROR:
-            faults += rule.find(garage, profile)
+            faults += rule.find(level, profile)
     return faults
 
 

@@ -5,7 +5,7 @@ from pathlib import Path, PureWindowsPath
 
 from pxr import Sdf, Usd, UsdGeom, UsdPhysics, UsdShade, UsdUtils, UsdValidation
 
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks.finding import Severity
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.profiles import Profile
@@ -39,8 +39,8 @@ def _prims(stage: Usd.Stage | None) -> Iterator[Usd.Prim]:
 
 
 @BOOK.rule("stage-units", asks="a stage is in metres, Y up, and has a default prim", severity=Severity.WARNING)
-def _units(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    stage = garage.stage
+def _units(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    stage = level.stage
     if stage is None:
         return
     metres, axis = metres_per_unit(stage), UsdGeom.GetStageUpAxis(stage)
@@ -53,8 +53,8 @@ def _units(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 
 
 @BOOK.rule("nested-rigid-body", asks="no rigid body lies in another one")
-def _nested_rigid_bodies(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    stage = garage.stage
+def _nested_rigid_bodies(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    stage = level.stage
     if stage is None or not any(prim.HasAPI(UsdPhysics.RigidBodyAPI) for prim in _prims(stage)):
         return
     # a body above an instance is seen from the instances' contents alone
@@ -68,8 +68,8 @@ def _nested_rigid_bodies(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 
 
 @BOOK.rule("collider-approximation", asks="a collision mesh names an approximation that physics engines know")
-def _approximations(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    for prim in _prims(garage.stage):
+def _approximations(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    for prim in _prims(level.stage):
         if prim.HasAPI(UsdPhysics.CollisionAPI) and prim.IsA(UsdGeom.Mesh):
             token = UsdPhysics.MeshCollisionAPI(prim).GetApproximationAttr()
             named = prim.HasAPI(UsdPhysics.MeshCollisionAPI) and token.HasAuthoredValue()
@@ -80,15 +80,15 @@ def _approximations(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 
 
 @BOOK.rule("collider-without-shape", asks="a collider is a shape")
-def _colliders_without_shape(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    for prim in _prims(garage.stage):
+def _colliders_without_shape(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    for prim in _prims(level.stage):
         if prim.HasAPI(UsdPhysics.CollisionAPI) and not prim.IsA(UsdGeom.Gprim):
             yield _miss(prim, f"a collider on a prim of the type {prim.GetTypeName() or 'none'}")
 
 
 @BOOK.rule("empty-label", asks="a semantic label is not empty")
-def _empty_labels(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    for prim in _prims(garage.stage):
+def _empty_labels(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    for prim in _prims(level.stage):
         for schema in prim.GetAppliedSchemas():
             name, _, taxonomy = schema.partition(":")
             if name == LABELS_SCHEMA:
@@ -98,8 +98,8 @@ def _empty_labels(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 
 
 @BOOK.rule("label-without-schema", asks="a semantic label has its schema, so that readers find it")
-def _labels_without_schema(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    for prim in _prims(garage.stage):
+def _labels_without_schema(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    for prim in _prims(level.stage):
         authored = prim.GetAuthoredPropertiesInNamespace(LABELS)
         schemas = prim.GetAppliedSchemas() if authored else ()
         for label in authored:
@@ -108,15 +108,15 @@ def _labels_without_schema(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 
 
 @BOOK.rule("unlabelled-shape", asks="every shape belongs to something with a semantic label", severity=Severity.WARNING)
-def _unlabelled(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    for thing in garage.things if garage.stage else ():
+def _unlabelled(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    for thing in level.things if level.stage else ():
         if not thing.label:
             yield Miss(thing.name, None, "a shape without a label of the taxonomy 'class', on it or above it")
 
 
 @BOOK.rule("opinion-in-instance", asks="no layer says anything below an instance, which composition ignores")
-def _opinions_inside_instances(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    for layer in garage.stage.GetUsedLayers() if garage.stage else ():
+def _opinions_inside_instances(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    for layer in level.stage.GetUsedLayers() if level.stage else ():
         found: list[Sdf.Path] = []
 
         def visit(path: Sdf.Path, layer: Sdf.Layer = layer, found: list[Sdf.Path] = found) -> None:
@@ -130,8 +130,8 @@ def _opinions_inside_instances(garage: BuiltGarage, _: Profile) -> Iterator[Miss
 
 
 @BOOK.rule("absolute-path", asks="no file is referred to by an absolute path, which is missing on other machines")
-def _absolute_paths(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    for path, layer in _absolute(garage.stage):
+def _absolute_paths(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    for path, layer in _absolute(level.stage):
         yield Miss(path, None, f"an absolute path in {layer}")
 
 
@@ -147,24 +147,24 @@ def _absolute(stage: Usd.Stage | None) -> Iterator[tuple[str, str]]:
 
 
 @BOOK.rule("unbound-mesh", asks="every mesh has a material")
-def _unbound_meshes(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    for prim in _prims(garage.stage):
+def _unbound_meshes(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    for prim in _prims(level.stage):
         if prim.IsA(UsdGeom.Mesh) and not UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]:
             yield _miss(prim, "a mesh without a material")
 
 
 @BOOK.rule("usd-validation", asks="UsdValidation finds nothing")
-def _validation(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
-    if garage.stage is None:
+def _validation(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+    if level.stage is None:
         return
     registry = UsdValidation.ValidationRegistry()
     context = UsdValidation.ValidationContext(registry.GetOrLoadAllValidators())
     shared = [
-        prim for prototype in garage.stage.GetPrototypes() for prim in Usd.PrimRange(prototype) if prim != prototype
+        prim for prototype in level.stage.GetPrototypes() for prim in Usd.PrimRange(prototype) if prim != prototype
     ]
-    errors = [*context.Validate(garage.stage, Usd.PrimDefaultPredicate), *(context.Validate(shared) if shared else ())]
+    errors = [*context.Validate(level.stage, Usd.PrimDefaultPredicate), *(context.Validate(shared) if shared else ())]
     seen = set()
-    absolute = [path for path, _ in _absolute(garage.stage)]
+    absolute = [path for path, _ in _absolute(level.stage)]
     for error in errors:
         message = usd_text(error.GetMessage)
         # a path that is absolute, and so missing here, has a rule of its own

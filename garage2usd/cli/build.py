@@ -180,7 +180,7 @@ def _describe(made: "Build") -> None:
         ("m2/stall", _areas([level.layout for level in garage.levels])),
         *(() if lower else _scores(made)),
         *(
-            (level.in_whole("gave way", joint=" "), f"{name}: {reason}")
+            (level.place.in_whole("gave way", joint=" "), f"{name}: {reason}")
             for level in garage.levels
             for name, reason in level.plan.gave_way.items()
         ),

@@ -90,9 +90,11 @@ def drive(
     if stall is not None:
         _drive_to(path, seed, stall, entrance=entrance, exit_=exit_, leg=leg or "both", output=output, rig=rig)
         return
+    from garage2usd.as_built.proofs import floors_m_of_stalls  # noqa: PLC0415 - keeps --help instant
+
     with Bars(sys.stderr) as progress:
         source = _source(path, seed, progress)
-        proofs, floors_m = source.proofs(progress=progress), source.floors_m()
+        proofs, floors_m = source.proofs(progress=progress), floors_m_of_stalls(source.garage)
     if output is not None:
         _write(output, proofs, floors_m)
     _describe(proofs)
@@ -119,7 +121,7 @@ def _drive_to(
 ) -> None:
     """Drive to one stall and print the result."""
     from garage2usd.config.maps import Leg  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.maps.level_drives import drive_planner  # noqa: PLC0415
+    from garage2usd.maps.drives import DrivePlanner  # noqa: PLC0415
     from garage2usd.sensors.rig.rig import read_rig  # noqa: PLC0415
 
     carrier = None if rig is None else read_rig(rig)
@@ -128,7 +130,7 @@ def _drive_to(
     car = None if carrier is None else carrier.body
     with Bars(sys.stderr) as progress:
         source = _source(path, seed, progress)
-        driven = drive_planner(source.garage, source.drive).drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
+        driven = DrivePlanner(source.garage, source.drive).drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
     if output is not None:
         _write_drive(output, driven, car)
     route, states = driven.route, driven.trajectory
@@ -174,7 +176,7 @@ def _write_drive(output: Path, driven: "Drive", car: "CarBody | None") -> None:
     _publish(output, write)
 
 
-def _write(output: Path, proofs: "Sequence[StallProof]", floors_m: "Mapping[str, float] | None") -> None:
+def _write(output: Path, proofs: "Sequence[StallProof]", floors_m: "Mapping[str, float]") -> None:
     from garage2usd.driving.witness import write_witness  # noqa: PLC0415 - keeps --help instant
     from garage2usd.stage.driving_layer import write_driving_layer  # noqa: PLC0415
 

@@ -117,7 +117,7 @@ def _drawings(garage: "Garage", number: str | None, marks: "Mapping[str, Sequenc
         ways = None if chosen is None else ways_on_level(garage.lanes, chosen, index)
         drawings[name] = draw_plan(level.layout, stall=on_level, ways=ways, marks=marks.get(level.name, ()))
     if garage.building.ramps is not None:
-        drawings["_section"] = draw_section(garage.layouts, storey_m=garage.building.storey_m)
+        drawings["_section"] = draw_section(garage.levels, storey_m=garage.building.storey_m)
     return drawings
 
 
@@ -144,7 +144,7 @@ def _level_of(place: str, levels: "Sequence[GarageLevel]") -> str:
 def _beside_optimum(garage: "Garage", progress: "Progress") -> list[tuple[str, str]]:
     """Score of each level's plan, and its share of the proven optimum on the same squares."""
     return [
-        (level.in_whole(name, joint=" "), words)
+        (level.place.in_whole(name, joint=" "), words)
         for level in garage.levels
         for name, words in _beside_level_optimum(level, progress)
     ]

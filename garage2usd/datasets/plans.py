@@ -76,7 +76,7 @@ def _plan_fields(config: GarageConfig, recipe: Recipe) -> dict[str, Any]:
     }
     if garage is not None and lower:
         gave_way = {
-            each.in_whole(rule, joint=" "): place
+            each.place.in_whole(rule, joint=" "): place
             for each in garage.levels
             for rule, place in each.plan.gave_way.items()
         }

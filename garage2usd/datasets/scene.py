@@ -21,16 +21,10 @@ from garage2usd.datasets.plans import remade
 from garage2usd.datasets.recipe import MakeConfig, Recipe
 from garage2usd.driving import StallProof, prove_stalls
 from garage2usd.exports import export
-from garage2usd.garage_files import (
-    draw_pictures,
-    make_garage_report,
-    reported_links,
-    write_garage_labels,
-    write_garage_stage,
-)
+from garage2usd.garage_files import draw_pictures, make_garage_report, reported_links
 from garage2usd.pipeline import Garage
 from garage2usd.report import write_report
-from garage2usd.stage import StageFormat
+from garage2usd.stage import StageFormat, write_labels, write_stage
 from garage2usd.view.raster import write_png
 
 __all__ = ["key_of", "make_scene"]
@@ -118,7 +112,7 @@ def _write_all(make: MakeConfig, drawn: DrawnPlan, config: GarageConfig, place: 
             difficulty = _write_difficulty(rated, place.with_name(f"{place.name}.difficulty.json"))
         if make.drives and stage:
             every = [
-                replace(proof, stall=level.in_whole(proof.stall))
+                replace(proof, stall=level.place.in_whole(proof.stall))
                 for level, proven in zip(garage.levels, proofs, strict=True)
                 for proof in proven
             ]
@@ -145,15 +139,15 @@ def _write_files(garage: Garage, place: Path, make: MakeConfig, assets: Path | N
         stage = folder / f"{stem}{StageFormat.USDZ}"
         with TemporaryDirectory(dir=folder) as room:  # it is written in an empty folder
             packed = Path(room) / stage.name
-            write_garage_stage(garage, packed, own=f"{stem}.")
+            write_stage(garage, packed, own=f"{stem}.")
             packed.replace(stage)
     elif make.stage:
         stage = folder / f"{stem}{StageFormat.USDC}"
-        write_garage_stage(garage, stage, shared=assets, own=f"{stem}.")
+        write_stage(garage, stage, shared=assets, own=f"{stem}.")
     if stage and make.exports:
         export(stage, [folder / f"{stem}.{name}" for name in make.exports], settings=garage.config.maps, joint=".")
     if make.labels:
-        write_garage_labels(garage, folder / f"{stem}.labels.json")
+        write_labels(garage, folder / f"{stem}.labels.json")
     if make.plan:
         for name, picture in draw_pictures(garage, joint=".").items():
             write_png(picture, folder / f"{stem}.{name}.png")
@@ -165,7 +159,7 @@ def _difficulties(garage: Garage, proofs: Sequence[Sequence[StallProof]]) -> lis
     found = []
     for level, proven in zip(garage.levels, proofs, strict=True):
         for each in stall_difficulties(level, proofs=proven):
-            name = level.in_whole(each.stall)
+            name = level.place.in_whole(each.stall)
             found.append(replace(each, stall=name, features=replace(each.features, stall=name)))
     return found
 

@@ -163,7 +163,7 @@ class DrivenRoad:
 
 
 class FloorSpan(NamedTuple):
-    """A part of a path over several levels, and the floors of that part.
+    """A part of a path, and the floors of that part.
 
     Attributes
     ----------
@@ -180,12 +180,8 @@ class FloorSpan(NamedTuple):
     ramps: tuple[SlopedFloor, ...]
 
 
-def floor_heights_m(
-    ramps: Sequence[SlopedFloor], spans: Sequence[FloorSpan], plan_m: Floats, x_m: Floats, z_m: Floats
-) -> Floats:
-    """Return the floor's heights at points on one level, or at distances along a path over several levels."""
-    if not spans:
-        return heights_m(ramps, x_m, z_m)
+def floor_heights_m(spans: Sequence[FloorSpan], plan_m: Floats, x_m: Floats, z_m: Floats) -> Floats:
+    """Return the floor's heights at points of a path, given their distances along it as seen from above."""
     ends = np.array([span.end_m for span in spans[:-1]])
     number = np.searchsorted(ends, plan_m, side="right")
     heights: Floats = np.zeros(np.broadcast(x_m, z_m).shape)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from garage2usd.config.maps import DriveConfig
 from garage2usd.driving.car import DesignCar
 from garage2usd.driving.path import Floats, Path, Piece
-from garage2usd.driving.road import FloorSpan, RampFloor, floor_heights_m
+from garage2usd.driving.road import FloorSpan, floor_heights_m
 from garage2usd.driving.trajectory import Trajectory
 from garage2usd.native import elementary
 
@@ -72,21 +72,18 @@ class Motion:
         End time of the motion.
     car
         The car.
-    ramps
-        Floors that are not at height 0.
+    spans
+        Floors along the path, part by part; empty for a level floor at height 0.
     steering_rate_rad_s
         Steering rate of the front wheels at a standstill.
-    spans
-        Floors of a path over several levels, part by part, in place of `ramps`.
     """
 
     runs: tuple[_Run, ...]
     starts_s: tuple[float, ...]
     ends_s: float
     car: DesignCar
-    ramps: tuple[RampFloor, ...]
+    spans: tuple[FloorSpan, ...]
     steering_rate_rad_s: float
-    spans: tuple[FloorSpan, ...] = ()
 
     @property
     def events_s(self) -> Floats:
@@ -143,7 +140,6 @@ class Motion:
             steering = np.where(stands, steering + np.sign(target - steering) * turned, steering)
         height, nose = (
             floor_heights_m(
-                self.ramps,
                 self.spans,
                 run.begin_m + plan,
                 points.x_m - elementary.sin(points.yaw_rad) * ahead,
@@ -180,7 +176,6 @@ def timed(
     settings: DriveConfig,
     *,
     car: DesignCar | None = None,
-    ramps: Sequence[RampFloor] = (),
     parked_after: int | None = None,
     spans: Sequence[FloorSpan] = (),
 ) -> Motion:
@@ -194,12 +189,10 @@ def timed(
         Limits of speed, acceleration and steering.
     car
         The car.
-    ramps
-        Floors that are not at height 0.
     parked_after
         Number of the piece before which the car stays parked for as long as the settings say.
     spans
-        Floors of a path over several levels, part by part, in place of `ramps`.
+        Floors along the path, part by part; a level floor at height 0 if left out.
 
     Notes
     -----
@@ -212,7 +205,7 @@ def timed(
     start, begin_m, runs = path.start, 0.0, []
     for pieces in groups:
         part = Path(start, pieces)
-        runs.append(_run(part, settings, car, ramps, spans, begin_m))
+        runs.append(_run(part, settings, car, spans, begin_m))
         start, begin_m = part.end, begin_m + part.length_m
     starts, now = [], 0.0
     for number, run in enumerate(runs):
@@ -221,7 +214,7 @@ def timed(
         if number + 1 < len(runs):
             steering_s = _steering_s(run.path, runs[number + 1].path, car, settings.steering_rate_rad_s)
             now += max(pauses[number], steering_s)
-    return Motion(tuple(runs), tuple(starts), now, car, tuple(ramps), settings.steering_rate_rad_s, tuple(spans))
+    return Motion(tuple(runs), tuple(starts), now, car, tuple(spans), settings.steering_rate_rad_s)
 
 
 def _groups(path: Path, settings: DriveConfig, parked_after: int | None) -> tuple[list[tuple[Piece, ...]], list[float]]:
@@ -255,7 +248,6 @@ def _run(
     path: Path,
     settings: DriveConfig,
     car: DesignCar,
-    ramps: Sequence[RampFloor],
     spans: Sequence[FloorSpan],
     begin_m: float,
 ) -> _Run:
@@ -269,7 +261,7 @@ def _run(
         limits += [_most_m_s(one, other, piece, count, settings, car) for one, other in pairwise(curvatures.tolist())]
     plan_m = np.array(plan)
     points = path.at(plan_m)
-    rise = np.diff(floor_heights_m(ramps, spans, begin_m + plan_m, points.x_m, points.z_m))
+    rise = np.diff(floor_heights_m(spans, begin_m + plan_m, points.x_m, points.z_m))
     steps = elementary.hypot(np.diff(plan_m), rise)
     square = np.append(np.array(limits) ** 2, 0.0)
     square[1:-1] = np.minimum(square[:-2], square[1:-1])

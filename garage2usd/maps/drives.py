@@ -1,26 +1,41 @@
-"""Planning of a drive through a garage: from stall, entrance and exit to the car's motion."""
+"""Drives through a garage: from the street over lanes and ramps into a stall, and back to the street."""
+# Over 300 lines: ways over straight ramps and helices differ in their pieces alone, so they stand beside each other.
 
-from collections import Counter
+import math
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
-from garage2usd.as_built.driven_road import driven_road
+from garage2usd.as_built.driven_floor import BEYOND_TOP_M
+from garage2usd.as_built.driven_road import bent_floors
 from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.ramp_line import Bend
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.spelling import find_named, spans_in_words
 from garage2usd.config.maps import DriveConfig, Leg
-from garage2usd.driving import DesignCar, Portal, StallProof
-from garage2usd.driving.route import Route, Router
+from garage2usd.driving import BentFloor, DesignCar, Portal, Pose, RampFloor
+from garage2usd.driving.manoeuvre import Gear
+from garage2usd.driving.path import Path, Piece
+from garage2usd.driving.road import FloorSpan
+from garage2usd.driving.route import Route
 from garage2usd.driving.timing import Motion, timed
 from garage2usd.driving.trajectory import Trajectory
-from garage2usd.driving.turns import Steering
 from garage2usd.garage import LaneKind, Stall
+from garage2usd.maps.level_routes import LevelRoutes
 
-__all__ = ["Drive", "DrivePlanner", "portals_asked", "unknown_stall"]
+__all__ = ["Drive", "DrivePlanner"]
 
-_NAMED = 6
 _STEP_S = 0.05
+_BEYOND_FOOT_M = 2.0
+_RISE_M = 0.01
+_EASING_M = 8.0
+"""Length of the clothoids on a helix between straights and circle: the car's rear then runs inside its middle line by
+about as much as its front runs outside."""
+_TURN_RAD = 1.5 * math.pi
+_HALVINGS = 60
+
+_Street = Mapping[LaneKind, tuple[Portal, ...]]
+"""Entrances and exits to the street that a drive may use."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,8 +79,34 @@ class Drive:
         }
 
 
+@dataclass(frozen=True)
+class _Part:
+    """A path on one level, or the way over a ramp between two.
+
+    Attributes
+    ----------
+    pieces
+        Pieces of the path.
+    level
+        Number of the level, the upper one of a ramp.
+    is_ramp
+        True on a ramp.
+    is_bent
+        True on a ramp that bends: it begins and ends on landings.
+    """
+
+    pieces: tuple[Piece, ...]
+    level: int
+    is_ramp: bool = False
+    is_bent: bool = False
+
+    @property
+    def length_m(self) -> float:
+        return sum(piece.length_m for piece in self.pieces)
+
+
 class DrivePlanner:
-    """Planner of drives through one garage, which reuses searches between stalls.
+    """Planner of drives through a garage.
 
     Parameters
     ----------
@@ -74,53 +115,18 @@ class DrivePlanner:
     settings, car
         Limits of the car's motion, and the car.
 
-    Raises
-    ------
-    ConfigError
-        If the garage's file has no lanes from an entrance to an exit.
+    Notes
+    -----
+    Each level is driven between its portals and landings (`garage2usd.maps.level_routes`), among the obstacles of this
+    level only. Straight ramps are driven along the line through their landings, helices on clothoids and a circle.
     """
 
     def __init__(
         self, garage: BuiltGarage, settings: DriveConfig | None = None, *, car: DesignCar | None = None
     ) -> None:
-        self._settings, self._car = settings or DriveConfig(), car or DesignCar()
-        if not garage.has_whole_graph or not garage.lanes.portals("entrance") or not garage.lanes.portals("exit"):
-            raise ConfigError("PATH", garage.source, "a garage whose lanes join an entrance and an exit")
-        self.road = driven_road(garage, car=self._car)
-        curvature, wheelbase_m = 1 / self._car.rear_axle_radius_m, self._car.wheelbase_m
-        # as fast as on a lane, or so slowly that the wheels turn on less way
-        rate, fast_m_s = self._settings.steering_rate_rad_s, self._settings.lane_speed_m_s
-        speeds_m_s = (fast_m_s, min(fast_m_s, self._settings.parking_speed_m_s))
-        steerings = [Steering(curvature, rate / (wheelbase_m * speed)) for speed in speeds_m_s]
-        self.router = Router(self.road, steerings, car=self._car)
-        self._outlines = {stall.name: stall for stall in garage.parking_stalls}
-        self._taken = {stall.name for stall in garage.taken_stalls}
-        self._driven = {stall.name: stall for stall in self.road.garage.stalls}
-        self._others = {stall.name: _names(stall) for stall in garage.stalls if stall.name not in self._outlines}
-
-    def route_of(self, stall: str | None, *, entrances: Sequence[Portal], exits: Sequence[Portal]) -> Route:
-        """Return the route from one of some entrances into a stall, and out to one of some exits.
-
-        Parameters
-        ----------
-        stall, entrances, exits
-            As for `drive`, the portals by themselves.
-
-        Raises
-        ------
-        ConfigError
-            If the stall does not exist, or no such route is found.
-        """
-        if not (entrances and exits):
-            raise ConfigError("stall", stall, "a stall that lanes and ramps join with the street")
-        lacks: Counter[str] = Counter()
-        for candidate in self._in_order() if stall is None else [self._stall(stall)]:
-            route = self.router.route(candidate, entrances=entrances, exits=exits)
-            if isinstance(route, Route):
-                return route
-            lacks[_lack(route)] += 1
-        lack = lacks.most_common(1)[0][0] if lacks else "a garage with a stall that takes a car"
-        raise ConfigError("stall", f"any of {lacks.total()}" if stall is None else stall, lack)
+        self._garage, self._settings, self._car = garage, settings or DriveConfig(), car or DesignCar()
+        self._routes: dict[int, LevelRoutes] = {}
+        self._bent: dict[int, tuple[BentFloor, ...]] = {}
 
     def drive(
         self,
@@ -135,10 +141,11 @@ class DrivePlanner:
         Parameters
         ----------
         stall
-            Name of the stall or its painted number, case-insensitive. If left out, the first free stall in the garage's
-            order with a feasible drive, or else the first stall with one.
+            Name of the stall, or its number with its level, ``U2/B2-07``; case-insensitive. If left out, the first free
+            stall of the lowest level with a feasible drive, or else the first stall of that level with one.
         entrance, exit
-            Numbers from 1 in the order of the squares, by rows; if left out, those of the shortest route.
+            Numbers of the portals to the street, from 1 in the order of the squares, by rows; if left out, those of the
+            shortest route.
         leg
             Leg to drive: to the stall, away from it, or both.
 
@@ -147,35 +154,207 @@ class DrivePlanner:
         ConfigError
             If the stall, entrance or exit does not exist, or no drive connects them.
         """
-        route = self.route_of(
-            stall,
-            entrances=portals_asked("entrance", entrance, self.router.portals(LaneKind.ENTRANCE)),
-            exits=portals_asked("exit", exit, self.router.portals(LaneKind.EXIT)),
+        street = {
+            kind: _portals_asked(field, number, self._ends(0, kind, from_above=True))
+            for kind, field, number in (
+                (LaneKind.ENTRANCE, "entrance", entrance),
+                (LaneKind.EXIT, "exit", exit),
+            )
+        }
+        found = None if stall is None else self._stall(stall)
+        driven = self._garage.lanes.driven
+        joined = [each for each in self._garage.stalls if each.takes_cars and each.access in driven]
+        if not joined or (found is not None and found not in joined):
+            raise ConfigError("stall", stall, "a stall that lanes and ramps join with the street")
+        level = max(each.level for each in joined) if found is None else found.level
+        place = self._garage.levels[level].place
+        route = self._on(level).route_of(
+            None if found is None else place.own_name(found.name),
+            entrances=self._to_street(level, LaneKind.ENTRANCE, street),
+            exits=self._to_street(level, LaneKind.EXIT, street),
         )
-        return Drive(route, leg, self._motion(route, leg), self._car, self._settings)
+        into, start = self._led(level, route.entrance, _Part(route.arrival.pieces, level), street, is_in=True)
+        out, end = self._led(level, route.exit, _Part(route.departure.pieces, level), street, is_in=False)
+        arrival = Path(start.pose, tuple(piece for part in into for piece in part.pieces))
+        departure = Path(route.departure.start, tuple(piece for part in out for piece in part.pieces))
+        whole = Route(place.in_whole(route.stall), route.nose, start, end, arrival, departure, route.is_full)
+        parts = {Leg.IN: into, Leg.OUT: out, Leg.BOTH: [*into, *out]}[leg]
+        path = {Leg.IN: arrival, Leg.OUT: departure, Leg.BOTH: arrival.then(departure.pieces)}[leg]
+        parked_after = len(arrival.pieces) if leg is Leg.BOTH else None
+        motion = timed(path, self._settings, car=self._car, parked_after=parked_after, spans=self._spans(parts))
+        return Drive(whole, leg, motion, self._car, self._settings)
 
-    def _motion(self, route: Route, leg: Leg) -> Motion:
-        path, parked_after = route.arrival, None
-        if leg is Leg.OUT:
-            path = route.departure
-        elif leg is Leg.BOTH:
-            path, parked_after = route.arrival.then(route.departure.pieces), len(route.arrival.pieces)
-        return timed(path, self._settings, car=self._car, ramps=self.road.ramps, parked_after=parked_after)
+    def is_driven_through(self) -> bool:
+        """Return True if a drive is found from the street to the lowest level, and one from there back to the street.
+
+        The first, the middle and the last stall of that level are tried.
+        """
+        street = {kind: self._ends(0, kind, from_above=True) for kind in (LaneKind.ENTRANCE, LaneKind.EXIT)}
+        lowest = len(self._garage.levels) - 1
+        for level in range(lowest):
+            router = self._on(level).router
+            down = self._to_street(level, LaneKind.ENTRANCE, street), self._ends(level, LaneKind.EXIT, from_above=False)
+            up = self._ends(level, LaneKind.ENTRANCE, from_above=False), self._to_street(level, LaneKind.EXIT, street)
+            for entrances, exits in (down, up):
+                if not any(router.through(entrance, exits) for entrance in entrances):
+                    return False
+        names = [stall.name for stall in self._garage.stalls if stall.takes_cars and stall.level == lowest]
+        middle = len(names) // 2
+        return any(self._is_driven_to(name) for name in (*names[:1], *names[middle : middle + 1], *names[-1:]))
+
+    def _is_driven_to(self, stall: str) -> bool:
+        try:
+            self.drive(stall)
+        except ConfigError:
+            return False
+        return True
 
     def _stall(self, asked: str) -> Stall:
-        names = find_named(asked, {name: _names(outline) for name, outline in self._outlines.items()})
+        stalls = {stall.name: stall for stall in self._garage.stalls if stall.takes_cars}
+        names = find_named(asked, {name: _names(stall) for name, stall in stalls.items()})
         if len(names) == 1:
-            return self._driven[names[0]]
-        if find_named(asked, self._others):
+            return stalls[names[0]]
+        others = {stall.name: _names(stall) for stall in self._garage.stalls if not stall.takes_cars}
+        if find_named(asked, others):
             raise ConfigError("stall", asked, "a stall that takes a car, which this one does not")
-        raise unknown_stall(asked, self._outlines.values(), names)
+        raise _unknown_stall(asked, stalls.values(), names)
 
-    def _in_order(self) -> list[Stall]:
-        """Order the stalls for cars as in the garage, free ones first."""
-        return sorted((self._driven[name] for name in self._outlines), key=lambda stall: stall.name in self._taken)
+    def _on(self, level: int) -> LevelRoutes:
+        if level not in self._routes:
+            self._routes[level] = LevelRoutes(self._garage.levels[level], self._settings, self._car)
+        return self._routes[level]
+
+    def _ends(self, level: int, kind: LaneKind, *, from_above: bool) -> tuple[Portal, ...]:
+        """Return the portals of a level that lead to the level above or the street, or else to the level below."""
+        garage = self._garage.levels[level]
+        portals = self._on(level).router.portals(kind)
+        names = self._below(level)
+        return tuple(
+            portal for portal in portals if (portal.name in garage.landings and portal.name in names) is not from_above
+        )
+
+    def _to_street(self, level: int, kind: LaneKind, street: _Street) -> tuple[Portal, ...]:
+        """Return the portals of a level that lead towards the street: of the top level, the chosen ones."""
+        return self._ends(level, kind, from_above=True) if level else street[kind]
+
+    def _below(self, level: int) -> frozenset[str]:
+        """Return the names of the landings of a level at the heads of ramps from and to the level below."""
+        lanes = self._garage.lanes
+        floor_m = self._garage.levels[level].place.floor_m
+        names = set()
+        for node, number in ((node, number) for number, node in enumerate(lanes.nodes) if node.level == level):
+            lower = [other for other in lanes.beside[number] if lanes.nodes[other].level == level + 1]
+            if lower and abs(node.height_m - floor_m) < _RISE_M:
+                names.add(node.name.rpartition("/")[2])
+        return frozenset(names)
+
+    def _led(
+        self, level: int, portal: Portal, part: _Part, street: _Street, *, is_in: bool
+    ) -> tuple[list[_Part], Portal]:
+        """Lead a path on from a level's landing to the street, or from the street to it."""
+        parts, end = [part], portal
+        for upper in range(level - 1, -1, -1):
+            planner = self._on(upper)
+            pose, portal_name = end.pose, end.name
+            if is_in:
+                exits = self._ends(upper, LaneKind.EXIT, from_above=False)
+                entrances = self._to_street(upper, LaneKind.ENTRANCE, street)
+            else:
+                exits = self._to_street(upper, LaneKind.EXIT, street)
+                entrances = self._ends(upper, LaneKind.ENTRANCE, from_above=False)
+            found = [
+                (path, entrance, exit_)
+                for entrance in entrances
+                if (led := planner.router.through(entrance, exits)) is not None
+                for path, exit_ in [led]
+            ]
+            if not found:
+                raise ConfigError("stall", portal.name, f"a garage whose level {upper + 1} is driven through")
+            path, entrance, exit_ = min(found, key=lambda each: each[0].length_m)
+            one, other = (path.end, pose) if is_in else (pose, path.start)
+            names = (exit_.name, portal_name) if is_in else (portal_name, entrance.name)
+            between = self._over_ramp(upper, one, other, names)
+            own = _Part(path.pieces, upper)
+            parts = [own, between, *parts] if is_in else [*parts, between, own]
+            end = entrance if is_in else exit_
+        return parts, end
+
+    def _over_ramp(self, upper: int, one: Pose, other: Pose, landings: tuple[str, str]) -> _Part:
+        """Return the way over the ramp below a level, between poses on its landings, or at its top."""
+        nodes = self._garage.lanes.nodes
+        for line in self._garage.ramp_lines:
+            ends = [nodes[number] for number in (line.nodes[0], line.nodes[-1])]
+            names = tuple(end.name.rpartition("/")[2] for end in ends)
+            if {end.level for end in ends} == {upper, upper + 1} and names == landings:
+                bend = line.bend
+                if bend is not None:
+                    return _Part(_round(bend, one, other), upper, is_ramp=True, is_bent=True)
+                if not line.is_straight:
+                    wanted = "a garage whose ramps between levels are straight or three quarters of a circle"
+                    raise ConfigError("stall", landings[0], wanted)
+        run_m = math.hypot(other.x_m - one.x_m, other.z_m - one.z_m)
+        return _Part((Piece(Gear.FORWARD, run_m),), upper, is_ramp=True)
+
+    def _spans(self, parts: Sequence[_Part]) -> tuple[FloorSpan, ...]:
+        """Return the floors along the parts of a path; the level changes half way on a ramp.
+
+        A path on a level begins and ends at the tops of the ramps from above, and on the landings of those from below.
+        """
+        spans: list[FloorSpan] = []
+        along = 0.0
+        for before, part, after in zip([None, *parts], parts, [*parts[1:], None], strict=False):
+            end = along + part.length_m
+            ramps = [each for each in (before, after) if each is not None and each.is_ramp and not each.is_bent]
+            if part.is_bent and before is not None and after is not None:
+                floors = self._bent_floors(part.level + 1)
+                for end_m, level in ((along + part.length_m / 2, before.level), (end, after.level)):
+                    spans.append(FloorSpan(end_m, self._garage.levels[level].place.floor_m, floors))
+            elif not part.is_ramp:
+                upper = ramps[-1].level if ramps else None
+                if len(ramps) > 1:
+                    # the ramps from above and below lie over one another: they change at the foot of the upper one
+                    is_down = ramps[1].level == part.level
+                    foot_m = self._ramp_m(part.level) + _BEYOND_FOOT_M
+                    change_m = along + foot_m if is_down else end - foot_m
+                    spans.append(self._span(change_m, part.level, ramps[0].level))
+                reach_m = 0.0
+                if after is not None and after in ramps:
+                    is_down = after.level == part.level
+                    half_m = self._ramp_m(after.level + 1) / 2
+                    reach_m = after.length_m + half_m if is_down else -half_m
+                spans.append(self._span(end + reach_m, part.level, upper))
+            along = end
+        return tuple(spans)
+
+    def _bent_floors(self, lower: int) -> tuple[BentFloor, ...]:
+        """Return the floors of the helices down to a level, at their heights in the garage."""
+        if lower not in self._bent:
+            level = self._garage.levels[lower]
+            floors = bent_floors(level.things)
+            self._bent[lower] = tuple(floor.lifted(level.place.floor_m) for floor in floors)
+        return self._bent[lower]
+
+    def _ramp_m(self, lower: int) -> float:
+        """Return the length of the ramps down to a level, as seen from above."""
+        runs_m = [float(ramp.runs_m[-1] - ramp.runs_m[0]) for ramp in self._on(lower).road.ramps]
+        if not runs_m:
+            name = self._garage.levels[lower].place.name
+            raise ConfigError("stall", name, "a level whose ramps have a straight floor to drive on")
+        return max(runs_m)
+
+    def _span(self, end_m: float, level: int, upper: int | None) -> FloorSpan:
+        """Return the floors of a level with the ramps down from an upper level, and with those to the street."""
+        own_m = self._garage.levels[level].place.floor_m
+        ramps = [] if level else [_lifted(ramp, own_m, math.inf) for ramp in self._on(0).road.ramps]
+        if upper is not None:
+            foot_m = self._garage.levels[upper + 1].place.floor_m
+            ramps += [
+                _lifted(ramp, foot_m, float(ramp.runs_m[-1]) + BEYOND_TOP_M) for ramp in self._on(upper + 1).road.ramps
+            ]
+        return FloorSpan(end_m, own_m, tuple(ramps))
 
 
-def portals_asked(field: str, number: int | None, portals: Sequence[Portal]) -> tuple[Portal, ...]:
+def _portals_asked(field: str, number: int | None, portals: Sequence[Portal]) -> tuple[Portal, ...]:
     """Return the entrance or exit of a number from 1 on, or all of them.
 
     Raises
@@ -190,7 +369,7 @@ def portals_asked(field: str, number: int | None, portals: Sequence[Portal]) -> 
     return (portals[number - 1],)
 
 
-def unknown_stall(asked: str, stalls: Collection[Stall], found: Sequence[str]) -> ConfigError:
+def _unknown_stall(asked: str, stalls: Collection[Stall], found: Sequence[str]) -> ConfigError:
     """Make the error on a stall that no stall, or several are called; it lists the painted numbers."""
     if found:
         return ConfigError("stall", asked, f"a number that is painted once, or else a name: {', '.join(found)}")
@@ -203,14 +382,38 @@ def _names(stall: Stall) -> list[str]:
     return [stall.name] if stall.number is None else [stall.name, str(stall.number)]
 
 
-def _lack(proof: StallProof) -> str:
-    """Explain why a stall cannot be the target of a drive."""
-    if proof.touched or proof.is_undecided:
-        named = ", ".join(proof.touched[:_NAMED]) or "nothing"
-        how = "in the way" if proof.is_single_cause else "touched"
-        undecided = "; undecided, as the search ended at its bound" if proof.is_undecided else ""
-        return f"a stall that the design car gets into and out of{undecided}; {how}: {named}"
-    if proof.nose is None:
-        return "a stall beside a lane that is driven to from an entrance and on to an exit without turning round"
-    ways = [name for name, way in (("from the entrance", proof.way_in), ("to the exit", proof.way_out)) if way is None]
-    return f"a stall with a path over the lanes {' and '.join(ways)}, on which none was found that is smooth and clear"
+def _lifted(ramp: RampFloor, floor_m: float, end_m: float) -> RampFloor:
+    return replace(ramp, heights_m=ramp.heights_m + floor_m, end_m=end_m)
+
+
+def _round(bend: Bend, one: Pose, other: Pose) -> tuple[Piece, ...]:
+    """Return the pieces of the way round a bend: straight, clothoid, circle, clothoid, straight."""
+    (x, z), (in_x, in_z), (out_x, out_z) = bend.crossing, bend.way_in, bend.way_out
+    sign = 1.0 if bend.is_left else -1.0
+    low, high = bend.radius_m / 2, bend.radius_m
+    for _ in range(_HALVINGS):  # the circle of the clothoids has its middle where that of the bend is
+        radius = (low + high) / 2
+        _, aside = _middle_of(radius)
+        low, high = (low, radius) if aside > bend.radius_m else (radius, high)
+    ahead, _ = _middle_of(radius)
+    before = (x - one.x_m) * in_x + (z - one.z_m) * in_z + bend.radius_m - ahead
+    after = (other.x_m - x) * out_x + (other.z_m - z) * out_z + bend.radius_m - ahead
+    if min(before, after) < 0:
+        raise ConfigError("stall", [x, z], "a garage whose helices have room for a car's steering before their circle")
+    curvature = sign / radius
+    circle_m = _TURN_RAD * radius - _EASING_M
+    return (
+        Piece(Gear.FORWARD, before),
+        Piece(Gear.FORWARD, _EASING_M, 0.0, curvature),
+        Piece(Gear.FORWARD, circle_m, curvature, curvature),
+        Piece(Gear.FORWARD, _EASING_M, curvature, 0.0),
+        Piece(Gear.FORWARD, after),
+    )
+
+
+def _middle_of(radius: float) -> tuple[float, float]:
+    """Return how far ahead and aside of a clothoid's start the middle of the circle lies that it leads into."""
+    end = Path(Pose(0.0, 0.0, 0.0), (Piece(Gear.FORWARD, _EASING_M, 0.0, 1 / radius),)).end
+    # at yaw 0 a car looks along -Z, with its left at -X
+    turned = _EASING_M / (2 * radius)
+    return -end.z_m - radius * math.sin(turned), -end.x_m + radius * math.cos(turned)

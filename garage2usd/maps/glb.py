@@ -163,7 +163,7 @@ class _Level(NamedTuple):
 def _levels(glb: GlbFile, stage: Usd.Stage) -> list[_Level]:
     """Add the nodes of the levels of a garage of several; return the levels, then the rest of the garage."""
     lanes, found = read_lanes(stage).stalls, []
-    places = levels_of(stage)
+    places = [place for place in levels_of(stage) if not place.is_only]
     for number, place in enumerate(places):
         matrix, inverse = np.eye(4), np.eye(4)
         matrix[3, 1], inverse[3, 1] = place.floor_m, -place.floor_m

@@ -3,27 +3,25 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from pxr import Usd
-
-from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built import BuiltGarage, BuiltLevel
 from garage2usd.config.maps import MapsConfig
 from garage2usd.maps.lane_bounds import Bound, LaneBounds, lane_bounds
 from garage2usd.maps.lanelet2_parking import add_lots, add_stalls, stall_points
 from garage2usd.maps.lanelet2_stops import add_stops
+from garage2usd.maps.level_networks import LevelNetwork, level_networks
 from garage2usd.maps.network import LEFT, Network
 from garage2usd.maps.osm_file import Member, OsmFile
-from garage2usd.maps.road_builder import network_of
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.maps.xml_text import number_text
 
-__all__ = ["write_lanelet2", "write_lanelet2_levels"]
+__all__ = ["write_lanelet2"]
 
 _FORMAT = "1"
 _STRAIGHT_RAD = 0.1
 
 
 def write_lanelet2(
-    garage: BuiltGarage, path: Path, settings: MapsConfig, *, network: Network | None = None
+    garage: BuiltGarage, path: Path, settings: MapsConfig, *, networks: Sequence[LevelNetwork] | None = None
 ) -> tuple[LaneBounds, ...]:
     """Write a garage as a Lanelet2 map in the common map frame (`garage2usd.maps.frame`).
 
@@ -35,18 +33,18 @@ def write_lanelet2(
         The file, in an existing folder.
     settings
         Geographic position and speed limit.
-    network
-        Network of `garage2usd.maps.road_builder.network_of`, if already known.
+    networks
+        Roads of its levels by `garage2usd.maps.level_networks.level_networks`, if already known.
 
     Returns
     -------
     tuple of LaneBounds
-        The lanes of the lanelets.
+        The lanes of the lanelets, their heights over the floor of their level.
 
     Raises
     ------
     StageError
-        If the garage has no complete lane graph.
+        If a level has no complete lane graph, or a ramp leads to no landing.
 
     Notes
     -----
@@ -57,47 +55,24 @@ def write_lanelet2(
     Latitude and longitude follow the projection of the OpenDRIVE map. Stalls are those of
     `garage2usd.maps.lanelet2_parking`.
     """
-    return write_lanelet2_levels([(garage, network or network_of(garage), 0.0)], path, settings, stage=garage.stage)
-
-
-def write_lanelet2_levels(
-    levels: Sequence[tuple[BuiltGarage, Network, float]], path: Path, settings: MapsConfig, *, stage: Usd.Stage | None
-) -> tuple[LaneBounds, ...]:
-    """Write the levels of a garage as one Lanelet2 map.
-
-    Parameters
-    ----------
-    levels
-        Each level as a garage of its own, its roads, whose numbers differ from those of all other levels, and the
-        height of its floor.
-    path, settings
-        As for `write_lanelet2`.
-    stage
-        Stage of the whole garage, whose provenance the map tells.
-
-    Returns
-    -------
-    tuple of LaneBounds
-        The lanes of the lanelets, their heights over the floor of their level.
-    """
     osm = OsmFile(settings.latitude_deg, settings.longitude_deg)
     lanes: list[LaneBounds] = []
-    for garage, network, floor_m in levels:
-        osm.floor_m = floor_m
-        lanes += _add_level(osm, garage, network, settings)
-    facts = {name: str(value) for name, value in stage_facts(stage).items()}
+    for level, network in level_networks(garage) if networks is None else networks:
+        osm.floor_m = level.place.floor_m
+        lanes += _add_level(osm, level, network, settings)
+    facts = {name: str(value) for name, value in stage_facts(garage.stage).items()}
     version = facts.pop("version", "")
-    header = {"format_version": _FORMAT, "map_version": version, "name": Path(levels[0][0].source).stem, **facts}
+    header = {"format_version": _FORMAT, "map_version": version, "name": Path(garage.source).stem, **facts}
     osm.write(path, generator=f"garage2usd {version}".strip(), facts=header)
     return tuple(lanes)
 
 
-def _add_level(osm: OsmFile, garage: BuiltGarage, network: Network, settings: MapsConfig) -> tuple[LaneBounds, ...]:
+def _add_level(osm: OsmFile, level: BuiltLevel, network: Network, settings: MapsConfig) -> tuple[LaneBounds, ...]:
     """Write the lanes, stalls and stops of a level, and return its lanes."""
-    stalls = stall_points(osm, garage)
+    stalls = stall_points(osm, level)
     lanes = lane_bounds(network, osm)
-    feet = add_stalls(osm, garage, lanes, stalls)
-    stops = add_stops(osm, garage, lanes)
+    feet = add_stalls(osm, level, lanes, stalls)
+    stops = add_stops(osm, level, lanes)
     ways: dict[Bound, int] = {}
     for lane in lanes:
         for bound, is_left in ((lane.left, True), (lane.right, False)):

@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built import BuiltLevel
 from garage2usd.garage import Stall, StallKind, StallUse
 from garage2usd.layout.grounds import Grounds, grounds_of
 from garage2usd.maps.frame import map_points
@@ -184,11 +184,11 @@ def _along(line: shapely.LineString, run_m: float) -> Place:
     return point.x, point.y, 0.0
 
 
-def stall_points(osm: OsmFile, garage: BuiltGarage) -> list[_StallPoints]:
+def stall_points(osm: OsmFile, level: BuiltLevel) -> list[_StallPoints]:
     """Add the corners of all stalls and the ends of their parking spaces to a map, before all other points."""
-    corners_of: Floats = map_points([stall.corners for stall in garage.stalls]).reshape(-1, 4, 2)
+    corners_of: Floats = map_points([stall.corners for stall in level.stalls]).reshape(-1, 4, 2)
     # along the car: from mouth to rear, and in a parallel stall from one side to the other
-    first = np.array([int(stall.kind is StallKind.PARALLEL) for stall in garage.stalls], dtype=np.intp)
+    first = np.array([int(stall.kind is StallKind.PARALLEL) for stall in level.stalls], dtype=np.intp)
     order = (first[:, None] + np.arange(4)) % 4
     along: Floats = np.take_along_axis(corners_of, order[:, :, None], axis=1)
     ends_of: Floats = along.reshape(-1, 2, 2, 2).mean(axis=2)
@@ -198,7 +198,7 @@ def stall_points(osm: OsmFile, garage: BuiltGarage) -> list[_StallPoints]:
 
 
 def add_stalls(
-    osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds], stall_points: Sequence[_StallPoints]
+    osm: OsmFile, level: BuiltLevel, lanes: Sequence[LaneBounds], stall_points: Sequence[_StallPoints]
 ) -> Feet:
     """Write all stalls to a Lanelet2 map.
 
@@ -207,10 +207,10 @@ def add_stalls(
     ground between entry and lane is an area of the subtype `parking_access`, whose corners are points of the lane bound
     and of the stall. Hatched ground is a polygon of Autoware's type for it.
     """
-    taken = garage.taken_stalls
-    points_of = dict(zip(garage.stalls, stall_points, strict=True))
+    taken = level.taken_stalls
+    points_of = dict(zip(level.stalls, stall_points, strict=True))
     feet = Feet(osm, lanes, (point for points in stall_points for point in points.corners))
-    parking = [stall for stall in garage.stalls if stall.is_parked_in]
+    parking = [stall for stall in level.stalls if stall.is_parked_in]
     mouths = map_points([stall.corners[:2] for stall in parking]).reshape(-1, 2, 2)
     outwards = map_points([stall.outwards for stall in parking]).reshape(-1, 2)
     before_of = dict(zip(parking, feet.before(mouths, outwards), strict=True))

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built import BuiltLevel
 from garage2usd.layout.grounds import hulls_of
 from garage2usd.maps.frame import map_points
 from garage2usd.maps.lane_bounds import LaneBounds
@@ -33,15 +33,15 @@ class _Thing(NamedTuple):
     outline: shapely.Geometry
 
 
-def add_stops(osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds]) -> dict[LaneBounds, list[int]]:
+def add_stops(osm: OsmFile, level: BuiltLevel, lanes: Sequence[LaneBounds]) -> dict[LaneBounds, list[int]]:
     """Write a stop line and a regulatory element for each gate and each speed bump.
 
     Parameters
     ----------
     osm
         The file.
-    garage
-        The garage.
+    level
+        The level.
     lanes
         All lanes.
 
@@ -63,7 +63,7 @@ def add_stops(osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds]) ->
         before[start if lane.lane == LEFT else end].append(lane)
     rules: dict[tuple[LaneBounds, str], int] = {}
     by_place = shapely.STRtree([shapely.Polygon(lane.ground) for lane in lanes])
-    for thing in _things(garage):
+    for thing in _things(level):
         touched = sorted(by_place.query(thing.outline, predicate="intersects").tolist())
         crossed = [(index, across) for index in touched if (across := _across(lanes[index], thing)) is not None]
         if touched and not crossed:  # a raised arm, folded before the middle of the lane
@@ -84,8 +84,8 @@ def add_stops(osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds]) ->
     return found
 
 
-def _things(garage: BuiltGarage) -> Iterator[_Thing]:
-    for thing in garage.things:
+def _things(level: BuiltLevel) -> Iterator[_Thing]:
+    for thing in level.things:
         if thing.label in _SIGNS:
             pieces = [map_points(outline) for body in thing.bodies for outline, _, _ in body.pieces()]
             outline = shapely.union_all(hulls_of(pieces)).buffer(_STEP_M)

@@ -1,15 +1,15 @@
-"""Road networks of a garage of several levels: those of each level, joined over the ramps between levels."""
+"""Road networks of a garage: those of its levels, joined over the ramps between them."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
-from garage2usd.as_built import BuiltGarage
-from garage2usd.as_built.levels import BuiltLevels
+from garage2usd.as_built import BuiltGarage, BuiltLevel
 from garage2usd.as_built.ramp_line import Bend, RampLine
 from garage2usd.common.errors import StageError
+from garage2usd.garage import Stall
 from garage2usd.maps.frame import map_point
 from garage2usd.maps.network import Lanes, Neighbour, Network, Road
 from garage2usd.maps.reference_line import Arc, Point, ReferenceLine
@@ -27,17 +27,14 @@ class LevelNetwork(NamedTuple):
 
     Attributes
     ----------
-    garage
-        The level as a garage of its own; ids and numbers of its stalls begin with the name of the level.
+    level
+        The level; ids and numbers of its stalls are those in the whole garage.
     network
         Its roads, with numbers that no other level has.
-    floor_m
-        Height of its floor.
     """
 
-    garage: BuiltGarage
+    level: BuiltLevel
     network: Network
-    floor_m: float
 
 
 class _End(NamedTuple):
@@ -55,7 +52,7 @@ class _End(NamedTuple):
         return self.road.height_m(0.0 if self.at_start else self.road.line.length_m)
 
 
-def level_networks(garage: BuiltLevels) -> tuple[LevelNetwork, ...]:
+def level_networks(garage: BuiltGarage) -> tuple[LevelNetwork, ...]:
     """Build the road networks of all levels and join them over the ramps.
 
     Raises
@@ -66,19 +63,16 @@ def level_networks(garage: BuiltLevels) -> tuple[LevelNetwork, ...]:
     found: list[LevelNetwork] = []
     first = 0
     for number, level in enumerate(garage.levels):
-        stalls = tuple(stall for stall in garage.stalls if stall.level == number)
-        own = {stall.name: stall.access for stall in level.garage.stalls}
-        here = tuple(replace(stall, access=own[stall.name.partition("/")[2]]) for stall in stalls)
-        one = replace(level.garage, stalls=here)
-        network = _numbered(network_of(one), first, level.place.floor_m)
+        here = _with_names_in_whole(level, [stall for stall in garage.stalls if stall.level == number])
+        network = _numbered(network_of(here), first, level.place.floor_m)
         first += len(network.roads) + len(network.junctions)
-        found.append(LevelNetwork(one, network, level.place.floor_m))
+        found.append(LevelNetwork(here, network))
     nodes = garage.lanes.nodes
     linked = [{nodes[number].level for number in (line.nodes[0], line.nodes[-1])} for line in garage.ramp_lines]
     for number, (upper, lower) in enumerate(pairwise(found)):
         if {number, number + 1} not in linked:
             continue
-        rise_m = upper.floor_m - lower.floor_m
+        rise_m = upper.level.place.floor_m - lower.level.place.floor_m
         tops = [end for end in _open_ends(lower.network) if abs(end.height_m - rise_m) < _LEVEL_M]
         landings = [end for end in _open_ends(upper.network) if abs(end.height_m) < _LEVEL_M]
         for top in tops:
@@ -97,11 +91,20 @@ def level_networks(garage: BuiltLevels) -> tuple[LevelNetwork, ...]:
     return tuple(found)
 
 
-def _add_bent(garage: BuiltLevels, found: list[LevelNetwork], line: RampLine, bend: Bend, number: int) -> None:
+def _with_names_in_whole(level: BuiltLevel, stalls: Sequence[Stall]) -> BuiltLevel:
+    """Return a level whose stalls have their ids and numbers in the whole garage."""
+    if level.place.is_only:
+        return level
+    access = {stall.name: stall.access for stall in level.stalls}
+    own = (replace(stall, access=access[level.place.own_name(stall.name)]) for stall in stalls)
+    return replace(level, stalls=tuple(own))
+
+
+def _add_bent(garage: BuiltGarage, found: list[LevelNetwork], line: RampLine, bend: Bend, number: int) -> None:
     """Add the road of a helix to the network of the level at its foot, from landing to landing."""
     start, end = (garage.lanes.nodes[node] for node in (line.nodes[0], line.nodes[-1]))
     lower = max(start.level, end.level)
-    floor_m = found[lower].floor_m
+    floor_m = found[lower].level.place.floor_m
     ends = []
     for node, border in ((start, 1), (end, -2)):
         place = map_point((float(line.places[border, 0]), float(line.places[border, 2])))

@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built import BuiltLevel
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.maps import GridConfig
 from garage2usd.garage import StallUse
@@ -48,13 +48,13 @@ def grid_files(path: Path, grid: GridConfig, *, joint: str = "_") -> tuple[Path,
     return tuple(file for yaml in maps for file in (yaml, yaml.with_suffix(".pgm")))
 
 
-def write_grid(garage: BuiltGarage, path: Path, grid: GridConfig, *, joint: str = "_") -> tuple[Path, ...]:
+def write_grid(level: BuiltLevel, path: Path, grid: GridConfig, *, joint: str = "_") -> tuple[Path, ...]:
     """Write the occupancy grid of a garage: a YAML file and its picture (PGM).
 
     Parameters
     ----------
-    garage
-        The garage.
+    level
+        The level.
     path
         The YAML file, in an existing folder. The picture ``<stem>.pgm`` is written beside it, as are requested masks,
         ``<stem>_keepout`` and ``<stem>_speed``, each a YAML file and a picture.
@@ -87,21 +87,21 @@ def write_grid(garage: BuiltGarage, path: Path, grid: GridConfig, *, joint: str 
     The masks have the mode raw, in which a grey is the value itself: 100 keeps out, and a speed is a percentage of the
     robot's own, 0 without a limit (filter type 1 with a base of 0 and a multiplier of 1).
     """
-    floor = floor_of(garage)
+    floor = floor_of(level)
     raster = _Raster.around(floor, grid.resolution_m)
     cells = np.full(raster.shape, _UNKNOWN, dtype=np.uint8)
     raster.fill(cells, floor, _FREE)
-    thin = _thickened(occupied_ground(garage, grid.low_m, grid.high_m), grid.resolution_m)
+    thin = _thickened(occupied_ground(level, grid.low_m, grid.high_m), grid.resolution_m)
     raster.fill(cells, thin, _OCCUPIED)
     _write(path, cells, raster, "trinary")
     if grid.keepout:
         mask = np.zeros(raster.shape, dtype=np.uint8)
-        raster.fill(mask, (stall.polygon for stall in garage.stalls if stall.use in _KEPT_FREE), _KEEP_OUT)
+        raster.fill(mask, (stall.polygon for stall in level.stalls if stall.use in _KEPT_FREE), _KEEP_OUT)
         _write(_mask_file(path, joint, _KEEP_OUT_MASK), mask, raster, "raw")
     if grid.speed:
         mask = np.zeros(raster.shape, dtype=np.uint8)
-        raster.fill(mask, ramp_floors(garage), _RAMP_PERCENT)
-        bumps = [solid.footprint.buffer(_BUMP_REACH_M) for solid in garage.solids.standing("speed_bump")]
+        raster.fill(mask, ramp_floors(level), _RAMP_PERCENT)
+        bumps = [solid.footprint.buffer(_BUMP_REACH_M) for solid in level.solids.standing("speed_bump")]
         raster.fill(mask, bumps, _BUMP_PERCENT)
         _write(_mask_file(path, joint, _SPEED_MASK), mask, raster, "raw")
     return grid_files(path, grid, joint=joint)

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 import shapely
 
-from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built import BuiltLevel
 from garage2usd.as_built.driven_road import floors_of_ramps
 from garage2usd.as_built.openings import section_of
 from garage2usd.as_built.placed_pieces import placed_pieces
@@ -24,7 +24,7 @@ _LEAST_UP = 0.1
 """Least upward component of a floor face's normal, which allows ramps with grooves."""
 
 
-def floor_of(garage: BuiltGarage) -> Grounds:
+def floor_of(level: BuiltLevel) -> Grounds:
     """Return the polygons of the garage's floors and ramps, (x, z) in metres.
 
     Raises
@@ -32,20 +32,20 @@ def floor_of(garage: BuiltGarage) -> Grounds:
     StageError
         If no object is labelled as a floor, so that the garage's extent is unknown.
     """
-    bodies = list(_bodies(garage, _FLOOR))
+    bodies = list(_bodies(level, _FLOOR))
     if not bodies:
-        raise StageError(garage.source, "nothing in it has the class floor, so that nothing says where it ends")
+        raise StageError(level.source, "nothing in it has the class floor, so that nothing says where it ends")
     tiles = placed_pieces(bodies, np.array([not body.shape.is_dented for body in bodies])).hulls
-    return np.array([*tiles, *ramp_floors(garage)], dtype=object)
+    return np.array([*tiles, *ramp_floors(level)], dtype=object)
 
 
-def ramp_floors(garage: BuiltGarage) -> Grounds:
+def ramp_floors(level: BuiltLevel) -> Grounds:
     """Return the floor polygon of each ramp."""
-    sheets = (body for body in _bodies(garage, _RAMP) if _is_sheet(body))
+    sheets = (body for body in _bodies(level, _RAMP) if _is_sheet(body))
     return hulls_of([body.world_points()[:, [0, 2]] for body in sheets])
 
 
-def occupied_ground(garage: BuiltGarage, low_m: float, high_m: float) -> Iterator[shapely.Geometry]:
+def occupied_ground(level: BuiltLevel, low_m: float, high_m: float) -> Iterator[shapely.Geometry]:
     """Yield convex footprints of all solids between two heights, (x, z) in metres.
 
     Notes
@@ -54,21 +54,21 @@ def occupied_ground(garage: BuiltGarage, low_m: float, high_m: float) -> Iterato
     is represented by its sections at every height where its shape changes, since its convex hull would close it. Ramps
     are included without their floors and the slabs that carry these.
     """
-    for solid in garage.solids.between(low_m, high_m):
+    for solid in level.solids.between(low_m, high_m):
         if solid.label not in {_DOOR, _RAMP, _DRIVEN_OVER}:
             yield solid.footprint
-    for thing in garage.things:
+    for thing in level.things:
         if thing.label == _DOOR:
             yield from _sections(thing, low_m, high_m)
-    for thing in garage.things:
+    for thing in level.things:
         if thing.label == _RAMP:
             for body in _beside_floor(thing):
                 pieces = body.pieces()
                 yield from hulls_of([outline for outline, low, high in pieces if low <= high_m and high >= low_m])
 
 
-def _bodies(garage: BuiltGarage, label: str) -> Iterator[Body]:
-    return (body for thing in garage.things if thing.label == label for body in thing.bodies)
+def _bodies(level: BuiltLevel, label: str) -> Iterator[Body]:
+    return (body for thing in level.things if thing.label == label for body in thing.bodies)
 
 
 def _is_sheet(body: Body) -> bool:

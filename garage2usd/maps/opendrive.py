@@ -13,6 +13,7 @@ from pxr import Usd
 from garage2usd.as_built import BuiltGarage
 from garage2usd.config.maps import MapsConfig
 from garage2usd.maps.frame import projection
+from garage2usd.maps.level_networks import LevelNetwork, level_networks
 from garage2usd.maps.network import LEFT, RIGHT, Junction, Neighbour, Network, Road
 from garage2usd.maps.opendrive_objects import (
     MapObject,
@@ -23,12 +24,11 @@ from garage2usd.maps.opendrive_objects import (
     solids_of,
     stalls_of,
 )
-from garage2usd.maps.road_builder import network_of
 from garage2usd.maps.road_places import RoadPlaces
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.maps.xml_text import child, write_xml
 
-__all__ = ["write_opendrive", "write_opendrive_levels"]
+__all__ = ["write_opendrive"]
 
 _CENTRE_LINE_M = 0.12
 _AROUND_M = 10.0
@@ -36,8 +36,8 @@ _AROUND_M = 10.0
 
 
 def write_opendrive(
-    garage: BuiltGarage, path: Path, settings: MapsConfig, *, network: Network | None = None
-) -> Network:
+    garage: BuiltGarage, path: Path, settings: MapsConfig, *, networks: Sequence[LevelNetwork] | None = None
+) -> Sequence[LevelNetwork]:
     """Write a garage as an OpenDRIVE 1.8 map in the common map frame (`garage2usd.maps.frame`).
 
     Parameters
@@ -48,18 +48,18 @@ def write_opendrive(
         The file, in an existing folder.
     settings
         Geographic position and speed limit.
-    network
-        Network of `garage2usd.maps.road_builder.network_of`, if already known.
+    networks
+        Roads of its levels by `garage2usd.maps.level_networks.level_networks`, if already known.
 
     Returns
     -------
-    Network
-        The roads of the file.
+    sequence of LevelNetwork
+        The roads of the file, level by level.
 
     Raises
     ------
     StageError
-        If the garage has no complete lane graph.
+        If a level has no complete lane graph, or a ramp leads to no landing.
 
     Notes
     -----
@@ -67,36 +67,18 @@ def write_opendrive(
     columns and walls lie beside straight roads (`garage2usd.maps.road_places`), with outlines as they stand in the
     stage. The projection is a transverse Mercator around the stage's origin, in which metres are metres.
     """
-    network = network or network_of(garage)
-    write_opendrive_levels([(garage, network)], path, settings, stage=garage.stage)
-    return network
-
-
-def write_opendrive_levels(
-    levels: Sequence[tuple[BuiltGarage, Network]], path: Path, settings: MapsConfig, *, stage: Usd.Stage | None
-) -> None:
-    """Write the levels of a garage as one OpenDRIVE 1.8 map.
-
-    Parameters
-    ----------
-    levels
-        Each level as a garage of its own and its roads, whose numbers differ from those of all other levels.
-    path, settings
-        As for `write_opendrive`.
-    stage
-        Stage of the whole garage, whose provenance the header tells.
-    """
+    levels = level_networks(garage) if networks is None else networks
     first_number = 1 + sum(len(network.roads) + len(network.junctions) for _, network in levels)
     objects: dict[Road, list[tuple[int, MapObject]]] = defaultdict(list)
     signals: dict[Road, list[tuple[int, Signal]]] = defaultdict(list)
     roads: list[Road] = []
     number = 0
-    for garage, network in levels:
-        places = RoadPlaces(network, garage.stalls, first_number=first_number)
-        for thing in (*stalls_of(garage, places, network), *solids_of(garage, places)):
+    for level, network in levels:
+        places = RoadPlaces(network, level.stalls, first_number=first_number)
+        for thing in (*stalls_of(level, places, network), *solids_of(level, places)):
             number += 1
             objects[thing.road].append((number, thing))
-        for sign in signals_of(garage, places):
+        for sign in signals_of(level, places):
             number += 1
             signals[sign.road].append((number, sign))
         for line in places.lines:
@@ -104,18 +86,18 @@ def write_opendrive_levels(
         first_number += len(places.lines)
         roads += [*network.roads, *places.lines]
     root = ET.Element("OpenDRIVE")
-    networks = [network for _, network in levels]
-    _add_header(root, levels[0][0].source, stage, networks, settings)
+    _add_header(root, garage.source, garage.stage, [network for _, network in levels], settings)
     for road in roads:
         element = _add_road(root, road, settings)
         if road in objects:
             add_objects(child(element, "objects"), objects[road])
         if road in signals:
             add_signals(child(element, "signals"), signals[road])
-    for network in networks:
+    for _, network in levels:
         for junction in network.junctions:
             _add_junction(root, junction, network)
     write_xml(root, path)
+    return levels
 
 
 def _add_header(

@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built import BuiltLevel
 from garage2usd.as_built.shapes import Thing
 from garage2usd.garage import Stall, StallUse
 from garage2usd.maps.frame import heading_rad, map_point, map_points
@@ -103,15 +103,15 @@ class Signal(NamedTuple):
     width_m: float
 
 
-def stalls_of(garage: BuiltGarage, places: RoadPlaces, network: Network) -> Iterator[MapObject]:
+def stalls_of(level: BuiltLevel, places: RoadPlaces, network: Network) -> Iterator[MapObject]:
     """Yield the stalls of a garage as OpenDRIVE objects, with their corners as in `Stall`.
 
     Axis u leads from the tail to the nose of a car parked nose in.
     """
-    taken = garage.taken_stalls
+    taken = level.taken_stalls
     through = {number: road for road in network.roads if road.junction is None for number in road.nodes}
     meeting = {junction.node: junction.number for junction in network.junctions}
-    for stall in garage.stalls:
+    for stall in level.stalls:
         road, s_m, t_m = places.of_stall(stall)
         ahead = map_point(stall.backwards)
         heading = math.atan2(-ahead[1], -ahead[0])
@@ -136,10 +136,10 @@ def stalls_of(garage: BuiltGarage, places: RoadPlaces, network: Network) -> Iter
         )
 
 
-def solids_of(garage: BuiltGarage, places: RoadPlaces) -> Iterator[MapObject]:
+def solids_of(level: BuiltLevel, places: RoadPlaces) -> Iterator[MapObject]:
     """Yield the outlines of columns, walls, obstacles, gates and speed bumps; walls in line are merged."""
     pieces: dict[str, list[tuple[str, shapely.Polygon, float, float]]] = {label: [] for label in _TYPES}
-    for solid in garage.solids.standing(*_TYPES):
+    for solid in level.solids.standing(*_TYPES):
         outline = shapely.transform(solid.footprint, map_points)
         pieces[solid.label].append((solid.name, outline, solid.bottom_m, solid.top_m))
     for label, found in pieces.items():
@@ -152,9 +152,9 @@ def solids_of(garage: BuiltGarage, places: RoadPlaces) -> Iterator[MapObject]:
             yield MapObject(road, s_m, t_m, 0.0, corners, name, *_TYPES[label], bottom_m, height_m)
 
 
-def signals_of(garage: BuiltGarage, places: RoadPlaces) -> Iterator[Signal]:
+def signals_of(level: BuiltLevel, places: RoadPlaces) -> Iterator[Signal]:
     """Yield the signs of a garage as OpenDRIVE signals."""
-    for thing in garage.things:
+    for thing in level.things:
         if thing.label in _SIGNS and thing.bodies:
             yield _signal(thing, places)
 

@@ -8,12 +8,12 @@ import numpy as np
 import shapely
 
 from garage2usd.as_built.garage import BuiltGarage
-from garage2usd.as_built.levels import BuiltLevels
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.as_built.placed_pieces import placed_pieces
 from garage2usd.native import elementary
 from garage2usd.objects import CAR_LABELS
 
-__all__ = ["ParkedCar", "parked_cars", "parked_cars_of_levels"]
+__all__ = ["ParkedCar", "parked_cars"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,48 +43,35 @@ class ParkedCar:
     floor_m: float = 0.0
 
 
-def parked_cars_of_levels(garage: BuiltLevels, *, free: Collection[str] = ()) -> list[ParkedCar]:
-    """Return the parked cars of all levels, at the heights of their floors, as `parked_cars`.
-
-    Parameters
-    ----------
-    garage
-        The garage.
-    free
-        Names of stalls whose cars are ignored; they begin with the name of the level.
-    """
-    cars = [
-        replace(car, floor_m=level.place.floor_m)
-        for level in garage.levels
-        for car in parked_cars(level.garage, free=level.own_names(free))
-    ]
-    return [replace(car, name=f"Car_{number}") for number, car in enumerate(cars, 1)]
-
-
 def parked_cars(garage: BuiltGarage, *, free: Collection[str] = ()) -> list[ParkedCar]:
-    """Return the parked cars of a garage as boxes around their bodies, in prim order.
+    """Return the parked cars of a garage as boxes around their bodies, level by level in prim order.
 
     Parameters
     ----------
     garage
         The garage.
     free
-        Names of stalls whose cars are ignored.
+        Names of stalls in the whole garage whose cars are ignored.
 
     Notes
     -----
     A car looks to its own -Z, as those of garage2usd's catalogue do; its name in a scenario is ``Car_1`` and so on. The
     box excludes the mirrors, whose width would block passing cars. ASAM OSI also defines vehicle boxes without mirrors.
     """
+    cars = [car for level in garage.levels for car in _on_level(level, free)]
+    return [replace(car, name=f"Car_{number}") for number, car in enumerate(cars, 1)]
+
+
+def _on_level(level: BuiltLevel, free: Collection[str]) -> list[ParkedCar]:
     cars: list[ParkedCar] = []
-    things = [thing for thing in garage.things if thing.label in CAR_LABELS and thing.bodies]
+    things = [thing for thing in level.things if thing.label in CAR_LABELS and thing.bodies]
     bodies = [body for thing in things for body in thing.bodies]
     pieces = placed_pieces(bodies, np.ones(len(bodies), dtype=bool))
     first = np.cumsum([0, *(len(thing.bodies) for thing in things)])
     corners = np.cumsum([0, *pieces.counts.tolist()])
     for number, thing in enumerate(things):
-        ground, home = garage.cars.get(thing.name, (None, None))
-        if home is not None and home.name in free:
+        ground, home = level.cars.get(thing.name, (None, None))
+        if home is not None and level.place.in_whole(home.name) in free:
             continue
         back = thing.bodies[0].matrix[2, [0, 2]]
         yaw = math.atan2(back[0], back[1])
@@ -101,12 +88,13 @@ def parked_cars(garage: BuiltGarage, *, free: Collection[str] = ()) -> list[Park
         width, length = (high - low).tolist()
         cars.append(
             ParkedCar(
-                f"Car_{len(cars) + 1}",
+                "",
                 (float(middle[0]), float(middle[1])),
                 yaw,
                 length,
                 width,
                 float(height_m),
+                level.place.floor_m,
             )
         )
     return cars

@@ -5,11 +5,11 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built import BuiltLevel
 from garage2usd.config.maps import ParkingAreas, SumoConfig
 from garage2usd.garage import Stall, StallUse
 from garage2usd.maps.frame import map_point
-from garage2usd.maps.network import Network
+from garage2usd.maps.level_networks import LevelNetwork
 from garage2usd.maps.parking_lanes import ParkingLane, ParkingLanes, ParkingSpace, driven_lanes
 from garage2usd.maps.xml_text import child, write_xml
 from garage2usd.native import elementary
@@ -28,7 +28,7 @@ _SEPARATOR = " "
 
 
 def write_parking_areas(
-    levels: Sequence[tuple[BuiltGarage, Network]],
+    networks: Sequence[LevelNetwork],
     path: Path,
     settings: SumoConfig,
     *,
@@ -40,9 +40,8 @@ def write_parking_areas(
 
     Parameters
     ----------
-    levels
-        The garage and its network (`garage2usd.maps.road_builder.network_of`); of several levels each of them, with the
-        networks of `garage2usd.maps.level_networks.level_networks`.
+    networks
+        Roads of the garage's levels by `garage2usd.maps.level_networks.level_networks`.
     path
         The additional file (``.add.xml``), in an existing folder.
     settings
@@ -60,21 +59,21 @@ def write_parking_areas(
     the middle of the stall's far end for a car parked nose in. An angle of 0 points to -y, and positive ones turn
     counter-clockwise, in degrees; the documentation of SUMO says otherwise (its issue 18141).
     """
-    driven = driven_lanes(network for _, network in levels)
+    driven = driven_lanes(network for _, network in networks)
     root = ET.Element("additional")
-    for garage, network in levels:
+    for level, network in networks:
         lanes = ParkingLanes(network, driven)
-        spaces = list(_spaces(garage, lanes, remarks))
+        spaces = list(_spaces(level, lanes, remarks))
         for name, area in _areas(spaces, settings.areas):
-            _add_area(root, name, area, garage, settings)
+            _add_area(root, name, area, level, settings)
     write_xml(root, path)
     _write_configuration(network_file, road_file)
 
 
-def _spaces(garage: BuiltGarage, lanes: ParkingLanes, remarks: Remarks) -> Iterator[ParkingSpace]:
+def _spaces(level: BuiltLevel, lanes: ParkingLanes, remarks: Remarks) -> Iterator[ParkingSpace]:
     """Yield the stalls where cars park beside their lanes."""
-    parking = [stall for stall in garage.stalls if stall.is_parked_in]
-    for stall in garage.stalls:
+    parking = [stall for stall in level.stalls if stall.is_parked_in]
+    for stall in level.stalls:
         if not stall.is_parked_in:
             remarks.add("stalls where nobody parks are left out", stall.name)
     for stall in parking:
@@ -107,7 +106,7 @@ def _order(space: ParkingSpace) -> tuple[float, float, str]:
 
 
 def _add_area(
-    root: ET.Element, name: str, area: Sequence[ParkingSpace], garage: BuiltGarage, settings: SumoConfig
+    root: ET.Element, name: str, area: Sequence[ParkingSpace], level: BuiltLevel, settings: SumoConfig
 ) -> None:
     lane, use = area[0].lane, area[0].stall.use
     length_m = lane.road.line.length_m
@@ -132,12 +131,12 @@ def _add_area(
     facts = {
         "use": [str(use)],
         "stalls": names,
-        "occupied": [space.stall.name for space in area if space.stall in garage.taken_stalls],
+        "occupied": [space.stall.name for space in area if space.stall in level.taken_stalls],
     }
     for key, values in facts.items():
         child(element, "param", key=key, value=_SEPARATOR.join(values))
     for space in area:
-        _add_space(element, space.stall, garage.lanes.floor_m() + lane.road.floor_m)
+        _add_space(element, space.stall, level.lanes.floor_m() + lane.road.floor_m)
 
 
 def _add_space(element: ET.Element, stall: Stall, floor_m: float) -> None:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import shapely
 
-from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built import BuiltLevel
 from garage2usd.common.errors import StageError
 from garage2usd.driving import RampFloor
 from garage2usd.maps.network import LEFT, RIGHT, Junction, LaneLink, Lanes, Neighbour, Network, Road
@@ -22,7 +22,7 @@ _PROFILE_M = 5e-4
 _LEAST_M = 1e-6
 
 
-def network_of(garage: BuiltGarage) -> Network:
+def network_of(level: BuiltLevel) -> Network:
     """Build the road network of a garage's lane graph.
 
     A straight run of squares is one road, from one bend, junction, portal or dead end to the next. A bend is a road,
@@ -35,9 +35,9 @@ def network_of(garage: BuiltGarage) -> Network:
     StageError
         If the garage has no complete lane graph.
     """
-    if not garage.has_whole_graph or not garage.lanes.edges:
-        raise StageError(garage.source, "it has no whole lane graph, so that nothing says where its roads are")
-    return _Builder(road_nodes(garage)).network()
+    if not level.has_whole_graph or not level.lanes.edges:
+        raise StageError(level.source, "it has no whole lane graph, so that nothing says where its roads are")
+    return _Builder(road_nodes(level)).network()
 
 
 class _Meeting(NamedTuple):

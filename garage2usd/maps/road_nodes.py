@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built import BuiltLevel
 from garage2usd.as_built.driven_road import Mouth, portal_mouths
 from garage2usd.driving import RampFloor
 from garage2usd.garage import LaneGraph, LaneKind, LaneNode
@@ -111,12 +111,12 @@ class RoadNode:
         return opening.inside(2 * math.dist(opening.place, self.middle))
 
 
-def road_nodes(garage: BuiltGarage) -> tuple[RoadNode, ...]:
+def road_nodes(level: BuiltLevel) -> tuple[RoadNode, ...]:
     """Create a road node for each lane node and portal, in order."""
-    mouths = {mouth.number: mouth for mouth in portal_mouths(garage)}
+    mouths = {mouth.number: mouth for mouth in portal_mouths(level)}
     found = []
-    for number, node in enumerate(garage.lanes.nodes):
-        openings, mouth = tuple(_to_neighbours(garage.lanes, number)), mouths.get(number)
+    for number, node in enumerate(level.lanes.nodes):
+        openings, mouth = tuple(_to_neighbours(level.lanes, number)), mouths.get(number)
         # a door that opens onto a lane leads nowhere
         if mouth is None or any(_cosine(way.outwards, map_point(mouth.outwards)) > -_OPPOSITE for way in openings):
             found.append(RoadNode(number, node.name, map_point(node.position), openings))

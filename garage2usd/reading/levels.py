@@ -1,63 +1,46 @@
 """The levels of a stage: their prims, and each of them as a stage of its own."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
 from garage2usd.common.errors import StageError
+from garage2usd.garage.level_place import LEVELS_NAME, ONLY_LEVEL, LevelPlace
 from garage2usd.objects.ramp import KIND as RAMP
-from garage2usd.reading.whole_garage import LEVELS, garage_root, in_own_frame
+from garage2usd.reading.whole_garage import garage_root, in_own_frame
 from garage2usd.scenes.values import READ_AT, metres_y_up
 
-__all__ = [
-    "StageLevel",
-    "level_stage",
-    "levels_of",
-    "nearest_floor",
-    "paths_from_above",
-    "placed_level",
-    "refuse_levels",
-]
+__all__ = ["level_stage", "levels_of", "paths_from_above", "placed_level"]
 
 _COPIED = ("upAxis", "metersPerUnit", "kilogramsPerUnit", "timeCodesPerSecond", "startTimeCode", "endTimeCode")
 _KEPT = ("LaneGraph", "PhysicsScene")
 """Prims of a level that are inactive in the whole garage, which has them once."""
 
 
-class StageLevel(NamedTuple):
-    """A level of a stage.
+def levels_of(stage: Usd.Stage) -> list[LevelPlace]:
+    """Return the levels of a garage, the top one first: the garage itself where its stage has no levels.
 
-    Attributes
-    ----------
-    name
-        Name of its prim, ``U1``.
-    path
-        Path of its prim.
-    floor_m
-        Height of its floor.
+    Raises
+    ------
+    StageError
+        If the stage has levels of which none is active.
     """
-
-    name: str
-    path: str
-    floor_m: float
-
-
-def levels_of(stage: Usd.Stage) -> list[StageLevel]:
-    """Return the levels of a garage of several levels, the top one first; none of a garage of one level."""
     root = garage_root(stage)
-    group = root.GetChild(LEVELS) if root else None
+    group = root.GetChild(LEVELS_NAME) if root else None
     if not group:
-        return []
-    return [
-        StageLevel(prim.GetName(), prim.GetPath().pathString, round(float(_to_metres(stage, prim)[3, 1]), 6))
+        return [ONLY_LEVEL._replace(path=root.GetPath().pathString) if root else ONLY_LEVEL]
+    levels = [
+        LevelPlace(prim.GetName(), prim.GetPath().pathString, round(float(_to_metres(stage, prim)[3, 1]), 6))
         for prim in group.GetChildren()
     ]
+    if not levels:
+        raise StageError(stage.GetRootLayer().realPath, f"{group.GetPath()} has no active level")
+    return levels
 
 
-def placed_level(stage: Usd.Stage, level: StageLevel) -> NDArray[np.float64]:
+def placed_level(stage: Usd.Stage, level: LevelPlace) -> NDArray[np.float64]:
     """Return the transform from a level as a garage of its own to the whole, in metres with Y up, for row vectors."""
     to_metres = _to_metres(stage, stage.GetPrimAtPath(level.path))
     placed: NDArray[np.float64] = np.linalg.inv(_own_frame(stage, level, to_metres)) @ to_metres
@@ -71,19 +54,14 @@ def _to_metres(stage: Usd.Stage, prim: Usd.Prim) -> NDArray[np.float64]:
     return to_metres
 
 
-def _own_frame(stage: Usd.Stage, level: StageLevel, to_metres: NDArray[np.float64]) -> NDArray[np.float64]:
+def _own_frame(stage: Usd.Stage, level: LevelPlace, to_metres: NDArray[np.float64]) -> NDArray[np.float64]:
     own = in_own_frame(to_metres)
     if own is None:
         raise StageError(stage.GetRootLayer().realPath, f"{level.path} has a scale of 0, so nothing in it has a size")
     return own
 
 
-def nearest_floor(floors_m: Sequence[float], height_m: float) -> int:
-    """Return the index of the floor of the level at a height; on a ramp it changes half way."""
-    return min(range(len(floors_m)), key=lambda index: abs(floors_m[index] - height_m))
-
-
-def paths_from_above(levels: Sequence[StageLevel], index: int) -> tuple[str, ...]:
+def paths_from_above(levels: Sequence[LevelPlace], index: int) -> tuple[str, ...]:
     """Return the beginnings of the paths of what a map shows of a level: its own objects, and the ramps down from it.
 
     Parameters
@@ -97,8 +75,10 @@ def paths_from_above(levels: Sequence[StageLevel], index: int) -> tuple[str, ...
     return (f"{levels[index].path}/", *ramps_down)
 
 
-def level_stage(stage: Usd.Stage, level: StageLevel) -> Usd.Stage:
+def level_stage(stage: Usd.Stage, level: LevelPlace) -> Usd.Stage:
     """Open a level of a stage as the stage of a garage of this level alone, with its floor at 0."""
+    if level.is_only:
+        return stage
     source = stage.GetRootLayer()
     path, session = Sdf.Path(level.path), stage.GetSessionLayer()
     layer = Sdf.Layer.CreateAnonymous(".usda")
@@ -125,23 +105,3 @@ def level_stage(stage: Usd.Stage, level: StageLevel) -> Usd.Stage:
         for kept in _KEPT:
             Sdf.CreatePrimInLayer(layer, root.path.AppendChild(kept)).SetInfo("active", True)
     return Usd.Stage.Open(layer)
-
-
-def refuse_levels(stage: Usd.Stage, source: str, what: str) -> None:
-    """Refuse a garage of several levels.
-
-    Parameters
-    ----------
-    stage, source
-        The stage and its file.
-    what
-        What cannot be done with it yet, as the beginning of a sentence.
-
-    Raises
-    ------
-    StageError
-        If the stage has more than one level.
-    """
-    names = [level.name for level in levels_of(stage)]
-    if len(names) > 1:
-        raise StageError(source, f"{what} is not built yet for garages of several levels ({', '.join(names)})")

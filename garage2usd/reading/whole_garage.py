@@ -8,13 +8,12 @@ from numpy.typing import NDArray
 from pxr import Gf, Usd, UsdGeom
 
 from garage2usd.common.errors import StageError
+from garage2usd.garage.level_place import LEVELS_NAME
 from garage2usd.reading.files import open_stage
 from garage2usd.scenes.values import READ_AT, Z_UP_TO_Y_UP, metres_y_up, numbers_of
 
-__all__ = ["GRAPH", "LEVELS", "garage_root", "in_own_frame", "open_garage"]
+__all__ = ["GRAPH", "garage_root", "in_own_frame", "open_garage"]
 
-LEVELS = "Levels"
-"""Name of the prim below the root that holds the levels of a garage of several."""
 GRAPH = "LaneGraph"
 """Name of the prim below the root that holds the lane graph."""
 _SHOWN = {"level": "all", "ceiling": "shown"}
@@ -41,7 +40,7 @@ def open_garage(path: Path) -> Usd.Stage:
     stage = open_stage(path)
     with Usd.EditContext(stage, stage.GetSessionLayer()):
         root = _editable_root(stage)
-        if root and (root.GetChild(GRAPH) or root.GetChild(LEVELS)):
+        if root and (root.GetChild(GRAPH) or root.GetChild(LEVELS_NAME)):
             _show(root)
             _put_back(stage, root)
     return stage
@@ -50,7 +49,7 @@ def open_garage(path: Path) -> Usd.Stage:
 def garage_root(stage: Usd.Stage) -> Usd.Prim:
     """Return the root of a garage: the default prim, or in a stage that refers to a garage the parent of its lanes."""
     root = stage.GetDefaultPrim()
-    if root and (root.GetChild(GRAPH) or root.GetChild(LEVELS)):
+    if root and (root.GetChild(GRAPH) or root.GetChild(LEVELS_NAME)):
         return root
     prims = [stage.GetPseudoRoot()]
     while prims:  # breadth first: levels have inactive lane graphs of their own, deeper down
@@ -135,7 +134,7 @@ def _invisible(prim: Usd.Prim) -> Usd.Attribute | None:
 
 
 def _levels(root: Usd.Prim) -> list[Usd.Prim]:
-    group = root.GetChild(LEVELS)
+    group = root.GetChild(LEVELS_NAME)
     return list(group.GetChildren()) if group else []
 
 

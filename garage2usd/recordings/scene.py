@@ -65,8 +65,8 @@ class Scene:
         return [*shots, *(self.birds_eye.hidden if self.birds_eye else ())]
 
     def unseen(self) -> list[list[int]]:
-        """Return for each view the ids of objects of other levels that it looks through; empty for one level."""
-        if self._way.levels is None or self.birds_eye is None:
+        """Return for each view the ids of objects of other levels that it looks through."""
+        if self.birds_eye is None:
             return []
         return [*([] for _ in self.shots), *self.birds_eye.unseen]
 

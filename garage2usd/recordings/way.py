@@ -11,15 +11,15 @@ from numpy.typing import NDArray
 from pxr import Usd
 
 from garage2usd.as_built.driven_floor import DrivenFloor
-from garage2usd.as_built.garage import BuiltGarage
-from garage2usd.as_built.levels import BuiltLevel, BuiltLevels, built_levels
-from garage2usd.as_built.stage_reader import garage_of_stage
+from garage2usd.as_built.garage import BuiltGarage, garage_of_stage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.maps import DriveConfig, Leg
 from garage2usd.garage import Stall
-from garage2usd.maps.level_drives import drive_planner
+from garage2usd.garage.level_place import nearest_floor
+from garage2usd.maps.drives import DrivePlanner
 from garage2usd.reading.labels import Labels
-from garage2usd.reading.levels import nearest_floor, paths_from_above
+from garage2usd.reading.levels import paths_from_above
 from garage2usd.render.cameras import find_views
 from garage2usd.sensors.rig.columns import column_to_y_up
 from garage2usd.sensors.rig.mount import Sensor
@@ -75,58 +75,45 @@ class Way:
             self._follow(along, every_m)
 
     @cached_property
-    def levels(self) -> BuiltLevels | None:
-        """The levels of a garage of several; None of a garage of one level."""
-        return built_levels(self.stage, self._source)
-
-    @cached_property
     def garage(self) -> BuiltGarage:
-        """The garage of one level as read from the stage."""
+        """The garage as read from the stage."""
         return garage_of_stage(self.stage, source=self._source)
 
     @cached_property
     def floors(self) -> tuple[DrivenFloor, ...]:
         """The floor of each level, with the ramps up from it, in metres with Y up."""
-        if self.levels is None:
-            return (DrivenFloor.of(self.garage.lanes, self.garage.things),)
-        return DrivenFloor.of_levels([level.place for level in self.levels.levels], self.levels.things)
+        return DrivenFloor.of_levels(
+            [level.place for level in self.garage.levels], self.garage.lanes, self.garage.things
+        )
 
-    def level_at(self, pose: VehiclePose) -> BuiltLevel | None:
-        """Return the level that a vehicle is on, which changes half way on a ramp; None in a garage of one level."""
-        if self.levels is None:
-            return None
+    def level_at(self, pose: VehiclePose) -> BuiltLevel:
+        """Return the level that a vehicle is on, which changes half way on a ramp."""
+        levels = self.garage.levels
         height_m = float((np.linalg.inv(self.to_stage) @ pose.vehicle_to_world)[1, 3])
-        floors_m = [level.place.floor_m for level in self.levels.levels]
-        return self.levels.levels[nearest_floor(floors_m, height_m)]
+        return levels[nearest_floor([level.place.floor_m for level in levels], height_m)]
 
     def grounds_of_cars(self, pose: VehiclePose) -> list[NDArray[np.float64]]:
         """Return the corners of the cars parked on the level of a vehicle, in metres with Y up; each shape (n, 3)."""
         level = self.level_at(pose)
-        garage, floor_m = (self.garage, 0.0) if level is None else (level.garage, level.place.floor_m)
         left_out = {*self.left_out}
         grounds = (
-            ground
-            for name, (ground, _) in garage.cars.items()
-            if (name if level is None else level.path_in_whole(name)) not in left_out
+            ground for name, (ground, _) in level.cars.items() if level.place.path_in_whole(name) not in left_out
         )
-        return [np.insert(shapely.get_coordinates(ground), 1, floor_m, axis=1) for ground in grounds]
+        return [np.insert(shapely.get_coordinates(ground), 1, level.place.floor_m, axis=1) for ground in grounds]
 
     def unseen_from_above(self, pose: VehiclePose, labels: Labels) -> list[int]:
         """Return the ids of the objects of other levels, but for the ramps that lead down from the vehicle's own."""
-        own = self.level_at(pose)
-        if own is None or self.levels is None:
-            return []
-        shown = paths_from_above([level.place for level in self.levels.levels], self.levels.levels.index(own))
-        within = f"{own.place.path.rpartition('/')[0]}/"
-        return [each for path, each in labels.ids.items() if path.startswith(within) and not path.startswith(shown)]
+        own, levels = self.level_at(pose), self.garage.levels
+        shown = paths_from_above([level.place for level in levels], levels.index(own))
+        others = tuple(f"{level.place.path}/" for level in levels if level is not own)
+        return [each for path, each in labels.ids.items() if path.startswith(others) and not path.startswith(shown)]
 
     def _drive_to(self, stall: str, entrance: str, along: str, every_m: float, settings: DriveConfig) -> None:
         if not stall or not (entrance.isdecimal() or not entrance):
             raise ConfigError("along", along, "ENTRANCE:STALL as 1:A1-08, or the name of a camera that moves")
-        planner = drive_planner(self.garage if self.levels is None else self.levels, settings)
+        planner = DrivePlanner(self.garage, settings)
         drive = planner.drive(stall, entrance=int(entrance) if entrance else None, leg=Leg.IN)
-        stalls = self.garage.stalls if self.levels is None else self.levels.stalls
-        self.stall = next(each for each in stalls if each.name == drive.route.stall)
+        self.stall = next(each for each in self.garage.stalls if each.name == drive.route.stall)
         self.poses = poses_along(drive.motion, every_m, to_stage=self.to_stage)
         self.about = {"along": along, "every_m": every_m, **drive.facts}
 
@@ -170,8 +157,8 @@ class Way:
 
     def level_facts(self, pose: VehiclePose) -> dict[str, object]:
         """Return the name of the level that a vehicle is on; nothing in a garage of one level."""
-        level = self.level_at(pose)
-        return {} if level is None else {"level": level.place.name}
+        place = self.level_at(pose).place
+        return {} if place.is_only else {"level": place.name}
 
     def car_moved(self, pose: VehiclePose) -> Matrix:
         """Return the ego car's transform from its place in `garage2usd.stage.ego_car` to a pose, in stage axes."""
@@ -187,12 +174,9 @@ class Way:
     def _column(self) -> Matrix:
         if self.stall is None:
             raise ConfigError("along", self._along, "ENTRANCE:STALL, for sensors on a column, which watch it")
-        if self.levels is None:
-            column = column_to_y_up(self.garage, self.stall)
-        else:
-            level = self.levels.levels[self.stall.level]
-            column = column_to_y_up(level.garage, self.stall)
-            column[1, 3] += level.place.floor_m
+        level = self.garage.levels[self.stall.level]
+        column = column_to_y_up(level, self.stall)
+        column[1, 3] += level.place.floor_m
         matrix: Matrix = self.to_stage @ column
         return matrix
 
@@ -201,13 +185,11 @@ class Way:
         """Paths of the cars parked in the target stall."""
         if self.stall is None:
             return []
-        if self.levels is None:
-            return [name for name, (_, home) in self.garage.cars.items() if home is not None and home == self.stall]
-        level = self.levels.levels[self.stall.level]
-        (own,) = level.own_names([self.stall.name])
+        level = self.garage.levels[self.stall.level]
+        own = level.place.own_name(self.stall.name)
         return [
-            level.path_in_whole(name)
-            for name, (_, home) in level.garage.cars.items()
+            level.place.path_in_whole(name)
+            for name, (_, home) in level.cars.items()
             if home is not None and home.name == own
         ]
 

@@ -10,8 +10,9 @@ from pxr import Usd
 from garage2usd.as_built.contents import read_contents
 from garage2usd.as_built.driven_floor import DrivenFloor
 from garage2usd.as_built.driven_ground import CAR_HEIGHT_M
+from garage2usd.garage.level_place import LevelPlace
 from garage2usd.reading.lanes import read_lanes
-from garage2usd.reading.levels import StageLevel, levels_of
+from garage2usd.reading.levels import levels_of
 from garage2usd.render.drawn_prims import DrawnPrims
 from garage2usd.scenes.meshes import DRAWN_TYPES, Triangles, triangles_of
 from garage2usd.sensors.rig.poses import y_up_to_stage
@@ -54,7 +55,7 @@ def find_overhead(stage: Usd.Stage, scene: DrawnPrims, ids: Mapping[str, int]) -
         Instance ids by prim path, which tell the level of an object; each hangs over the floor of its own level.
     """
     levels, things = levels_of(stage), read_contents(stage).things
-    floors = DrivenFloor.of_levels(levels, things) if levels else (DrivenFloor.of(read_lanes(stage).graph, things),)
+    floors = DrivenFloor.of_levels(levels, read_lanes(stage).graph, things)
     level = _levels(levels, scene, ids)
     to_y_up = np.linalg.inv(y_up_to_stage(stage))
     hangs, cut_m = np.zeros(len(scene.shape), dtype=bool), np.full(len(scene.shape), np.nan)
@@ -72,7 +73,7 @@ def find_overhead(stage: Usd.Stage, scene: DrawnPrims, ids: Mapping[str, int]) -
     return Overhead(hangs, cut_m)
 
 
-def _levels(levels: Sequence[StageLevel], scene: DrawnPrims, ids: Mapping[str, int]) -> NDArray[np.int64]:
+def _levels(levels: Sequence[LevelPlace], scene: DrawnPrims, ids: Mapping[str, int]) -> NDArray[np.int64]:
     """Return the level of each drawn prim; 0 without levels, and for what belongs to none."""
     found = {
         number: index

@@ -210,9 +210,9 @@ def read_slots(stage: Usd.Stage) -> Slots:
     to_metres = metres_y_up(stage)
     turn = to_metres[:3, :3] / np.linalg.norm(to_metres[0, :3])  # for row vectors, from the stage's axes to Y up
     up = UsdGeom.GetStageUpAxis(stage)
-    levels = [level.name for level in levels_of(stage)]
+    levels = levels_of(stage)
     slots = tuple(
-        replace(_slot(stall, lanes.nodes[stall.access], turn), level=levels[stall.level] if levels else None)
+        replace(_slot(stall, lanes.nodes[stall.access], turn), level=levels[stall.level].name or None)
         for stall in lanes.stalls
     )
     return Slots(slots, _GROUND_AXES[up], _UP_AXES[up])

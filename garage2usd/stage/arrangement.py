@@ -8,14 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.garage.level_place import GARAGE_NAME
 from garage2usd.layout import Layout
 from garage2usd.layout.table import compact
 from garage2usd.objects import KINDS, TilePart
 from garage2usd.structure.grid import Cell, Structure
 
-__all__ = ["ROOT_NAME", "Arrangement", "arrange", "row_name", "tile_name"]
-
-ROOT_NAME = "Garage"
+__all__ = ["Arrangement", "arrange", "row_name", "tile_name"]
 
 _FIRST_NAMES = {
     "column": "Column",
@@ -82,16 +81,16 @@ class Arrangement:
                 paths[row] = f"{parent}/{self.names[name].decode('ascii')}"
         for instancer, rows in self.scattered.items():
             for point, row in enumerate(rows.tolist()):
-                paths[row] = f"/{ROOT_NAME}/{instancer}[{point}]"
+                paths[row] = f"/{GARAGE_NAME}/{instancer}[{point}]"
         return paths
 
     def _parents(self) -> Iterator[tuple[str, NDArray[np.intp]]]:
-        tiles = (f"/{ROOT_NAME}/Tiles/{row_name(row)}/{tile_name(row, col)}" for row, col in self.squares.tolist())
+        tiles = (f"/{GARAGE_NAME}/Tiles/{row_name(row)}/{tile_name(row, col)}" for row, col in self.squares.tolist())
         groups = (f"{tile}/{part}" for tile in tiles for part in self.parts) if self.parts else tiles
         for group, (start, end) in zip(groups, pairwise(self.borders.tolist()), strict=True):
             yield group, self.order[start:end]
         for group, rows in self.groups.items():
-            yield f"/{ROOT_NAME}/{group}", rows
+            yield f"/{GARAGE_NAME}/{group}", rows
 
 
 def arrange(layout: Layout, *, nested: bool) -> Arrangement:

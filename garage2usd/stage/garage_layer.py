@@ -13,9 +13,10 @@ import numpy as np
 from pxr import Sdf, Vt
 
 from garage2usd.common.processes import without_collector
+from garage2usd.garage.level_place import GARAGE_NAME
 from garage2usd.layout import Layout
 from garage2usd.objects import Spec
-from garage2usd.stage.arrangement import ROOT_NAME, Arrangement, row_name, tile_name
+from garage2usd.stage.arrangement import Arrangement, row_name, tile_name
 from garage2usd.stage.authoring import define, save, set_units
 from garage2usd.stage.cameras import author_cameras, set_frames
 from garage2usd.stage.instances import InstanceWriter
@@ -90,7 +91,7 @@ def write_garage_layer(
         prototypes,
         anchored(asset_folder),
         f"./{own}{OWN_ASSETS}",
-        classes=f"/{ROOT_NAME}/{_CLASSES}",
+        classes=f"/{GARAGE_NAME}/{_CLASSES}",
         describe_stalls=not arrangement.nested,
     )
     frame = _frame(layout, arrangement, own, metadata, last_frame)
@@ -137,12 +138,12 @@ def _frame(
     classes = "".join(f'class "{name}"\n{{\n}}\n' for name in (*names, OCCUPIED_STALL))
     layer = Sdf.Layer.CreateAnonymous(".usda")
     layer.ImportFromString(
-        f'#usda 1.0\ndef Xform "{ROOT_NAME}" (\nkind = "assembly"\n{variants.metadata})\n{{\n{variants.body}'
+        f'#usda 1.0\ndef Xform "{GARAGE_NAME}" (\nkind = "assembly"\n{variants.metadata})\n{{\n{variants.body}'
         f'class "{_CLASSES}"\n{{\n{classes}}}\n}}\n'
     )
-    root_path = Sdf.Path.absoluteRootPath.AppendChild(ROOT_NAME)
+    root_path = Sdf.Path.absoluteRootPath.AppendChild(GARAGE_NAME)
     with Sdf.ChangeBlock():
-        layer.defaultPrim = ROOT_NAME
+        layer.defaultPrim = GARAGE_NAME
         set_units(layer)
         set_frames(layer, last_frame)
         layer.GetPrimAtPath(root_path).SetInfo("customData", {**metadata, **_matrices(layout)})

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from garage2usd.as_built.layout_reader import model_of
 from garage2usd.as_built.openings import face_cuts
 from garage2usd.as_built.shapes import Body, turned_about_y
+from garage2usd.garage_model import GarageLevel
 from garage2usd.layout import Layout, Placement
 from garage2usd.objects.kind import Spec
-from garage2usd.stage.levels import LevelLayout
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.view.drawing import Colour, Drawing, Line, Point, Region, Text, text_width
 from garage2usd.view.plan_sheet import GREY, INK, PAPER
@@ -77,7 +77,7 @@ class _Plane:
         return np.stack([x * along_x + z * along_z, points[:, 1], x * along_z - z * along_x], axis=1)
 
 
-def draw_section(levels: Sequence[LevelLayout], *, storey_m: float) -> Drawing:
+def draw_section(levels: Sequence[GarageLevel], *, storey_m: float) -> Drawing:
     """Draw the section of a garage of several levels along its ramps, or through both of its helices.
 
     Parameters
@@ -191,7 +191,7 @@ def _silhouettes(placement: Placement, plane: _Plane, floor_m: float) -> Iterato
 
 
 def _levels_marked(
-    levels: Sequence[LevelLayout], storey_m: float, ends: tuple[float, float], letters: float
+    levels: Sequence[GarageLevel], storey_m: float, ends: tuple[float, float], letters: float
 ) -> Iterator[Line | Text]:
     """Mark the floor of each level with its name and height, and dimension the storeys."""
     left, right = ends[0] - letters, ends[1] + 3 * letters
@@ -209,7 +209,7 @@ def _levels_marked(
 
 
 def _captions(
-    levels: Sequence[LevelLayout], storey_m: float, low: _Array, high: _Array, letters: float
+    levels: Sequence[GarageLevel], storey_m: float, low: _Array, high: _Array, letters: float
 ) -> Iterator[Line | Text]:
     """Draw the title above, and a scale bar of ten metres below."""
     stalls = sum(level.layout.parking_stalls for level in levels)

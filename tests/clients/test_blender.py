@@ -19,8 +19,8 @@ from support.small_garage import SETTINGS
 from support.stage_textures import texture_names
 
 import garage2usd
-from garage2usd.checks import read_garage
 from garage2usd.config.maps import Leg
+from garage2usd.garage_sources import read_built
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.stage.driving_car import CAR_NAME, write_driving_car
 from garage2usd.stage.prototypes import asset_of
@@ -118,7 +118,7 @@ def test_blender_draws_the_stored_picture(builds, tmp_path, write_pictures):
 
 def test_blender_plays_the_car_that_drives(tmp_path):
     made = garage2usd.build(garage2usd.GarageConfig(**SETTINGS), tmp_path / "small.usdc")
-    motion = DrivePlanner(read_garage(made.stage)[0]).drive("Stall_r00_c01_2", leg=Leg.IN).motion
+    motion = DrivePlanner(read_built(made.stage).garage).drive("Stall_r00_c01_2", leg=Leg.IN).motion
     write_driving_car(tmp_path / "car.usdc", motion)
     over = Usd.Stage.CreateNew(str(tmp_path / "over.usda"))
     over.GetRootLayer().subLayerPaths = ["./car.usdc", "./small.usdc"]

@@ -12,8 +12,8 @@ from support.label_tables import labelled_objects
 from support.unity import layer, reader
 
 import garage2usd
+from garage2usd.as_built.garage import garage_of_stage
 from garage2usd.as_built.plan_reader import garage_of_plan
-from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.checks import check
 from garage2usd.common.progress import silent
 from garage2usd.objects import KINDS

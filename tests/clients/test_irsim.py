@@ -12,8 +12,8 @@ from support.map_judges import JUDGES, has
 from support.sample_files import REPOSITORY, SMALL_SAMPLES
 from support.soak import soak_but
 
-from garage2usd.checks import read_garage
 from garage2usd.config.maps import GridConfig
+from garage2usd.garage_sources import read_built
 from garage2usd.maps.frame import map_points
 from garage2usd.maps.occupancy import write_grid
 
@@ -28,9 +28,9 @@ NEAR_M = 0.15
 """A cell's diagonal, a quarter of a cell, and the step of ir-sim's LiDAR."""
 
 
-def ground_of(subject):
+def ground_of(level):
     """What stands between two heights, seen by the checks, less doors and ramps; (x, y) of the map."""
-    solids = subject.solids.between(0.1, 1.8)
+    solids = level.solids.between(0.1, 1.8)
     shapes = [solid.footprint for solid in solids if solid.label not in {"vehicle_door", "ramp", "speed_bump"}]
     return shapely.STRtree([shapely.transform(shape, map_points) for shape in shapes])
 
@@ -48,9 +48,10 @@ def distances(tree, place, angles):
 
 @pytest.mark.parametrize("sample", soak_but([LOOKS], SMALL_SAMPLES), ids=lambda path: path.stem)
 def test_the_lidar_sees_what_stands_there(sample, builds, tmp_path):
-    subject, _ = read_garage(builds(sample, "usdc").stage)
-    write_grid(subject, tmp_path / "map.yaml", GridConfig())
-    tree = ground_of(subject)
+    subject = read_built(builds(sample, "usdc").stage).garage
+    (level,) = subject.levels
+    write_grid(level, tmp_path / "map.yaml", GridConfig())
+    tree = ground_of(level)
     crossing = next(node for node in subject.lanes.nodes if not node.is_portal)
     place = map_points(crossing.position)
     script, output = Path(__file__).with_name("irsim_scan.py"), tmp_path / "scan.json"

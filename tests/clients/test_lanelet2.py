@@ -10,8 +10,8 @@ from support.soak import soak_but
 from support.stage_lanes import read_stage
 
 import garage2usd
-from garage2usd.checks import read_garage
 from garage2usd.config.maps import MapsConfig
+from garage2usd.garage_sources import read_built
 from garage2usd.maps.lanelet2 import write_lanelet2
 
 pytestmark = [
@@ -110,7 +110,7 @@ FAULTS = [
 
 @pytest.fixture(scope="module")
 def subject(builds):
-    return read_garage(builds(FAULTY, "usdc").stage)[0]
+    return read_built(builds(FAULTY, "usdc").stage).garage
 
 
 @pytest.mark.parametrize("fault", soak_but(3, FAULTS), ids=lambda fault: fault.name)

@@ -21,12 +21,11 @@ from support.openscenario_reader import OpenScenario
 from support.small_levels import FLOORS_M, LIDAR, SMALL_LEVELS
 
 import garage2usd
-from garage2usd.as_built.levels import built_levels
+from garage2usd.as_built.garage import garage_of_file
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.maps import Leg
-from garage2usd.maps.level_drives import LevelsDrivePlanner
+from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.openscenario import EGO
-from garage2usd.reading.files import open_stage
 from garage2usd.recordings import CloudFormat, record
 from garage2usd.render import Picture, SlotFormat
 from garage2usd.render.pictures import read_depth
@@ -158,7 +157,7 @@ def test_parked_cars_stand_on_the_floors_of_their_levels(built, scenario):
 
 
 def test_a_stall_is_named_with_its_level_and_portals_are_those_to_the_street(built, judge):
-    planner = LevelsDrivePlanner(built_levels(open_stage(built.stage), built.stage))
+    planner = DrivePlanner(garage_of_file(built.stage))
     number = next(number for number in judge.numbers if number.startswith("U1/"))
     states = planner.drive(number.lower(), entrance=1, exit=1, leg=Leg.IN).trajectory
     assert states.y_m[0] > 3.0

@@ -12,8 +12,8 @@ from support.recordings import Recorded
 from support.sample_files import REPOSITORY
 from support.sensor_judges import HAS_SENSOR_JUDGES, run_judge
 
-from garage2usd.checks import read_garage
 from garage2usd.common.errors import ConfigError
+from garage2usd.garage_sources import read_built
 from garage2usd.maps.parked_cars import parked_cars
 from garage2usd.sensors.formats.nuscenes import NUSCENES_VERSION, write_nuscenes
 from garage2usd.sensors.formats.recording import Recording
@@ -89,7 +89,7 @@ def test_boxes_stand_where_the_table_of_labels_has_them(loaded):
 
 
 def test_boxes_of_cars_look_where_the_cars_do(loaded):
-    subject, _ = read_garage(loaded.recorded.built.stage)
+    subject = read_built(loaded.recorded.built.stage).garage
     to_stage = np.linalg.inv(loaded.found["stage_to_global"])
     noses = {car.middle_m: (-np.sin(car.yaw_rad), -np.cos(car.yaw_rad)) for car in parked_cars(subject)}
     middles = np.array(list(noses))

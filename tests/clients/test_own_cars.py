@@ -23,10 +23,9 @@ from support.viewer_page import viewed
 
 import garage2usd
 from garage2usd.as_built.driven_ground import driven_garage
-from garage2usd.checks import read_garage
 from garage2usd.config import GarageConfig
 from garage2usd.exports import export
-from garage2usd.garage_sources import check_file
+from garage2usd.garage_sources import check_file, read_built
 from garage2usd.maps.parked_cars import parked_cars
 from garage2usd.objects import CAR_LABELS
 from garage2usd.objects.car import OwnCarSpec
@@ -90,10 +89,11 @@ def own(tmp_path_factory):
 
 
 def test_checks_and_scenarios_take_each_class_for_parked_cars(own):
-    subject, _ = read_garage(own.built.stage)
+    garage = read_built(own.built.stage).garage
+    (subject,) = garage.levels
     assert subject.cars.keys() == own.cars.keys()
     assert all(home is not None for _, home in subject.cars.values())
-    assert len(parked_cars(subject)) == len(own.cars)
+    assert len(parked_cars(garage)) == len(own.cars)
     taken = driven_garage(subject).taken
     assert {car.stall for car in own.cars.values()} <= taken
     findings, _ = check_file(own.built.stage)

@@ -5,7 +5,8 @@ from pxr import Usd, UsdPhysics
 from support.broken_usd import BROKEN, open_small_stage
 from support.sample_files import each_build
 
-from garage2usd.as_built.stage_reader import garage_of_stage
+from garage2usd.as_built.garage import garage_of_stage
+from garage2usd.as_built.stage_reader import level_of_stage
 from garage2usd.checks import check
 from garage2usd.checks.consistency import BOOK as CONSISTENCY
 from garage2usd.checks.usd import BOOK
@@ -25,7 +26,7 @@ def test_stages_break_no_rule(sample, extension, builds):
     stage = Usd.Stage.Open(str(builds(sample, extension).stage))
     assert stage.GetDefaultPrim().GetPath() == "/Garage"
     assert not [prim for prim in prims_of(stage) if prim.HasAPI(UsdPhysics.RigidBodyAPI)]
-    subject = garage_of_stage(stage, source=sample.stem)
+    subject = level_of_stage(stage, source=sample.stem)
     rules = [rule for rule in (*RULES.values(), *CONSISTENCY.rules) if rule.name != VALIDATORS]
     assert [finding for rule in rules for finding in rule.findings(subject, NO_CLAUSES)] == []
 

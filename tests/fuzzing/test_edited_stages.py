@@ -10,15 +10,13 @@ from support.small_levels import SMALL_LEVELS
 from support.soak import soak_but
 
 from garage2usd import GarageConfig, build
-from garage2usd.as_built.driven_ground import driven_garage
-from garage2usd.as_built.driven_levels import prove_levels
-from garage2usd.as_built.levels import BuiltLevels
+from garage2usd.as_built.proofs import prove_built
 from garage2usd.checks import RULES, as_table, swept_path, usd
-from garage2usd.checks.levels import check_levels, read_stage
+from garage2usd.checks.levels import findings_of_whole
 from garage2usd.common.errors import Garage2UsdError
-from garage2usd.driving import prove_garage
 from garage2usd.exports import export
-from garage2usd.maps.level_drives import drive_planner
+from garage2usd.garage_sources import read_built
+from garage2usd.maps.drives import DrivePlanner
 
 QUICK = tuple(rule for rule in RULES if rule not in (*usd.BOOK.rules, *swept_path.BOOK.rules))
 SCALES = 0.0, 1.0, 2.0, -1.0, 1e-12, 1e6
@@ -102,18 +100,15 @@ EDITS = (
 def tries(file, out):
     """Do all that is done with a stage; each step ends in a result or in an error of garage2usd."""
     try:
-        garage, profile = read_stage(file)
+        garage, profile, _ = read_built(file)
     except Garage2UsdError:
         return
-    if isinstance(garage, BuiltLevels):
-        as_table(check_levels(garage, profile, QUICK))
-        prove_levels(garage)
-    else:
-        as_table(finding for rule in QUICK for finding in rule.findings(garage, profile))
-        prove_garage(driven_garage(garage))
+    as_table(finding for rule in QUICK for level in garage.levels for finding in rule.findings(level, profile))
+    as_table(findings_of_whole(garage, profile))
+    prove_built(garage)
     names = [stall.name for stall in garage.stalls if stall.takes_cars]
     for step in (
-        lambda: drive_planner(garage).drive(names[-1] if names else "A1-01"),
+        lambda: DrivePlanner(garage).drive(names[-1] if names else "A1-01"),
         *(
             lambda end=end: export(file, [out / f"a{end}"])
             for end in (".xodr", ".osm", ".xosc", ".add.xml", ".yaml", ".glb")

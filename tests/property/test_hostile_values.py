@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garage2usd.checks import read_garage
 from garage2usd.common.errors import Garage2UsdError
 from garage2usd.config import GarageConfig, config_from_mapping
+from garage2usd.garage_sources import read_built
 from garage2usd.planning import play
 from garage2usd.profiles import DEFAULT_PROFILE, load_profile, read_profile
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
@@ -103,8 +103,8 @@ def test_tapes_are_played_or_refused(tape):
 def test_reports_are_read_or_refused(report, key, value):
     path, document = report
     path.write_text(json.dumps(put(document, (key,), value)))
-    read, error = attempt(read_garage, path)
-    assert error is not None or read[0].lanes.nodes
+    read, error = attempt(read_built, path)
+    assert error is not None or read.garage.lanes.nodes
 
 
 @pytest.fixture(scope="module")

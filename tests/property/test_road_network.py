@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built import BuiltLevel
 from garage2usd.garage import LaneEdge, LaneGraph, LaneNode
 from garage2usd.maps.network import LEFT, RIGHT
 from garage2usd.maps.road_builder import network_of
@@ -41,7 +41,7 @@ def garages(draw):
             turned = kinds[start] == "exit" or kinds[end] == "entrance"
             pair = (end, start) if turned else (start, end)
             edges.append(LaneEdge(*pair, nodes[start].widths_m[side], one_way))
-    return BuiltGarage("random", "plan", LaneGraph(tuple(nodes), tuple(edges)), ())
+    return BuiltLevel("random", "plan", LaneGraph(tuple(nodes), tuple(edges)), ())
 
 
 def lane_end(road, lane, *, at_start):

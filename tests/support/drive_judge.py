@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from garage2usd.as_built.levels import built_levels
-from garage2usd.maps.level_drives import LevelsDrivePlanner
-from garage2usd.reading.files import open_stage
+from garage2usd.as_built.garage import garage_of_file
+from garage2usd.maps.drives import DrivePlanner
 
 MILLIMETRE = 1e-3
 GROOVE_M, GROOVES, SIDES = 8e-3, 0.22, 0.05
@@ -35,8 +34,8 @@ def assert_driven_on(ground, places, floors_m, within_m=MILLIMETRE):
 
 def cars_drive_to_each_level(path, judge):
     """The first stall of each level is reached from the street and left to it, on the floors and ramps all the way."""
-    garage = built_levels(open_stage(path), path)
-    planner, ground = LevelsDrivePlanner(garage), judge.ground()
+    garage = garage_of_file(path)
+    planner, ground = DrivePlanner(garage), judge.ground()
     floors_m = [level.place.floor_m for level in garage.levels]
     for number, floor_m in enumerate(floors_m):
         stall = next(stall for stall in garage.stalls if stall.takes_cars and stall.level == number)

@@ -16,8 +16,8 @@ from pathlib import Path
 import numpy as np
 
 import garage2usd
-from garage2usd.checks import read_garage
 from garage2usd.config.maps import Leg, ScenarioConfig
+from garage2usd.garage_sources import read_built
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.openscenario import EGO
 from support.sample_files import SAMPLES
@@ -64,7 +64,7 @@ def main(program, samples):
 def played_amiss(program, sample, folder):
     """For each leg whether esmini plays it otherwise than it was planned."""
     made = garage2usd.build(garage2usd.load_config(sample), folder / f"{sample.stem}.usdc")
-    subject, settings = read_garage(made.stage)[0], made.garage.config.maps
+    subject, settings = read_built(made.stage).garage, made.garage.config.maps
     planner, world = DrivePlanner(subject, settings.drive), OpenWorld(made.garage)
     stalls = [stall for stall in made.garage.layout.stalls if stall.use.takes_cars]
     stall = stalls[len(stalls) // 2]

@@ -38,11 +38,14 @@ class Location(NamedTuple):
 
 
 def locations_of(stage: Usd.Stage, file: Path) -> list[Location]:
-    """Return the locations of a stage: its levels, the top one first, or the garage of one level."""
+    """Return the locations of a stage: its levels, the top one first, each of which is a map of its own."""
     levels = levels_of(stage)
     return [
         Location(
-            f"{file.stem}_{level.name}", f"{file.name} {level.name}", level.floor_m, paths_from_above(levels, number)
+            "_".join(filter(None, (file.stem, level.name))),
+            " ".join(filter(None, (file.name, level.name))),
+            None if level.is_only else level.floor_m,
+            paths_from_above(levels, number),
         )
         for number, level in enumerate(levels)
-    ] or [Location(file.stem, file.name, None, ("",))]
+    ]

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
-from garage2usd.reading.levels import nearest_floor
+from garage2usd.garage.level_place import nearest_floor
 from garage2usd.sensors.formats.nuscenes_locations import Location
 from garage2usd.sensors.formats.nuscenes_map import GlobalFrame
 from garage2usd.sensors.formats.recording import Shot

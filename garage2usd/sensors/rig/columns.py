@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.common.errors import ConfigError
 from garage2usd.garage import Point, Stall
 from garage2usd.objects import CAR_LABELS
@@ -20,7 +20,7 @@ _NEAREST_M = 2.5
 """Least distance in metres from a stall's middle to its column; nearer columns see only part of the stall."""
 
 
-def column_to_y_up(garage: BuiltGarage, stall: Stall) -> NDArray[np.float64]:
+def column_to_y_up(level: BuiltLevel, stall: Stall) -> NDArray[np.float64]:
     """Compute the frame of sensors on the column that watches a stall.
 
     The column is the nearest one in front of the stall's entry with a free line of sight to the stall's middle over
@@ -39,7 +39,7 @@ def column_to_y_up(garage: BuiltGarage, stall: Stall) -> NDArray[np.float64]:
         If the garage has no suitable column.
     """
     found: dict[str, tuple[list[shapely.Polygon], float]] = {}
-    for solid in garage.solids.standing(_COLUMN):
+    for solid in level.solids.standing(_COLUMN):
         pieces, low_m = found.get(solid.name, ([], math.inf))
         found[solid.name] = [*pieces, solid.footprint], min(low_m, solid.bottom_m)
     candidates: list[tuple[bool, float, str, Point, float]] = []
@@ -47,7 +47,7 @@ def column_to_y_up(garage: BuiltGarage, stall: Stall) -> NDArray[np.float64]:
         centre = shapely.union_all(pieces).envelope.centroid
         place = (centre.x, centre.y)
         distance_m = math.dist(place, stall.centre)
-        if distance_m >= _NEAREST_M and not _is_hidden(garage, name, place, stall.centre):
+        if distance_m >= _NEAREST_M and not _is_hidden(level, name, place, stall.centre):
             candidates.append((not _is_before(stall, place), round(distance_m, 6), name, place, low_m))
     if not candidates:
         raise ConfigError("rig", stall.name, "a stall that a column of the garage watches, for sensors on a column")
@@ -67,9 +67,9 @@ def _is_before(stall: Stall, place: Point) -> bool:
     return ahead > 0
 
 
-def _is_hidden(garage: BuiltGarage, column: str, place: Point, middle: Point) -> bool:
+def _is_hidden(level: BuiltLevel, column: str, place: Point, middle: Point) -> bool:
     sight = shapely.LineString([place, middle])
     return any(
         solid.name != column and solid.label not in CAR_LABELS and solid.top_m >= _HIDES_FROM_M
-        for solid in garage.solids.at(sight)
+        for solid in level.solids.at(sight)
     )

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.garage.level_place import LevelPlace
 from garage2usd.reading.lanes import Lanes
-from garage2usd.reading.levels import StageLevel
 from garage2usd.scenes.meshes import Triangles
 from garage2usd.scenes.pictures import Bands, Pictures
 from garage2usd.view.viewer.surfaces import ShownSurface
@@ -164,7 +164,7 @@ class Scene:
     remarks
         Descriptions of everything that is not shown.
     levels
-        The levels of a garage of several levels, the top one first.
+        The levels, the top one first.
     """
 
     name: str
@@ -179,7 +179,7 @@ class Scene:
     ids: Mapping[str, int]
     bounds_m: NDArray[np.float64]
     remarks: Sequence[str] = field(default_factory=tuple)
-    levels: Sequence[StageLevel] = ()
+    levels: Sequence[LevelPlace] = ()
 
     def counts(self) -> dict[str, int]:
         """Number of objects of each class, in descending order."""

@@ -39,7 +39,7 @@ def encode_scene(scene: Scene) -> bytes:
         "remarks": list(scene.remarks),
         "exposure": 2.0**EXPOSURE_EV,
         "boundsM": np.round(scene.bounds_m, 4).tolist(),
-        "levels": [{"name": level.name, "path": level.path} for level in scene.levels],
+        "levels": [{"name": level.name, "path": level.path} for level in scene.levels if not level.is_only],
         "labels": labels,
         "squares": squares,
         "textures": len(scene.textures),

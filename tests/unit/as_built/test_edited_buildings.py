@@ -6,8 +6,8 @@ from support.edited_stages import chosen, edited, hidden, moved
 from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
-from garage2usd.checks.levels import read_stage
 from garage2usd.exports import export
+from garage2usd.garage_sources import read_built
 
 MAPS = (".xodr", ".osm", ".yaml")
 
@@ -69,5 +69,7 @@ def test_a_stall_without_area_is_a_fault_of_the_lane_graph(corner, one, tmp_path
         corners[corner] = corners[0]
         points.Set(corners)
 
-    garage, _ = read_stage(edited(one, tmp_path / "flat.usda", flatten))
-    assert [fault.message for fault in garage.faults if fault.rule == "lane-graph"] == ["a stall without area"]
+    garage = read_built(edited(one, tmp_path / "flat.usda", flatten)).garage
+    assert [fault.message for fault in garage.levels[0].faults if fault.rule == "lane-graph"] == [
+        "a stall without area"
+    ]

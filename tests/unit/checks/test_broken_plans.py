@@ -8,7 +8,8 @@ from support.small_garage import PLAN, SETTINGS
 from support.soak import soak_but
 
 from garage2usd import GarageConfig, build
-from garage2usd.as_built.layout_reader import garage_of_layout
+from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built.layout_reader import level_of_layout
 from garage2usd.checks import Severity, check
 from garage2usd.common.errors import ConfigError, ReportError, StageError
 from garage2usd.garage_sources import check_file
@@ -39,8 +40,8 @@ def found_in(settings, profile=CN):
     structure = Structure.from_arrays(cells_from_text(config.site.structure, field="S"), widths, depths)
     plan = with_stall_kinds(given_plan(structure, bay=config.bay), config)
     structure, graph = plan.structure, build_lane_graph(plan.structure, config.bay, plan.runs)
-    subject = garage_of_layout(lay_out(structure, graph, config), source="", kind="plan")
-    return {finding.rule for finding in check(subject, profile)}
+    subject = level_of_layout(lay_out(structure, graph, config), source="", kind="plan")
+    return {finding.rule for finding in check(BuiltGarage.of_level(subject), profile)}
 
 
 def settings_with(**sections):

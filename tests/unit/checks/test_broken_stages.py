@@ -9,12 +9,13 @@ from support.edited_stages import moved as turned_and_moved
 from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
+from garage2usd.as_built.garage import garage_of_stage
 from garage2usd.as_built.shapes import Body, MeshShape
-from garage2usd.as_built.stage_reader import garage_of_stage
-from garage2usd.checks import RULES, check, read_garage, swept_path, usd
+from garage2usd.checks import RULES, check, swept_path, usd
 from garage2usd.common.errors import StageError
 from garage2usd.config.vehicles import body_named
 from garage2usd.driving import way_search
+from garage2usd.garage_sources import read_built
 from garage2usd.profiles import load_profile
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.lanes import read_lanes
@@ -119,9 +120,10 @@ def test_a_garage_is_read_in_its_own_frame_wherever_it_is_moved_to(stage_file, o
         edited(stage_file, tmp_path / "away.usda", turned_and_moved(**place), hidden("/Garage", "/Garage/Walls")),
         referring(stage_file, tmp_path / "z_up.usda", up="Z", metres_per_unit=0.01, move=(4, 5, 6), yaw_deg=20),
     ):
-        garage, profile = read_garage(file)
+        garage, profile, _ = read_built(file)
         assert profile.name == PROFILE.name
-        found = {finding.rule for rule in rules for finding in rule.findings(garage, profile)}
+        (level,) = garage.levels
+        found = {finding.rule for rule in rules for finding in rule.findings(level, profile)}
         assert found == FOUND_IN_GOOD_ONE
         told, lanes = as_built.lanes.positions_m, garage.lanes.positions_m
         assert np.abs(told - lanes).max() < 1e-4
@@ -132,7 +134,7 @@ def test_a_garage_is_read_in_its_own_frame_wherever_it_is_moved_to(stage_file, o
         assert np.abs(told - read_lanes(open_stage(tmp_path / "with_car.usdc")).graph.positions_m).max() < 1e-4
     flat = edited(stage_file, tmp_path / "flat.usda", scaled(0.0))
     with pytest.raises(StageError, match="scale of 0"):
-        read_garage(flat)
+        read_built(flat)
 
 
 def test_a_floor_of_a_ramp_without_area_has_no_faces(stage):

@@ -5,7 +5,7 @@ import pytest
 import shapely
 from pxr import Sdf, Usd, UsdGeom
 
-from garage2usd.as_built.stage_reader import garage_of_stage
+from garage2usd.as_built.stage_reader import level_of_stage
 from garage2usd.maps.occupied_ground import floor_of
 
 L_SHAPE = [(10, 4), (4, 4), (4, 10), (0, 10), (0, 0), (10, 0)]
@@ -34,7 +34,7 @@ def stage_of(label, height, begin=0):
 
 @pytest.mark.parametrize("begin", range(6))
 def test_a_wall_leaves_its_corner_free(begin):
-    subject = garage_of_stage(stage_of("wall", 3.0, begin), source="stage", is_judged=False)
+    subject = level_of_stage(stage_of("wall", 3.0, begin), source="stage", is_judged=False)
     solids = list(subject.solids.between(0, 3))
     assert shapely.union_all([solid.footprint for solid in solids]).area == pytest.approx(64)
     assert {(solid.bottom_m, solid.top_m) for solid in solids} == {(0.0, 3.0)}
@@ -44,7 +44,7 @@ def test_a_wall_leaves_its_corner_free(begin):
 
 @pytest.mark.parametrize("height", [0.0, 0.2])
 def test_a_floor_ends_where_it_ends(height):
-    subject = garage_of_stage(stage_of("floor", height), source="stage", is_judged=False)
+    subject = level_of_stage(stage_of("floor", height), source="stage", is_judged=False)
     assert shapely.union_all(floor_of(subject)).area == pytest.approx(64)
     assert not shapely.intersects(shapely.union_all(floor_of(subject)), shapely.Point(8, 8))
 
@@ -52,7 +52,7 @@ def test_a_floor_ends_where_it_ends(height):
 def test_what_is_turned_keeps_its_form():
     stage = stage_of("wall", 3.0)
     UsdGeom.Xformable(stage.GetPrimAtPath("/L")).AddRotateYOp().Set(30)
-    subject = garage_of_stage(stage, source="stage", is_judged=False)
+    subject = level_of_stage(stage, source="stage", is_judged=False)
     footprints = [solid.footprint for solid in subject.solids.between(0, 3)]
     angle = np.radians(-30)
     turned = [(x * np.cos(angle) - z * np.sin(angle), x * np.sin(angle) + z * np.cos(angle)) for x, z in L_SHAPE]

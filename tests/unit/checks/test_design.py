@@ -6,7 +6,7 @@ from collections import Counter
 import pytest
 from support.soak import soak_but
 
-from garage2usd.as_built.layout_reader import garage_of_layout
+from garage2usd.as_built.garage import garage_as_made
 from garage2usd.checks import Severity, check, check_layout
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, SiteConfig, load_config
@@ -36,7 +36,7 @@ confidence = "high"
 
 def errors_of(config):
     garage = generate(config)
-    subject = garage_of_layout(garage.layout, source="", kind="report")
+    subject = garage_as_made(garage, source="", kind="report")
     return [f for f in check(subject, config.standard) if f.severity is Severity.ERROR], garage
 
 

@@ -9,8 +9,8 @@ from support.soak import soak_but
 
 from garage2usd import GarageConfig, build
 from garage2usd.as_built.core_reader import core_doors
-from garage2usd.as_built.layout_reader import garage_of_layout
-from garage2usd.as_built.stage_reader import garage_of_stage
+from garage2usd.as_built.layout_reader import level_of_layout
+from garage2usd.as_built.stage_reader import level_of_stage
 from garage2usd.checks import egress
 from garage2usd.profiles import load_profile
 from garage2usd.structure.grid import Cell
@@ -48,7 +48,7 @@ def stage(opened):
 
 
 def found_in(stage):
-    subject = garage_of_stage(stage, source="edited")
+    subject = level_of_stage(stage, source="edited")
     return [(finding.rule, finding.place) for rule in egress.BOOK.rules for finding in rule.findings(subject, CN)]
 
 
@@ -61,8 +61,8 @@ def test_the_doors_of_a_stage_are_those_of_its_layout(made, stage):
     placed = sorted(core.door_m for core in garage.layout.cores)
     assert len(placed) >= 2
     for subject in (
-        garage_of_stage(stage, source="stage"),
-        garage_of_layout(garage.layout, source="layout", kind="plan"),
+        level_of_stage(stage, source="stage"),
+        level_of_layout(garage.layout, source="layout", kind="plan"),
     ):
         found = sorted(door.position for door in core_doors(subject))
         assert len(found) == len(placed)

@@ -7,7 +7,7 @@ import pytest
 from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig
-from garage2usd.as_built.layout_reader import garage_of_layout
+from garage2usd.as_built.layout_reader import level_of_layout
 from garage2usd.checks import fire_equipment
 from garage2usd.pipeline import generate
 from garage2usd.profiles import load_profile
@@ -18,7 +18,7 @@ CN, US = load_profile("cn-jgj100"), load_profile("us-ada")
 @pytest.fixture(scope="module")
 def subject():
     garage = generate(GarageConfig(**SETTINGS))
-    return garage_of_layout(garage.layout, source="layout", kind="plan")
+    return level_of_layout(garage.layout, source="layout", kind="plan")
 
 
 LABELS = {"hydrant_cabinet", "fire_extinguisher"}

@@ -6,7 +6,7 @@ from pxr import Gf, Usd, UsdGeom, UsdLux
 from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
-from garage2usd.as_built.stage_reader import garage_of_stage
+from garage2usd.as_built.stage_reader import level_of_stage
 
 MAINTENANCE = 0.8
 
@@ -24,7 +24,7 @@ def edited(made):
 
 
 def lux(stage):
-    subject = garage_of_stage(stage, source="stage")
+    subject = level_of_stage(stage, source="stage")
     return np.array([subject.lane_lux, subject.stall_lux])
 
 
@@ -64,7 +64,7 @@ def test_intensity_and_exposure_count(made):
 def test_lights_of_others_light_the_floor(kind, made):
     """A small lamp over one point is its candela over the square of its height, and less aside."""
     stage = switched_off(edited(made))
-    nodes = [node for node in garage_of_stage(stage, source="stage").lanes.nodes if not node.is_portal]
+    nodes = [node for node in level_of_stage(stage, source="stage").lanes.nodes if not node.is_portal]
     (x, z), height = nodes[0].position, 3.0
     light = kind.Define(stage, "/Lamp")
     light.CreateIntensityAttr(1000.0)
@@ -73,7 +73,7 @@ def test_lights_of_others_light_the_floor(kind, made):
     light.AddTranslateOp().Set(Gf.Vec3d(x, height, z))
     light.AddRotateXOp().Set(-90)
     candela = {UsdLux.SphereLight: 250.0, UsdLux.DiskLight: 1000.0}[kind]
-    points = np.array([stall.centre for stall in garage_of_stage(stage, source="stage").stalls])
+    points = np.array([stall.centre for stall in level_of_stage(stage, source="stage").stalls])
     far = np.hypot(np.hypot(points[:, 0] - x, points[:, 1] - z), height)
     ahead = height / far if kind is UsdLux.DiskLight else 1.0
     expected = MAINTENANCE * candela * ahead * height / far**3

@@ -9,7 +9,8 @@ from support.random_profiles import random_profile
 from support.small_garage import SETTINGS
 from support.soak import soak_but
 
-from garage2usd.as_built.layout_reader import garage_of_layout
+from garage2usd.as_built.garage import garage_as_made
+from garage2usd.as_built.layout_reader import level_of_layout
 from garage2usd.checks import (
     RULES,
     Finding,
@@ -41,7 +42,7 @@ def judged(profile, **settings):
     """Findings of the whole check but for USD, and the clauses that build names."""
     config = GarageConfig(profile=profile, **{"plan": QUICK, **settings})
     garage = generate(config)
-    subject = garage_of_layout(garage.layout, source="", kind="report")
+    subject = level_of_layout(garage.layout, source="", kind="report")
     rules = [rule for rule in RULES if rule not in usd.BOOK.rules]
     findings = [finding for rule in rules for finding in rule.findings(subject, config.standard)]
     return findings, judged_layout(garage.layout, config)[1]
@@ -76,7 +77,7 @@ SECONDS = {
 def test_a_clause_is_checked_without_a_second_one(clause):
     config = GarageConfig(**{**SETTINGS, "fittings": {"ramp_transition_m": 1.0}})
     garage = generate(config)
-    subject = garage_of_layout(garage.layout, source="", kind="report")
+    subject = garage_as_made(garage, source="", kind="report")
     profile = profile_of(**{clause: SECONDS[clause]})
     assert {finding.clause for finding in check(subject, profile)} - {""} == {clause}
     assert not_checked(subject, profile) == {}
@@ -119,7 +120,7 @@ def test_an_aisle_alone_may_make_room_for_vans():
 
 def test_what_a_file_does_not_tell_is_not_checked():
     garage = generate(GarageConfig(**SETTINGS))
-    subject = garage_of_layout(garage.layout, source="", kind="stage")
+    subject = level_of_layout(garage.layout, source="", kind="stage")
     standard = load_profile("cn-jgj100")
     assert not_checked(subject, standard) == {}
     circulation = {"dead_end_depth", "loops", "lane_field_width"}

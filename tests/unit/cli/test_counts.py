@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 from support.data_sets import SMALL, small_recipe
 
-from garage2usd.as_built.layout_reader import garage_of_layout
+from garage2usd.as_built.garage import garage_as_made
 from garage2usd.checks import check
 from garage2usd.cli import main
 from garage2usd.config import GarageConfig
@@ -84,7 +84,7 @@ def test_the_plan_tells_it_twice(counted, garage):
 def test_check_and_viewer_count_so(counted, garage, built):
     stalls, _ = counted
     steps = {"steps": [[10, 1]], "above_percent": 100, "unit": "count", "source": "us", "confidence": "low"}
-    subject = garage_of_layout(garage.layout, source="", kind="report")
+    subject = garage_as_made(garage, source="", kind="report")
     profile = read_profile({"name": "client", "accessible_stalls": steps})
     (finding,) = (finding for finding in check(subject, profile) if finding.rule == "accessible-count")
     assert (finding.required, finding.message) == (stalls, f"too few accessible stalls among {stalls}")

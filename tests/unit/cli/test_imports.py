@@ -13,9 +13,10 @@ from pxr import Usd
 from support.sample_files import REPOSITORY
 
 from garage2usd import GarageConfig
-from garage2usd.checks import RULES, read_garage, usd
+from garage2usd.checks import RULES, usd
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
+from garage2usd.garage_sources import read_built
 from garage2usd.imports import import_layout
 from garage2usd.survey.survey import PortalKind, Survey, SurveyedLane, SurveyedPortal, SurveyedStall
 
@@ -56,9 +57,9 @@ def test_all_stalls_are_where_they_were_drawn(made):
 
 
 def test_the_stage_is_found_to_be_what_the_import_said(made):
-    garage, profile = read_garage(made.stage)
+    garage, profile, _ = read_built(made.stage)
     rules = (rule for rule in RULES if rule not in usd.BOOK.rules)
-    found = Counter(finding.rule for rule in rules for finding in rule.findings(garage, profile))
+    found = Counter(finding.rule for rule in rules for finding in rule.findings(garage.levels[0], profile))
     assert Counter(finding.rule for finding in made.findings) == found
 
 
@@ -112,9 +113,10 @@ def test_cars_stand_in_their_stalls(made):
 def test_the_stage_has_no_s_r_and_c_and_all_of_the_rest(made):
     stage = Usd.Stage.Open(str(made.stage))
     assert not {"S", "R", "C", "fireCompartments", "tape"} & {*stage.GetDefaultPrim().GetCustomData()}
-    garage, _ = read_garage(made.stage)
-    assert garage.structure is None
-    assert not garage.faults
+    garage = read_built(made.stage).garage
+    (level,) = garage.levels
+    assert level.structure is None
+    assert not level.faults
     assert [stall.corners for stall in garage.stalls] == [
         tuple(pytest.approx(corner, abs=1e-4) for corner in stall.corners) for stall in made.garage.layout.quads
     ]

@@ -6,11 +6,11 @@ from support.small_garage import SETTINGS
 
 import garage2usd
 from garage2usd.as_built.driven_ground import driven_garage
-from garage2usd.checks import read_garage
 from garage2usd.driving import DesignCar
 from garage2usd.driving.assembly import StandingThing, assembled
 from garage2usd.driving.layout_garage import layout_garage
 from garage2usd.garage import LaneGraph, LaneNode, Stall, StallUse
+from garage2usd.garage_sources import read_built
 
 DEAD_END = """
 ######
@@ -74,7 +74,7 @@ def test_a_layout_its_report_and_its_stage_are_the_same_garage(structure, tmp_pa
     assert stall_fittings >= {kind for _, kind in owned}
     assert {"car", "wheel_stop", "cone"} <= {kind for _, kind in owned}
     for path in (built.stage, built.report):
-        read = driven_garage(read_garage(path)[0])
+        read = driven_garage(read_built(path).garage.levels[0])
         assert sorted(map(by_square, read.standing.names)) == sorted(made.standing.names)
         for one, other in zip(made.stalls, read.stalls, strict=True):
             assert (one.name, one.access) == (other.name, other.access)

@@ -14,7 +14,8 @@ from support.sample_files import each_small_sample
 from support.trajectory_judge import OpenWorld, faults
 
 import garage2usd
-from garage2usd.as_built.layout_reader import garage_of_layout
+from garage2usd.as_built.driven_road import driven_road
+from garage2usd.as_built.garage import garage_as_made
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.maps import DriveConfig, Leg
 from garage2usd.driving import DesignCar, Gear, Pose
@@ -37,7 +38,7 @@ BRISK = DriveConfig(
 
 
 def subject_of(garage):
-    return garage_of_layout(garage.layout, source="garage", kind="plan")
+    return garage_as_made(garage, source="garage", kind="plan")
 
 
 def rows_of(motion, tmp_path):
@@ -149,10 +150,11 @@ def test_the_judge_sees_a_car_that_leaves_its_path(planner, small, tmp_path):
     assert world.swept({**rows, "x_m": rows["x_m"] + 2.0}, stall)
 
 
-def test_the_gate_on_the_way_opens_and_its_housing_stays_in_the_way(small, planner):
+def test_the_gate_on_the_way_opens_and_its_housing_stays_in_the_way(small):
     gates = [thing.name for thing in subject_of(small).things if thing.label == "barrier"]
     assert gates
-    as_it_stands, opened = planner.road.garage.standing, planner.road.standing
+    road = driven_road(subject_of(small).levels[0])
+    as_it_stands, opened = road.garage.standing, road.standing
     arms_m, open_m = (
         max(np.ptp(standing.only(gate).pieces.reshape(-1, 2), axis=0).max() for gate in gates)
         for standing in (as_it_stands, opened)

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import pytest
 
-from garage2usd.as_built.stage_reader import garage_of_stage
+from garage2usd.as_built.garage import garage_of_stage
 from garage2usd.config import config_from_mapping
 from garage2usd.driving import prove_stalls
 from garage2usd.exports import export

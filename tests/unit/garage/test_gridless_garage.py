@@ -7,7 +7,7 @@ import pytest
 import shapely
 from support.opendrive_reader import OpenDrive
 
-from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built import BuiltGarage, BuiltLevel
 from garage2usd.config.maps import MapsConfig
 from garage2usd.driving import DesignCar, prove_garage
 from garage2usd.driving.assembly import StandingThing, assembled
@@ -75,14 +75,14 @@ def test_against_the_lean_no_car_gets_in_forward():
 
 def test_its_roads_have_one_lane():
     lanes, stalls = garage_at(0.0)
-    network = network_of(BuiltGarage("by hand", "plan", lanes, stalls))
+    network = network_of(BuiltLevel("by hand", "plan", lanes, stalls))
     assert {road.lanes for road in network.roads} == {(RIGHT,)}
     assert sum(road.line.length_m for road in network.roads) == pytest.approx(40.0 + 4.6, abs=0.7)
 
 
 def test_its_stalls_lie_in_opendrive_and_lanelet2_where_they_are(tmp_path):
     lanes, stalls = garage_at(0.4)
-    garage = BuiltGarage("by hand", "plan", lanes, stalls)
+    garage = BuiltGarage.of_level(BuiltLevel("by hand", "plan", lanes, stalls))
     write_opendrive(garage, tmp_path / "map.xodr", MapsConfig())
     road_map = OpenDrive(tmp_path / "map.xodr")
     found = {}

@@ -15,7 +15,7 @@ from support.stage_lanes import read_stage
 
 import garage2usd
 from garage2usd import ConfigError, GarageConfig, generate
-from garage2usd.as_built.stage_reader import garage_of_file
+from garage2usd.as_built.garage import garage_of_file
 from garage2usd.checks import Severity, judged_layout
 from garage2usd.cli import main
 from garage2usd.driving import prove_stalls
@@ -169,7 +169,9 @@ def test_a_stage_and_its_report_tell_of_them(built, garage, stalls):
     read = {stall.name: stall for stall in as_built.stalls}
     for name, stall in names.items():
         assert (read[name].use, read[name].size, read[name].is_occupied) == (stall.use, stall.size, stall.is_occupied)
-    assert {stall.name for stall in as_built.taken_stalls} == {s.name for s in garage.layout.quads if s.is_occupied}
+    assert {stall.name for stall in as_built.levels[0].taken_stalls} == {
+        s.name for s in garage.layout.quads if s.is_occupied
+    }
     entries = labelled_objects(built.labels)
     bikes = [entry["path"] for entry in entries if entry["class"] == "motorbike"]
     assert len(bikes) == sum(stall.is_occupied for stall in stalls)

@@ -4,7 +4,7 @@ import pytest
 from click.testing import CliRunner
 
 from garage2usd import GarageConfig, build
-from garage2usd.as_built.layout_reader import garage_of_layout
+from garage2usd.as_built.garage import garage_as_made
 from garage2usd.checks import RULES, check, check_layout
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
@@ -106,7 +106,7 @@ def test_the_check_of_a_build_is_that_of_its_report_without_the_long_rules(tmp_p
     config = GarageConfig(site={"structure": DRAWING}, bay={"square_side_m": 5.4, "dimensioned": False})
     made = build(config, tmp_path / "g.usda")
     garage = made.garage
-    subject = garage_of_layout(garage.layout, source="", kind="report")
+    subject = garage_as_made(garage, source="", kind="report")
     assert list(made.findings) == check(subject, config.standard) == check_layout(garage.layout, config)
     assert (
         {"aisle-width", "portal-width"} <= {finding.rule for finding in made.findings} < {rule.name for rule in RULES}

@@ -9,12 +9,12 @@ from support.edited_stages import edited, inactive, moved, without_what_lanes_do
 
 import garage2usd
 from garage2usd import ConfigError, GarageConfig, GenerationError
-from garage2usd.as_built.levels import built_levels
-from garage2usd.checks.levels import check_levels, read_stage
+from garage2usd.as_built.garage import garage_of_file
+from garage2usd.checks.levels import findings_of_whole
 from garage2usd.exports import export
-from garage2usd.maps.level_drives import LevelsDrivePlanner
+from garage2usd.garage_sources import read_built
+from garage2usd.maps.drives import DrivePlanner
 from garage2usd.profiles import load_profile, read_profile
-from garage2usd.reading.files import open_stage
 from garage2usd.reading.levels_report import read_levels_report
 from garage2usd.site.level_ramps import with_ramps_room
 from garage2usd.structure.building import level_cells
@@ -136,12 +136,12 @@ def test_the_line_and_its_inverse_agree(made):
 
 
 def test_check_finds_nothing_and_a_stricter_clause_finds_both_helices(made):
-    garage = built_levels(open_stage(made.stage), made.stage)
+    garage = garage_of_file(made.stage)
     profile = load_profile("cn-jgj100")
-    assert [each.rule for each in check_levels(garage, profile, ())] in ([], ["portal-count"])
+    assert [each.rule for each in findings_of_whole(garage, profile)] in ([], ["portal-count"])
     clause = {"value": 6, "unit": "%", "source": "a test", "confidence": "high", "text": "Gentle."}
     strict = read_profile({"name": "strict", "curved_ramp_slope": clause})
-    found = [each for each in check_levels(garage, strict, ()) if each.rule == "ramp-bend"]
+    found = [each for each in findings_of_whole(garage, strict) if each.rule == "ramp-bend"]
     assert len(found) == 2
     # 7.1 % on the middle line of 8.8 m, whose inner wall has 6.7 m
     assert [each.measured for each in found] == pytest.approx([7.105 * 8.8 / 6.7] * 2, abs=0.05)
@@ -151,11 +151,11 @@ def test_check_finds_nothing_and_a_stricter_clause_finds_both_helices(made):
     "edit", [inactive(f"{RAMPS}/Ramp_Up"), moved(x=0.6, path=f"{RAMPS}/Ramp_Down"), moved(yaw_deg=180, path=RAMPS)]
 )
 def test_a_helix_that_is_gone_or_moved_is_found_and_not_driven_on(edit, bare, tmp_path):
-    garage, profile = read_stage(edited(bare, tmp_path / "edited.usda", edit))
-    found = {finding.rule for finding in check_levels(garage, profile, ())}
+    garage, profile, _ = read_built(edited(bare, tmp_path / "edited.usda", edit))
+    found = {finding.rule for finding in findings_of_whole(garage, profile)}
     assert {"level-ramp", "level-route"} <= found
     with pytest.raises(ConfigError, match="that lanes and ramps join with the street"):
-        LevelsDrivePlanner(garage).drive(garage.stalls[-1].name)
+        DrivePlanner(garage).drive(garage.stalls[-1].name)
 
 
 def test_the_report_tells_helices(made):
@@ -166,8 +166,8 @@ def test_the_report_tells_helices(made):
 
 
 def test_a_drive_turns_down_the_helix_and_back_to_the_street(made):
-    garage = built_levels(open_stage(made.stage), made.stage)
-    planner = LevelsDrivePlanner(garage)
+    garage = garage_of_file(made.stage)
+    planner = DrivePlanner(garage)
     stall = next(stall for stall in garage.stalls if stall.level == 1 and stall.takes_cars)
     states = planner.drive(str(stall.number)).trajectory
     assert states.y_m.min() == pytest.approx(-3.6, abs=1e-3)

@@ -19,14 +19,15 @@ from support.edited_stages import (
 
 import garage2usd
 from garage2usd import ConfigError, GarageConfig, GenerationError
-from garage2usd.as_built.driven_levels import floors_of_stalls, prove_levels
-from garage2usd.as_built.levels import built_levels, laid_out_levels
-from garage2usd.checks import RULES
-from garage2usd.checks.levels import check_levels, read_stage
+from garage2usd.as_built.garage import garage_as_made, garage_of_file, garage_of_stage
+from garage2usd.as_built.proofs import floors_m_of_stalls, prove_built
+from garage2usd.checks import check
+from garage2usd.checks.levels import findings_of_whole
 from garage2usd.cli import main
 from garage2usd.common.errors import Garage2UsdError, StageError
 from garage2usd.config.building import RampsPlace
-from garage2usd.maps.level_drives import LevelsDrivePlanner
+from garage2usd.garage_sources import read_built
+from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.level_networks import level_networks
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.levels_report import read_levels_report
@@ -208,7 +209,7 @@ def test_ramps_are_drawn_elsewhere_where_cars_cannot_turn_into_them():
     garage = garage2usd.generate(TIGHT)
     assert garage.building.ramps != first
     assert garage.building.ramps in [make_level_sites(TIGHT, attempt).ramps for attempt in range(1, 4)]
-    planner = LevelsDrivePlanner(laid_out_levels(garage.layouts, garage.joined, source="a layout"))
+    planner = DrivePlanner(garage_as_made(garage, source="a layout", kind="layout"))
     drive = planner.drive()
     assert drive.route.stall.startswith("U2/")
     assert (drive.route.entrance.name, drive.route.exit.name) == ("[4, 6]", "[1, 0]")
@@ -271,8 +272,8 @@ def test_variants_reach_all_levels(built):
 
 
 def test_check_finds_nothing_and_a_lost_ramp_is_found(built):
-    garage, profile = read_stage(built.stage)
-    assert [finding.rule for finding in check_levels(garage, profile, RULES) if finding.severity.value == "error"] == []
+    garage, profile, _ = read_built(built.stage)
+    assert [finding.rule for finding in check(garage, profile) if finding.severity.value == "error"] == []
     stage = open_stage(built.stage)
     stage.SetEditTarget(stage.GetSessionLayer())
     edges = stage.GetPrimAtPath("/Garage/LaneGraph/Edges")
@@ -282,7 +283,7 @@ def test_check_finds_nothing_and_a_lost_ramp_is_found(built):
     for number in up:
         ends[number] = starts[number]
     edges.GetAttribute("garage:lane:to").Set(ends)
-    found = check_levels(built_levels(stage, built.stage), profile, ())
+    found = findings_of_whole(garage_of_stage(stage, source=str(built.stage)), profile)
     lost = {finding.place for finding in found if finding.rule == "level-route"}
     assert lost == {stall.name for stall in garage.stalls if stall.level == 1}
 
@@ -295,7 +296,7 @@ def bare(built, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def unmoved(bare):
-    return read_stage(bare)[0]
+    return read_built(bare).garage
 
 
 def test_a_building_that_is_moved_and_hidden_is_read_as_it_stands(bare, unmoved, tmp_path):
@@ -309,16 +310,16 @@ def test_a_building_that_is_moved_and_hidden_is_read_as_it_stands(bare, unmoved,
     tipped = edited(bare, tmp_path / "tipped.usda", moved(y=40, pitch_deg=90), hidden("/Garage/Levels", U2))
     z_up = referring(bare, tmp_path / "z_up.usda", up="Z", metres_per_unit=0.01, move=(5, 6, -300), yaw_deg=70)
     last = unmoved.stalls[-1].name
-    drive = LevelsDrivePlanner(unmoved).drive(last).trajectory
+    drive = DrivePlanner(unmoved).drive(last).trajectory
     for file in (away, tipped, z_up):
-        garage, profile = read_stage(file)
+        garage, profile, _ = read_built(file)
         assert garage.faults == ()
-        assert check_levels(garage, profile, ()) == []
+        assert findings_of_whole(garage, profile) == []
         assert [stall.name for stall in garage.stalls] == [stall.name for stall in unmoved.stalls]
         places = [(*node.position, node.height_m) for node in garage.lanes.nodes]
         told = [(*node.position, node.height_m) for node in unmoved.lanes.nodes]
         assert np.abs(np.subtract(places, told)).max() < 1e-6
-        driven = LevelsDrivePlanner(garage).drive(last).trajectory
+        driven = DrivePlanner(garage).drive(last).trajectory
         for name in ("time_s", "x_m", "y_m", "z_m", "pitch_rad"):
             assert np.abs(getattr(driven, name) - getattr(drive, name)).max() < 1e-6, name
         assert garage.lanes.edges == unmoved.lanes.edges
@@ -344,10 +345,10 @@ MISFITS = {
 
 @pytest.mark.parametrize(("edit", "rules"), MISFITS.values(), ids=MISFITS)
 def test_levels_and_ramps_that_do_not_fit_are_found_and_not_driven_on(edit, rules, bare, tmp_path):
-    garage, profile = read_stage(edited(bare, tmp_path / "edited.usda", edit))
-    found = {finding.rule for finding in check_levels(garage, profile, ()) if finding.severity.value == "error"}
+    garage, profile, _ = read_built(edited(bare, tmp_path / "edited.usda", edit))
+    found = {finding.rule for finding in findings_of_whole(garage, profile) if finding.severity.value == "error"}
     assert found - {"portal-count"} == rules
-    planner = LevelsDrivePlanner(garage)
+    planner = DrivePlanner(garage)
     lost = [stall.name for stall in garage.stalls if stall.takes_cars and stall.access not in garage.lanes.driven]
     assert bool(lost) == ("level-route" in rules)
     for name in lost[-1:]:
@@ -359,12 +360,12 @@ def test_levels_and_ramps_that_do_not_fit_are_found_and_not_driven_on(edit, rule
 def test_a_building_without_an_active_level_is_one_line(bare, tmp_path):
     file = edited(bare, tmp_path / "edited.usda", inactive("/Garage/Levels"))
     with pytest.raises(StageError, match="/Garage/Levels has no active level"):
-        read_stage(file)
+        read_built(file)
 
 
 def test_a_drive_goes_down_the_ramp_into_a_stall_and_back_to_the_street(built):
-    garage = built_levels(open_stage(built.stage), built.stage)
-    planner = LevelsDrivePlanner(garage)
+    garage = garage_of_file(built.stage)
+    planner = DrivePlanner(garage)
     for stall in (stall for stall in garage.stalls if stall.level == 1 and stall.takes_cars):
         try:
             states = planner.drive(str(stall.number)).trajectory
@@ -382,10 +383,10 @@ def test_a_drive_goes_down_the_ramp_into_a_stall_and_back_to_the_street(built):
 
 def test_every_stall_of_all_levels_is_proven_and_its_way_lies_on_the_floor_of_its_level(built, tmp_path):
     files = {end: tmp_path / f"ways.{end}" for end in ("json", "usda")}
-    whole = built_levels(open_stage(built.stage), built.stage)
+    whole = garage_of_file(built.stage)
     ran = CliRunner().invoke(main, ["drive", str(built.stage), "-o", str(files["json"])])
     assert ran.exit_code == 0, ran.output
-    write_driving_layer(files["usda"], prove_levels(whole), floors_m=floors_of_stalls(whole))
+    write_driving_layer(files["usda"], prove_built(whole), floors_m=floors_m_of_stalls(whole))
     floors = {stall.name: -3.6 * stall.level for stall in whole.stalls if stall.takes_cars}
     ways = {stall["name"]: stall for stall in json.loads(files["json"].read_text())["stalls"]}
     assert {name: way["floor_m"] for name, way in ways.items()} == pytest.approx(floors)
@@ -412,8 +413,8 @@ def test_below_a_ramp_that_leads_nowhere_no_stall_is_proven(built):
         if levels[one] > levels[other]:
             ends[number] = one
     edges.GetAttribute("garage:lane:to").Set(ends)
-    whole = built_levels(stage, built.stage)
-    shut = prove_levels(whole)
+    whole = garage_of_stage(stage, source=str(built.stage))
+    shut = prove_built(whole)
     assert {proof.stall.partition("/")[0] for proof in shut if not proof.is_proven} == {"U2"}
     assert {proof.stall.partition("/")[0] for proof in shut if proof.is_proven} == {"U1"}
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pxr import Usd, UsdLux, UsdShade
 
-from garage2usd.as_built.stage_reader import garage_of_file
+from garage2usd.as_built.garage import garage_of_file
 from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB, USUAL_TEMPERATURE_K, lamp_colour
 from garage2usd.config import GarageConfig
 from garage2usd.config.look import LampKind
@@ -156,7 +156,7 @@ def test_a_stage_of_dead_round_lamps(tmp_path):
     expected = layout.illuminance.luminance_nit / 27.0 * luminance_of(USUAL_LAMP_RGB)
     assert shining == pytest.approx([expected] * len(shining), rel=1e-3)
     assert [light.width_m for light in read] == pytest.approx([0.4] * len(read))
-    subject = garage_of_file(path)
+    (subject,) = garage_of_file(path).levels
     assert (subject.lamps, subject.dead_lamps) == (len(read), sum(light.candela == 0 for light in read))
     # the stage's ramps add little
     assert subject.lane_lux == pytest.approx(layout.illuminance.lanes.mean, rel=0.02)

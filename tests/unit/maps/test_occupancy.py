@@ -17,11 +17,11 @@ from support.soak import soak_but
 
 from garage2usd import GarageConfig, build
 from garage2usd.as_built.driven_ground import driven_garage
-from garage2usd.checks import read_garage
 from garage2usd.common.errors import ConfigError, StageError
 from garage2usd.config.look import ColumnSection
 from garage2usd.config.maps import GridConfig
 from garage2usd.driving import DesignCar, prove_garage
+from garage2usd.garage_sources import read_built
 from garage2usd.maps.occupancy import _Raster, write_grid
 
 SLACK_M = 0.02
@@ -51,7 +51,7 @@ def made(tmp_path_factory):
 
 
 def driven(built):
-    subject, _ = read_garage(built.stage)
+    (subject,) = read_built(built.stage).garage.levels
     garage, car = driven_garage(subject), DesignCar()
     return subject, garage, prove_garage(garage, car=car), car
 

@@ -12,7 +12,7 @@ from support.openscenario_reader import OpenScenario
 from support.small_garage import SETTINGS
 
 import garage2usd
-from garage2usd.as_built.layout_reader import garage_of_layout
+from garage2usd.as_built.garage import garage_as_made
 from garage2usd.config.maps import Leg
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.openscenario import EGO, write_scenario
@@ -26,7 +26,7 @@ def garage():
 
 @pytest.fixture(scope="module")
 def subject(garage):
-    return garage_of_layout(garage.layout, source="garage", kind="plan")
+    return garage_as_made(garage, source="garage", kind="plan")
 
 
 @pytest.fixture(scope="module")

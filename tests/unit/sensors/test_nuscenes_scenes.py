@@ -5,13 +5,14 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from garage2usd.reading.levels import StageLevel, nearest_floor, paths_from_above
+from garage2usd.garage.level_place import LevelPlace, nearest_floor
+from garage2usd.reading.levels import paths_from_above
 from garage2usd.sensors.formats.nuscenes_locations import Location
 from garage2usd.sensors.formats.nuscenes_scenes import stretches_of
 from garage2usd.sensors.formats.recording import Shot
 
 FLOORS_M = {"U1": 0.0, "U2": -3.0, "U3": -6.0}
-LEVELS = [StageLevel(name, f"/Garage/Levels/{name}", floor_m) for name, floor_m in FLOORS_M.items()]
+LEVELS = [LevelPlace(name, f"/Garage/Levels/{name}", floor_m) for name, floor_m in FLOORS_M.items()]
 PLACES = [Location(f"two_{name}", f"two.usdc {name}", floor_m, ("",)) for name, floor_m in FLOORS_M.items()]
 WORLD = SimpleNamespace(matrix=np.array([[1.0, 0, 0, 9], [0, 0, -1, 9], [0, 1, 0, 0], [0, 0, 0, 1]]))
 """A stage with Y up."""

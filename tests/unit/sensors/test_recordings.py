@@ -12,7 +12,7 @@ from pxr import Usd
 from support.label_tables import labelled_objects
 from support.sample_files import REPOSITORY
 
-from garage2usd.as_built.stage_reader import garage_of_stage
+from garage2usd.as_built.garage import garage_of_file
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError, OutputError
 from garage2usd.common.output import unfinished_folder
@@ -101,7 +101,7 @@ def test_a_camera_that_moves_leads_the_car(built):
 
 
 def test_columns_look_at_the_stall_they_watch(built):
-    subject = garage_of_stage(open_stage(built.stage), source=str(built.stage))
+    (subject,) = garage_of_file(built.stage).levels
     columns = [entry for entry in labelled_objects(built.labels) if entry["class"] == "column"]
     centres = [((e["min_m"][0] + e["max_m"][0]) / 2, (e["min_m"][2] + e["max_m"][2]) / 2) for e in columns]
     before = 0

@@ -10,7 +10,7 @@ from support.sample_files import REPOSITORY
 from support.soak import soak_but
 
 import garage2usd
-from garage2usd.checks import read_garage
+from garage2usd.garage_sources import read_built
 from garage2usd.survey.reader import read_survey
 
 SAMPLES = [REPOSITORY / "samples/mixed_stalls.toml", REPOSITORY / "samples/paper_7x9.toml"]
@@ -25,7 +25,7 @@ def exported(builds, tmp_path):
     def export(sample, suffix):
         stage = builds(sample, "usdc").stage
         (path,) = garage2usd.export(stage, [tmp_path / f"garage.{suffix}"])
-        return read_garage(stage)[0], path
+        return read_built(stage).garage, path
 
     return export
 

@@ -34,7 +34,7 @@ FINE_M, MOST_M = 0.01, 1.6
 @pytest.fixture(scope="module", params=soak_but([SMALL_LEVELS], [SMALL_LEVELS, HELICES]), ids=["straight", "helix"])
 def drawn(request, tmp_path_factory):
     built = garage2usd.build(request.param, tmp_path_factory.mktemp("section") / "garage.usdc")
-    drawing = draw_section(built.garage.layouts, storey_m=built.garage.building.storey_m)
+    drawing = draw_section(built.garage.levels, storey_m=built.garage.building.storey_m)
     return built, drawing, LevelJudge(built.stage)
 
 
@@ -71,7 +71,7 @@ def test_what_is_cut_is_what_trimesh_cuts_of_the_stage(drawn, label):
 
 def test_slabs_bear_the_floors_above_them_and_cars_stand_on_their_floors(drawn):
     built, drawing, judge = drawn
-    floors = [level.floor_m for level in built.garage.layouts]
+    floors = [level.floor_m for level in built.garage.levels]
     ceilings = [each for each in drawing.elements if isinstance(each, Region) and each.kind == "cut ceiling"]
     cars = [each for each in drawing.elements if isinstance(each, Region) and each.kind == "car"]
     assert ceilings
@@ -95,7 +95,7 @@ def test_slabs_bear_the_floors_above_them_and_cars_stand_on_their_floors(drawn):
 
 def test_plans_show_landings_as_such_and_only_doors_to_the_street_as_portals(drawn):
     built, _, _ = drawn
-    for level in built.garage.layouts:
+    for level in built.garage.levels:
         layout = level.layout
         landings = set(layout.well.landings)
         portals = {tuple(square) for square in np.argwhere(layout.structure.cells >= Cell.ENTRANCE).tolist()}
@@ -132,7 +132,7 @@ def test_the_page_of_a_data_set_shows_landings_as_such(drawn):
 def test_the_floor_a_stall_is_told_without_and_with_ramps(drawn):
     built, _, _ = drawn
     told, stalls, areas_m2 = json.loads(built.report.read_text()), built.garage.parking_stalls, np.zeros(2)
-    for level, own in zip(built.garage.layouts, told["levels"], strict=True):
+    for level, own in zip(built.garage.levels, told["levels"], strict=True):
         layout, structure = level.layout, level.layout.structure
         x, z = structure.column_edges_m, structure.row_edges_m
         floor = [tuple(square) for square in np.argwhere(structure.cells != Cell.OBSTACLE).tolist()]

@@ -1,30 +1,28 @@
-"""The stage of a garage of several levels: the stage of each level, placed at its floor under ``/Garage/Levels``."""
+"""The stage of a garage: that of its only level, or those of its levels at their floors under ``/Garage/Levels``."""
 
 import posixpath
 import shutil
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple
 
 from pxr import Sdf
 
 from garage2usd.common.json_text import json_text
 from garage2usd.common.progress import Progress, silent
 from garage2usd.config.stage import AssetPlace, StageConfig, StageForm
-from garage2usd.layout import Layout
+from garage2usd.garage.level_place import GARAGE_NAME, LEVELS_NAME
+from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.objects.kind import VariantSet
 from garage2usd.reading.label_table import LabelledObject, LabelTable
-from garage2usd.reading.whole_garage import LEVELS
-from garage2usd.stage import StageFiles, StageFormat, arrangement_of, asset_folder_name, write_stage
-from garage2usd.stage.arrangement import ROOT_NAME
 from garage2usd.stage.flat import flatten_stage
 from garage2usd.stage.labels import label_table
 from garage2usd.stage.lane_curves import LANE_GRAPH_FILE, STALL_OUTLINES, Drivable, write_lane_graph
+from garage2usd.stage.level_stage import StageFiles, StageFormat, arrangement_of, asset_folder_name, write_level_stage
 from garage2usd.stage.prim_text import anchored
 from garage2usd.stage.usdz import write_usdz
 from garage2usd.stage.variants import BLOCKED_BY, OCCUPIED, SWITCHES
 
-__all__ = ["LevelLayout", "path_on_level", "write_level_labels", "write_levels_stage"]
+__all__ = ["stages_of_levels", "write_labels", "write_stage"]
 
 _PHYSICS = "PhysicsScene"
 _ALL = "all"
@@ -32,43 +30,29 @@ _POINT_OFFSET_DECIMALS = 3
 _INT_END = 2**31
 
 
-class LevelLayout(NamedTuple):
-    """One level of a garage.
-
-    Attributes
-    ----------
-    name
-        Name of its prim, ``U1``.
-    floor_m
-        Height of its floor.
-    layout
-        Its objects, as of a garage whose floor is at 0.
-    metadata
-        Written into the customData of its prim.
-    """
-
-    name: str
-    floor_m: float
-    layout: Layout
-    metadata: Mapping[str, str | int]
+def stages_of_levels(garage: Garage, stage: Path) -> list[Path]:
+    """Return the stage of each level by itself, beside that of a garage whose form is not flat."""
+    folder = stage.parent / asset_folder_name(stage)
+    return [stage if level.place.is_only else folder / f"{level.name}.usdc" for level in garage.levels]
 
 
-def write_level_labels(levels: Sequence[LevelLayout], path: Path, config: StageConfig) -> None:
-    """Write the table of all labelled objects of all levels as JSON; ids go on from level to level."""
-    tables = [(level, label_table(level.layout, arrangement_of(level.layout, config).paths())) for level in levels]
+def write_labels(garage: Garage, path: Path) -> None:
+    """Write the table of all labelled objects of the stage of a garage as JSON; ids go on from level to level."""
+    config = garage.config.stage
+    tables = [label_table(level.layout, arrangement_of(level.layout, config).paths()) for level in garage.levels]
     objects: dict[str, tuple[LabelledObject, ...]] = {}
     parked: list[tuple[int, int]] = []
     plates: list[tuple[int, int, str]] = []
     offset = 0
-    for level, table in tables:
+    for level, table in zip(garage.levels, tables, strict=True):
         for parent, rows in table.objects.items():
-            objects[path_on_level(parent, level.name)] = tuple(_lifted(row, level.floor_m, offset) for row in rows)
+            objects[level.place.path_in_whole(parent)] = tuple(_lifted(row, level.floor_m, offset) for row in rows)
         parked += [(stall + offset, car + offset) for stall, car in table.parked]
         plates += [(plate + offset, car + offset, text) for plate, car, text in table.number_plates]
         offset += sum(map(len, table.objects.values()))
     whole = LabelTable(
-        classes_version=tables[0][1].classes_version,
-        classes=tables[0][1].classes,
+        classes_version=tables[0].classes_version,
+        classes=tables[0].classes,
         objects=objects,
         parked=tuple(parked),
         number_plates=tuple(plates),
@@ -76,49 +60,69 @@ def write_level_labels(levels: Sequence[LevelLayout], path: Path, config: StageC
     path.write_text(json_text(whole.model_dump()), encoding="utf-8", newline="\n")
 
 
-def write_levels_stage(
-    levels: Sequence[LevelLayout],
-    lanes: Drivable,
+def write_stage(
+    garage: Garage,
     path: Path,
     *,
-    metadata: Mapping[str, str | int],
-    config: StageConfig,
+    config: StageConfig | None = None,
     shared: Path | None = None,
     own: str | None = None,
     progress: Progress = silent,
 ) -> StageFiles:
-    """Write a stage of several levels into a folder of its own.
+    """Write the stage of a garage into an empty folder.
 
     Parameters
     ----------
-    levels
-        The levels, the top one first.
-    lanes
-        Lanes and stalls of all levels together.
+    garage
+        The garage.
     path
-        The stage's file in an existing, empty folder; its extension decides the format.
-    metadata
-        Written into the root's customData.
+        The stage's file in an existing, empty folder; its extension selects the format.
     config
-        Texture quality and form.
+        Texture quality and form of the stage; those of the garage if left out.
     shared
-        Folder of the assets that it shares with others, as for `garage2usd.stage.write_stage`.
+        Folder of the shared assets, from `shared_folder` for the final path of the stage. Missing assets are added,
+        damaged ones are written again.
     own
-        Prefix of the names of the levels' layers and of their own ones, which then stand beside the stage; only with
-        shared assets. If left out, they stand in a folder named by `garage2usd.stage.asset_folder_name`.
+        Prefix of the names of this garage's own layers, beside a stage with shared assets; if left out, the layers
+        stand in a folder named by `asset_folder_name`.
     progress
-        Called with each prototype that is written.
+        Called after each prototype.
 
     Returns
     -------
     StageFiles
-        What now stands in the folder.
+        The files in the folder.
 
-    Notes
-    -----
+    Raises
+    ------
+    OutputError
+        If the shared assets cannot be written.
+    """
+    config = config or garage.config.stage
+    if not garage.levels[0].place.is_only:
+        return _write_levels(garage, path, config, shared=shared, own=own, progress=progress)
+    layout = garage.layout
+    return write_level_stage(
+        layout,
+        path,
+        arrangement=arrangement_of(layout, config),
+        metadata=garage.metadata,
+        config=config,
+        shared=shared,
+        own=own,
+        progress=progress,
+    )
+
+
+def _write_levels(
+    garage: Garage, path: Path, config: StageConfig, *, shared: Path | None, own: str | None, progress: Progress
+) -> StageFiles:
+    """Write the stage of several levels.
+
     The layer of each level is the stage that a garage of this level alone has; the root layer refers to it. The lane
     graph of the whole building takes the place of those of the levels.
     """
+    levels, lanes = garage.levels, garage.joined
     packed, is_flat = path.suffix == StageFormat.USDZ, config.form is StageForm.FLAT
     beside = own is not None and shared is not None
     if beside:
@@ -132,7 +136,7 @@ def write_levels_stage(
     of_level = config.model_copy(update={"assets": AssetPlace.SHARED, "asset_folder": assets, "form": form})
     last_frame = 0
     for level in levels:
-        made = write_stage(
+        made = write_level_stage(
             level.layout,
             path.parent / f"{layers}{level.name}.usdc",
             arrangement=arrangement_of(level.layout, of_level),
@@ -146,7 +150,7 @@ def write_levels_stage(
     write_lane_graph(path.parent / f"{layers}{LANE_GRAPH_FILE}", lanes)
     layer_path = path.with_suffix(".usda") if packed else path
     layer = Sdf.Layer.CreateAnonymous(".usda")
-    layer.ImportFromString(_root_text(levels, lanes, layers, metadata, last_frame))
+    layer.ImportFromString(_root_text(levels, lanes, layers, garage.metadata, last_frame))
     layer.Export(str(layer_path))
     if is_flat:
         flat = layer_path.with_stem(f"{layer_path.stem}_flat")
@@ -167,7 +171,7 @@ def write_levels_stage(
 
 
 def _root_text(
-    levels: Sequence[LevelLayout], lanes: Drivable, layers: str, metadata: Mapping[str, str | int], last_frame: int
+    levels: Sequence[GarageLevel], lanes: Drivable, layers: str, metadata: Mapping[str, str | int], last_frame: int
 ) -> str:
     """Return the root layer as text; `layers` precedes the names of the layers that it refers to."""
     data = "".join(
@@ -182,12 +186,12 @@ def _root_text(
     bodies = "".join(body for _, _, body in sets)
     places = "".join(_level_text(level, layers) for level in levels)
     return (
-        f'#usda 1.0\n(\ndefaultPrim = "{ROOT_NAME}"\nendTimeCode = {last_frame}\nframesPerSecond = 24\n'
+        f'#usda 1.0\n(\ndefaultPrim = "{GARAGE_NAME}"\nendTimeCode = {last_frame}\nframesPerSecond = 24\n'
         "kilogramsPerUnit = 1\nmetersPerUnit = 1\nstartTimeCode = 0\ntimeCodesPerSecond = 24\n"
-        f'upAxis = "Y"\n)\n\ndef Xform "{ROOT_NAME}" (\nkind = "assembly"\n'
+        f'upAxis = "Y"\n)\n\ndef Xform "{GARAGE_NAME}" (\nkind = "assembly"\n'
         f"customData = {{\n{data}string[] levels = [{names}]\ndouble[] floorsM = [{floors}]\n}}\n"
         f"variants = {{\n{selections}}}\nprepend variantSets = [{set_names}]\n)\n{{\n{bodies}"
-        f'def Xform "{LEVELS}" (\nkind = "group"\n)\n{{\n{places}}}\n'
+        f'def Xform "{LEVELS_NAME}" (\nkind = "group"\n)\n{{\n{places}}}\n'
         f'def "{Path(LANE_GRAPH_FILE).stem}" (\n'
         f"prepend references = @{anchored(f'{layers}{LANE_GRAPH_FILE}')}@\n)\n{{\n}}\n"
         f'def {_PHYSICS} "{_PHYSICS}"\n{{\n}}\n}}\n'
@@ -199,7 +203,7 @@ def _integer_type(value: int) -> str:
     return "int" if abs(value) < _INT_END else "int64"
 
 
-def _level_text(level: LevelLayout, layers: str) -> str:
+def _level_text(level: GarageLevel, layers: str) -> str:
     """Return the prim of a level, without what the whole garage has once."""
     off = "".join(f'over "{name}" (\nactive = false\n)\n{{\n}}\n' for name in (Path(LANE_GRAPH_FILE).stem, _PHYSICS))
     return (
@@ -210,7 +214,7 @@ def _level_text(level: LevelLayout, layers: str) -> str:
     )
 
 
-def _switch_sets(levels: Sequence[LevelLayout], lanes: Drivable) -> list[tuple[str, str, str]]:
+def _switch_sets(levels: Sequence[GarageLevel], lanes: Drivable) -> list[tuple[str, str, str]]:
     """Return name, usual choice and text of the variant sets that set those of all levels."""
     found = []
     for name in VariantSet:
@@ -226,27 +230,20 @@ def _switch_sets(levels: Sequence[LevelLayout], lanes: Drivable) -> list[tuple[s
                 beside += f"custom token[] {BLOCKED_BY} = []\n" if lanes.blocked else ""
                 for prim in reversed(STALL_OUTLINES):
                     beside = f'over "{prim}"\n{{\n{beside}}}\n'
-            choices += f'"{choice}" {{\nover "{LEVELS}"\n{{\n{overs}}}\n{beside}}}\n'
+            choices += f'"{choice}" {{\nover "{LEVELS_NAME}"\n{{\n{overs}}}\n{beside}}}\n'
         found.append((str(name), switch.usual, f'variantSet "{name}" = {{\n{choices}}}\n'))
     return found
 
 
-def _level_set(levels: Sequence[LevelLayout]) -> tuple[str, str, str]:
+def _level_set(levels: Sequence[GarageLevel]) -> tuple[str, str, str]:
     """Return the variant set that shows all levels or one of them."""
     choices = f'"{_ALL}" {{\n}}\n'
     for shown in levels:
         overs = "".join(
             f'over "{level.name}"\n{{\ntoken visibility = "invisible"\n}}\n' for level in levels if level is not shown
         )
-        choices += f'"{shown.name}" {{\nover "{LEVELS}"\n{{\n{overs}}}\n}}\n'
+        choices += f'"{shown.name}" {{\nover "{LEVELS_NAME}"\n{{\n{overs}}}\n}}\n'
     return "level", _ALL, f'variantSet "level" = {{\n{choices}}}\n'
-
-
-def path_on_level(place: str, name: str) -> str:
-    """Return the path in the whole stage of a prim of a level's own; any other place after the level's name."""
-    if place.startswith(f"/{ROOT_NAME}"):
-        return place.replace(f"/{ROOT_NAME}", f"/{ROOT_NAME}/{LEVELS}/{name}", 1)
-    return f"{name}/{place}" if place else name
 
 
 def _lifted(row: LabelledObject, floor_m: float, offset: int) -> LabelledObject:

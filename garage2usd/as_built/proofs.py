@@ -1,20 +1,21 @@
-"""Swept-path proofs of the stalls on all levels of a garage, from the street over the ramps."""
+"""Swept-path proofs of the stalls of a garage as built, from the street over the ramps between its levels."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from garage2usd.as_built.driven_ground import driven_garage
 from garage2usd.as_built.garage import BuiltGarage
-from garage2usd.as_built.levels import BuiltLevel, BuiltLevels
+from garage2usd.as_built.level import BuiltLevel
 from garage2usd.common.progress import Progress, silent
 from garage2usd.driving import StallProof, prove_garage
 from garage2usd.driving.garage import ABSENT
 from garage2usd.garage import LaneKind, LaneNode
+from garage2usd.garage.level_place import LevelPlace
 
-__all__ = ["floors_of_stalls", "prove_levels"]
+__all__ = ["floors_m_of_stalls", "prove_built"]
 
 
-def prove_levels(garage: BuiltLevels, *, progress: Progress = silent) -> tuple[StallProof, ...]:
+def prove_built(garage: BuiltGarage, *, progress: Progress = silent) -> tuple[StallProof, ...]:
     """Prove for each stall of all levels that the design car can drive in from the street, and out to it.
 
     Parameters
@@ -39,21 +40,21 @@ def prove_levels(garage: BuiltLevels, *, progress: Progress = silent) -> tuple[S
     proofs: list[StallProof] = []
     for number, level in enumerate(garage.levels):
         driven = driven_garage(_joined_with_the_street(garage, number))
-        stalls = [stall for stall in driven.stalls if f"{level.place.name}/{stall.name}" in joined]
+        stalls = [stall for stall in driven.stalls if level.place.in_whole(stall.name) in joined]
         proven = {proof.stall: proof for proof in prove_garage(driven, stalls, progress=progress)}
         every = (proven.get(stall.name, StallProof(stall.name)) for stall in driven.stalls)
-        proofs += (_in_whole(proof, level) for proof in every)
+        proofs += (_in_whole(proof, level.place) for proof in every)
     return tuple(proofs)
 
 
-def floors_of_stalls(garage: BuiltLevels) -> Mapping[str, float]:
+def floors_m_of_stalls(garage: BuiltGarage) -> Mapping[str, float]:
     """Return the height of the floor under each stall, in metres, by the name of the stall."""
     return {stall.name: garage.levels[stall.level].place.floor_m for stall in garage.stalls}
 
 
-def _joined_with_the_street(garage: BuiltLevels, level: int) -> BuiltGarage:
+def _joined_with_the_street(garage: BuiltGarage, level: int) -> BuiltLevel:
     """Return a level whose landings are portals only where the street leads to them, or they lead to it."""
-    whole, own = garage.lanes, garage.levels[level].garage
+    whole, own = garage.lanes, garage.levels[level]
     number_of = {(node.level, node.name.rpartition("/")[2]): number for number, node in enumerate(whole.nodes)}
     reached = {end for _, end in whole.arriving}
     leading = {start for start, _ in whole.leaving}
@@ -67,10 +68,10 @@ def _joined_with_the_street(garage: BuiltLevels, level: int) -> BuiltGarage:
     return replace(own, lanes=replace(own.lanes, nodes=tuple(nodes())))
 
 
-def _in_whole(proof: StallProof, level: BuiltLevel) -> StallProof:
+def _in_whole(proof: StallProof, place: LevelPlace) -> StallProof:
     def named(touched: str) -> str:
         if touched.startswith(ABSENT):
-            return f"{ABSENT}{level.place.name}/{touched.removeprefix(ABSENT)}"
-        return level.path_in_whole(touched)
+            return f"{ABSENT}{place.in_whole(touched.removeprefix(ABSENT))}"
+        return place.path_in_whole(touched)
 
-    return replace(proof, stall=f"{level.place.name}/{proof.stall}", touched=tuple(map(named, proof.touched)))
+    return replace(proof, stall=place.in_whole(proof.stall), touched=tuple(map(named, proof.touched)))

@@ -1,0 +1,63 @@
+"""The place of a level in its garage: its name, the path of its prim, and the height of its floor."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+__all__ = ["GARAGE_NAME", "LEVELS_NAME", "ONLY_LEVEL", "LevelPlace", "nearest_floor"]
+
+GARAGE_NAME, LEVELS_NAME = "Garage", "Levels"
+"""Names of the prim of a garage, and of the prim below it that holds its levels where there are several."""
+
+
+class LevelPlace(NamedTuple):
+    """The place of a level in its garage.
+
+    Attributes
+    ----------
+    name
+        Name of its prim, ``U1``; empty for the only level of a garage, whose prim is that of the garage.
+    path
+        Path of its prim.
+    floor_m
+        Height of its floor.
+    """
+
+    name: str
+    path: str
+    floor_m: float
+
+    @classmethod
+    def among_several(cls, name: str, floor_m: float) -> "LevelPlace":
+        """Return the place of a level in a garage of several levels."""
+        return cls(name, f"/{GARAGE_NAME}/{LEVELS_NAME}/{name}", floor_m)
+
+    @property
+    def is_only(self) -> bool:
+        """True if the level is the whole garage."""
+        return not self.name
+
+    def in_whole(self, name: str, *, joint: str = "/") -> str:
+        """Return the name in the whole garage of a stall or file of the level: ``U2/A1-08``, ``U2_plan``."""
+        return name if self.is_only else f"{self.name}{joint}{name}"
+
+    def own_name(self, name: str) -> str:
+        """Return the name within the level of its stall that has a name in the whole garage."""
+        return name.removeprefix(self.in_whole(""))
+
+    def path_in_whole(self, place: str) -> str:
+        """Return the path in the whole stage of a prim of the level's own; any other place after the level's name."""
+        if self.is_only:
+            return place
+        root = f"/{self.path.split('/')[1]}"
+        if place == root or place.startswith(f"{root}/"):
+            return self.path + place[len(root) :]
+        return self.in_whole(place) if place else self.name
+
+
+ONLY_LEVEL = LevelPlace("", f"/{GARAGE_NAME}", 0.0)
+"""The place of the only level of a garage."""
+
+
+def nearest_floor(floors_m: Sequence[float], height_m: float) -> int:
+    """Return the index of the floor of the level at a height; on a ramp it changes half way."""
+    return min(range(len(floors_m)), key=lambda index: abs(floors_m[index] - height_m))
