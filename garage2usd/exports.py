@@ -15,7 +15,7 @@ from garage2usd.common.processes import run_in_forks, without_collector
 from garage2usd.common.progress import Progress, silent, unheard
 from garage2usd.config.maps import MapsConfig, ScenarioConfig
 from garage2usd.garage.level_place import ONLY_LEVEL, LevelPlace
-from garage2usd.garage_files import read_garage_report
+from garage2usd.garage_sources import settings_and_tape
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.glb import write_glb
 from garage2usd.maps.level_networks import LevelNetwork, level_networks
@@ -27,6 +27,7 @@ from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.pipeline import build
 from garage2usd.reading.files import STAGE_SUFFIXES
 from garage2usd.reading.levels import levels_of
+from garage2usd.reading.report import read_report
 from garage2usd.reading.whole_garage import open_garage
 from garage2usd.scenes.objects import PlacedObject
 from garage2usd.scenes.remarks import Remarks
@@ -265,8 +266,8 @@ def export(
     """
     source, reported = Path(source), None
     if source.suffix.lower() == _REPORT:
-        reported = read_garage_report(source)
-        settings = settings or reported.config.maps
+        reported = settings_and_tape(read_report(source))
+        settings = settings or reported[0].maps
     elif source.suffix.lower() not in STAGE_SUFFIXES:
         raise ConfigError("PATH", str(source), f"a path that ends in {', '.join((*STAGE_SUFFIXES, _REPORT))}")
     settings = settings or MapsConfig()
@@ -280,7 +281,8 @@ def export(
         stage = source
         if reported is not None:
             place = staging / "source" / "garage.usdc"
-            stage = build(reported.config, place, tape=reported.tape, progress=progress).stage
+            config, tape = reported
+            stage = build(config, place, tape=tape, progress=progress).stage
         order = sorted(range(len(files)), key=lambda number: [*_WRITERS].index(files[number].format))
         drafts: dict[int, tuple[Path, ...]] = {}  # by index of the output
         with without_collector():

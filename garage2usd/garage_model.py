@@ -12,7 +12,7 @@ from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
 from garage2usd.garage import LaneGraph, Stall
 from garage2usd.garage.joined_levels import JoinedLevels, LevelLanes, RampLane, join_levels
-from garage2usd.garage.level_place import ONLY_LEVEL, LevelPlace
+from garage2usd.garage.level_place import LevelPlace, level_name
 from garage2usd.layout import Layout
 from garage2usd.planning import Plan, plan_tape_of, tape_of
 from garage2usd.structure.building import Building
@@ -50,27 +50,31 @@ class GarageLevel:
 
     Attributes
     ----------
-    name
-        Its name: ``U1`` is the top one.
-    floor_m
-        Height of its floor; the top one lies at 0.
+    place
+        Its place in the garage. In the only level of a garage, names of stalls and files do without that of the level.
     config
         The settings of this level alone; those of the garage where it is the only one.
     layout
         Every object in metres, with the floor at 0. Landings of ramps are portals of the level.
-    is_only
-        True if the garage has no other level. Then names of stalls and files do without that of the level.
     planned
         What it was planned from and as; None for a level that was surveyed. ``site``, ``plan`` and ``graph`` are its
         parts, and raise an error there.
     """
 
-    name: str
-    floor_m: float
+    place: LevelPlace
     config: GarageConfig
     layout: Layout
-    is_only: bool
     planned: PlannedParts | None
+
+    @property
+    def name(self) -> str:
+        """Its name: ``U1`` is the top level, also where it is the only one."""
+        return self.place.name or level_name(0)
+
+    @property
+    def floor_m(self) -> float:
+        """Height of its floor; the top one lies at 0."""
+        return self.place.floor_m
 
     @property
     def site(self) -> Structure:
@@ -93,15 +97,9 @@ class GarageLevel:
         return self.planned
 
     @property
-    def place(self) -> LevelPlace:
-        """Its place in the stage of the garage."""
-        return ONLY_LEVEL if self.is_only else LevelPlace.among_several(self.name, self.floor_m)
-
-    @property
     def metadata(self) -> dict[str, str | int]:
         """Description of the making of the level, for its stage."""
-        digest = {} if self.planned is None else {"structureDigest": self.planned.plan.structure.digest()}
-        return _metadata(self.config) | digest | {"profile": self.config.standard.name}
+        return _metadata(self.config, *(() if self.planned is None else (self.planned.plan,)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,9 +184,7 @@ class Garage:
     @property
     def metadata(self) -> dict[str, str | int]:
         """Description of the making of the garage, for its stage."""
-        if self.building.ramps is None:
-            return {**self.levels[0].metadata, **self.origin}
-        return _metadata(self.config) | {"profile": self.config.standard.name}
+        return {**_metadata(self.config, *self.plans), **self.origin}
 
     @cached_property
     def joined(self) -> JoinedLevels:
@@ -201,13 +197,21 @@ class Garage:
         return self.levels[0]
 
 
-def _metadata(config: GarageConfig) -> dict[str, str | int]:
-    return {"generator": "garage2usd", "version": VERSION, "seed": config.seed, "configDigest": config.digest()}
+def _metadata(config: GarageConfig, *plans: Plan) -> dict[str, str | int]:
+    """Return what made a garage or a level, with the digest of its structure if that is one."""
+    made: dict[str, str | int] = {
+        "generator": "garage2usd",
+        "version": VERSION,
+        "seed": config.seed,
+        "configDigest": config.digest(),
+    }
+    digest = {"structureDigest": plans[0].structure.digest()} if len(plans) == 1 else {}
+    return {**made, **digest, "profile": config.standard.name}
 
 
 def _joined(building: Building, levels: Sequence[GarageLevel]) -> JoinedLevels:
     """Join the lanes of all levels by the ramps."""
-    if levels[0].is_only:
+    if levels[0].place.is_only:
         layout = levels[0].layout
         return JoinedLevels(layout.lane_graph, layout.quads, layout.node_squares())
     of_levels = [

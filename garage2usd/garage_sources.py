@@ -10,22 +10,29 @@ from garage2usd.as_built.plan_reader import garage_of_plan, report_differences
 from garage2usd.as_built.proofs import prove_built
 from garage2usd.as_built.stage_reader import profile_name
 from garage2usd.checks import Finding
-from garage2usd.common.documents import is_file
-from garage2usd.common.errors import ConfigError
+from garage2usd.common.documents import MAX_REPORT_BYTES, is_file, read_json
+from garage2usd.common.errors import ConfigError, ReportError
 from garage2usd.common.progress import Progress, silent
-from garage2usd.config import load_config
+from garage2usd.config import GarageConfig, load_config
 from garage2usd.config.maps import DriveConfig
 from garage2usd.driving import StallProof
 from garage2usd.garage import Fault
-from garage2usd.garage_files import read_garage_report
 from garage2usd.garage_model import Garage
 from garage2usd.pipeline import generate
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
 from garage2usd.reading.files import STAGE_SUFFIXES
-from garage2usd.reading.levels_report import LevelReport, read_levels_report
+from garage2usd.reading.report import LevelReport, Report, read_report, report_of
 from garage2usd.stage import StageFormat
 
-__all__ = ["BuiltSource", "built_source", "check_file", "generated_of", "read_built", "refuse_seed"]
+__all__ = [
+    "BuiltSource",
+    "built_source",
+    "check_file",
+    "generated_of",
+    "read_built",
+    "refuse_seed",
+    "settings_and_tape",
+]
 
 _SETTINGS, _REPORT = ".toml", ".json"
 
@@ -100,13 +107,26 @@ def read_built(path: str | Path, *, profile: Profile | None = None, progress: Pr
         name = profile_name(garage.stage)
         against = profile or load_profile(name if name in PROFILE_NAMES else DEFAULT_PROFILE)
         return BuiltSource(garage, against, DriveConfig())
-    levels = read_levels_report(path) if path.suffix.lower() == _REPORT else None
-    if levels is None:
-        plan, config = garage_of_plan(path, profile=profile)
+    report = _report_in(path)
+    if report is None or len(report.levels) == 1:  # of one level S, R and C are read, faults and all
+        plan, config = garage_of_plan(path, report=report, profile=profile)
         return BuiltSource(plan, profile or config.standard, config.maps.drive)
-    made = generate(levels.config, seed=levels.seed, tape=levels.tape, progress=progress)
-    source = built_source(made, source=str(path), faults=_differences(made, levels.levels))
+    made = generate(report.config, seed=report.seed, tape=report.tape, progress=progress)
+    source = built_source(made, source=str(path), faults=_differences(made, report.levels))
     return source._replace(profile=profile or source.profile)
+
+
+def _report_in(path: Path) -> Report | None:
+    """Read a report; None from a file of another kind, or JSON that is a plan."""
+    if path.suffix.lower() != _REPORT:
+        return None
+    document = read_json(path, field="PATH", max_bytes=MAX_REPORT_BYTES)
+    if not (isinstance(document, dict) and "config" in document):
+        return None
+    try:
+        return report_of(document, path)
+    except ReportError as error:
+        raise ReportError(path, f"{error.reason}; check reads a report with config, S, R and C") from None
 
 
 def built_source(garage: Garage, *, source: str, faults: tuple[Fault, ...] = ()) -> BuiltSource:
@@ -136,8 +156,18 @@ def generated_of(path: Path, seed: int | None, *, progress: Progress = silent) -
         report = path.with_name(f"{path.stem}_report.json")
         if not is_file(report):
             raise ConfigError("PATH", str(path), f"a stage with the report of its build beside it, {report.name}")
-    reported = read_garage_report(report)
-    return generate(reported.config, tape=reported.tape, progress=progress)
+    config, tape = settings_and_tape(read_report(report))
+    return generate(config, tape=tape, progress=progress)
+
+
+def settings_and_tape(report: Report) -> tuple[GarageConfig, str | None]:
+    """Return the settings and the tape by which `garage2usd.generate` makes a reported garage again.
+
+    The settings of a single level have its lanes, and need no tape.
+    """
+    if len(report.levels) == 1:
+        return report.garage_config(), None
+    return report.config.with_seed(report.seed), report.tape
 
 
 def refuse_seed(seed: int | None) -> None:
@@ -150,10 +180,10 @@ def _differences(garage: Garage, told: Sequence[LevelReport]) -> tuple[Fault, ..
     """Compare the matrices and stalls of the levels of a report with those that its tape gives."""
     faults = [] if len(told) == len(garage.levels) else [Fault("report-stalls", "", None, "its tape has other levels")]
     for level, each in zip(garage.levels, told, strict=False):
-        structure, report = level.plan.structure, each.report
+        structure = level.plan.structure
         matrices = tuple(str(structure).splitlines()), tuple(structure.R[0].tolist()), tuple(structure.C[:, 0].tolist())
-        if matrices != (report.S, report.R, report.C):
+        if matrices != (each.S, each.R, each.C):
             faults.append(Fault("report-stalls", level.name, None, "the report has another plan than its tape"))
-        found = [] if report.stalls is None else report_differences(level.layout, report.stalls)
+        found = [] if each.stalls is None else report_differences(level.layout, each.stalls)
         faults += [fault._replace(place=level.place.in_whole(fault.place)) for fault in found]
     return tuple(faults)

@@ -3,8 +3,7 @@
 import hashlib
 import math
 import time
-from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -14,16 +13,18 @@ from garage2usd.checks import judged_layout
 from garage2usd.common.processes import without_collector
 from garage2usd.common.progress import Progress, silent
 from garage2usd.config import GarageConfig
-from garage2usd.driving import StallProof, prove_stalls
-from garage2usd.garage_files import draw_pictures
+from garage2usd.driving import prove_stalls
 from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.layout.surveyed import SurveyedFloor, lay_out_survey
 from garage2usd.pipeline import Build, Judged, checked_output, with_things, written
-from garage2usd.structure.building import Building, level_name
+from garage2usd.reading.report import SurveyFigures
+from garage2usd.report import make_report
+from garage2usd.structure.building import Building
 from garage2usd.survey.alignment import Alignment, aligned
 from garage2usd.survey.medial_lanes import with_medial_lanes
 from garage2usd.survey.reader import SURVEY_SUFFIXES, read_survey
 from garage2usd.survey.survey import Survey
+from garage2usd.view.garage_pictures import draw_pictures
 
 __all__ = ["SURVEY_SUFFIXES", "import_layout", "read_survey", "surveyed_floor"]
 
@@ -73,8 +74,8 @@ def import_layout(
     survey, alignment = aligned(with_medial_lanes(survey))
     layout = with_things(lay_out_survey(survey, config), config, progress=progress)
     proofs = prove_stalls(layout, progress=progress) if proves else ()
-    level = GarageLevel(level_name(0), 0.0, config, layout, is_only=True, planned=None)
     building = Building((layout.structure,), None, config.building.storey_m)
+    level = GarageLevel(building.places[0], config, layout, planned=None)
     garage = Garage(config, building, (level,), _origin(source))
     seconds = {"import": time.perf_counter() - start}
 
@@ -82,8 +83,13 @@ def import_layout(
         findings, unmet = judged_layout(layout, config, with_ways=proves)
         return (Judged(tuple(findings), unmet),)
 
-    def report(_: object) -> Mapping[str, Any]:
-        return _report(garage, alignment, proofs, seconds=sum(seconds.values()))
+    def report(judged: Sequence[Judged] | None) -> Mapping[str, Any]:
+        unmet = None if judged is None else [each.unmet for each in judged]
+        survey = _survey_figures(garage, alignment)
+        facts: Mapping[str, Any] = make_report(
+            garage, seconds=seconds, unmet=unmet, survey=survey, proofs=proofs
+        ).model_dump(mode="json")
+        return facts
 
     draw = partial(draw_pictures, garage)
     made = written(garage, path, seconds, draw=draw, judge=judge, report=report, progress=progress)
@@ -104,42 +110,16 @@ def _origin(source: str | Path | Survey) -> Mapping[str, str]:
     return {"source": Path(source).name, "sourceDigest": hashlib.sha256(Path(source).read_bytes()).hexdigest()}
 
 
-def _report(
-    garage: Garage, alignment: Alignment, proofs: tuple[StallProof, ...], *, seconds: float
-) -> Mapping[str, Any]:
-    """The facts of an import; reproducible, except for ``seconds``."""
-    config, layout, surveyed = garage.config, garage.layout, surveyed_floor(garage)
-    proven = {proof.stall: proof for proof in proofs}
-    origin = surveyed.survey.origin_deg
-    return {
-        **garage.metadata,
-        "config": config.model_dump(mode="json"),
-        "turn_deg": round(math.degrees(alignment.turn_rad), 6),
-        "shift_m": alignment.shift_m,
-        "origin_deg": origin,
-        "parking_stalls": layout.parking_stalls,
-        "stall_kinds": dict(sorted(Counter(stall.kind.value for stall in layout.quads).items())),
-        "stall_uses": dict(sorted(Counter(stall.use.value for stall in layout.quads).items())),
-        "unplaced": [{"id": part.name, "reason": part.reason} for part in surveyed.unplaced],
-        "remarks": config.remarks(),
-        "changed": [{"id": stall.source.name, "change": stall.note} for stall in surveyed.fitted if stall.note],
-        "stalls": [
-            {
-                "id": source_stall.source.name,
-                "name": stall.name,
-                "number": str(stall.number or ""),
-                "use": stall.use.value,
-                "kind": stall.kind.value,
-                "angle_deg": round(stall.slant_deg, 3),
-                "size": stall.size,
-                "corners_m": [[round(x, 4), round(z, 4)] for x, z in stall.corners],
-                "occupied": stall.is_occupied,
-                **({} if stall.blocked_by is None else {"blocked_by": stall.blocked_by}),
-                **({"proof": proven[stall.name].outcome.value} if stall.name in proven else {}),
-            }
-            for stall, source_stall in zip(layout.quads, surveyed.fitted, strict=True)
-        ],
-        "lane_m": round(sum(layout.lane_graph.length_m(edge.start, edge.end) for edge in layout.lane_graph.edges), 2),
-        "object_counts": layout.counts(),
-        "seconds": round(seconds, 4),
-    }
+def _survey_figures(garage: Garage, alignment: Alignment) -> SurveyFigures:
+    """Return what was imported, and what became of its parts."""
+    surveyed, lanes = surveyed_floor(garage), garage.lanes
+    return SurveyFigures(
+        source=garage.origin.get("source"),
+        source_digest=garage.origin.get("sourceDigest"),
+        turn_deg=round(math.degrees(alignment.turn_rad), 6),
+        shift_m=alignment.shift_m,
+        origin_deg=surveyed.survey.origin_deg,
+        unplaced=tuple({"id": part.name, "reason": part.reason} for part in surveyed.unplaced),
+        changed=tuple({"id": stall.source.name, "change": stall.note} for stall in surveyed.fitted if stall.note),
+        lane_m=round(sum(lanes.length_m(edge.start, edge.end) for edge in lanes.edges), 2),
+    )

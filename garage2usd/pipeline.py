@@ -25,7 +25,7 @@ from garage2usd.config.plan import UnreachableStalls
 from garage2usd.driving import DesignCar, StallProof, with_clutter, with_truth_of_misparked, without_unreachable
 from garage2usd.driving.refusal import refuse_undrivable
 from garage2usd.garage.joined_levels import unreached_stalls
-from garage2usd.garage_files import draw_pictures, make_garage_report
+from garage2usd.garage.level_place import level_places
 from garage2usd.garage_model import Garage, GarageLevel, PlannedParts
 from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.egress.exits import Egress, plan_egress
@@ -36,10 +36,12 @@ from garage2usd.level_plans import ATTEMPTS, PlannedLevel, lane_squares_of, plan
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.planning import Plan
 from garage2usd.reading.report import UnmetClause
+from garage2usd.report import make_report
 from garage2usd.site.levels import LevelSites
 from garage2usd.stage import StageFormat, shared_folder, write_labels, write_stage
-from garage2usd.structure.building import Building, level_name
+from garage2usd.structure.building import Building
 from garage2usd.structure.lane_graph import LaneSquares
+from garage2usd.view.garage_pictures import draw_pictures
 from garage2usd.view.raster import write_png
 
 __all__ = [
@@ -230,7 +232,7 @@ def build(
 
     def report(judged: Sequence[Judged] | None) -> Mapping[str, Any]:
         unmet = None if judged is None else [each.unmet for each in judged]
-        facts: Mapping[str, Any] = make_garage_report(garage, seconds=seconds, unmet=unmet).model_dump(mode="json")
+        facts: Mapping[str, Any] = make_report(garage, seconds=seconds, unmet=unmet).model_dump(mode="json")
         return facts
 
     judge = partial(_judged, garage)
@@ -317,10 +319,9 @@ def written(
 
 def _names_beside(config: GarageConfig) -> Iterator[str]:
     """Yield the names of the files that may come with a stage, after its stem and a line."""
-    levels = config.building.levels
-    for picture in _PICTURES:
-        for level in range(levels):
-            yield f"{picture}.png" if levels == 1 else f"{level_name(level)}_{picture}.png"
+    for place in level_places(config.building.levels, config.building.storey_m):
+        for picture in _PICTURES:
+            yield place.in_whole(f"{picture}.png", joint="_")
     yield "labels.json"
     yield "report.json"
 
@@ -418,14 +419,12 @@ def _laid_out(
     ]
     levels = tuple(
         GarageLevel(
-            name=level_name(number),
-            floor_m=building.floor_m(number),
+            place=place,
             config=each.config,
             layout=layout,
-            is_only=sites.ramps is None,
             planned=PlannedParts(each.site, each.plan, graph),
         )
-        for number, (each, graph, layout) in enumerate(zip(planned, graphs, run_in_forks(tasks, jobs), strict=True))
+        for place, each, graph, layout in zip(building.places, planned, graphs, run_in_forks(tasks, jobs), strict=True)
     )
     return Garage(config, building, levels)
 
@@ -470,7 +469,7 @@ def _unreached(garage: Garage, *, may_turn_back: bool) -> list[str]:
 
     The lane graph of each level is proven when it is built.
     """
-    return [] if garage.building.ramps is None else unreached_stalls(garage.joined, may_turn_back=may_turn_back)
+    return unreached_stalls(garage.joined, may_turn_back=may_turn_back) if garage.building.links else []
 
 
 def _unreached_in_words(stalls: list[str]) -> str:

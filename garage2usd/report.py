@@ -1,21 +1,27 @@
 """Writing of the JSON report of a build, whose model is in `garage2usd.reading.report`."""
+# Over 300 lines: all facts of the report are gathered in one place.
 
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.json_text import json_text
-from garage2usd.common.settings import Record
 from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
+from garage2usd.driving import StallProof
 from garage2usd.garage import Stall
+from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.layout import Layout
 from garage2usd.layout.egress.compartments import compartment_name
 from garage2usd.layout.floor_area import FloorArea
+from garage2usd.layout.shell.well import SLAB_M
+from garage2usd.layout.surveyed import SurveyedFloor
 from garage2usd.planning import (
     Plan,
     area_per_stall_m2,
@@ -35,15 +41,18 @@ from garage2usd.reading.report import (
     DirectionFigures,
     FireCompartment,
     LearningFigures,
+    LevelReport,
     PlanFigures,
     Report,
+    ReportedLink,
     ReportedStall,
     StairCore,
+    SurveyFigures,
     UnmetClause,
 )
 from garage2usd.structure.grid import Cell, Structure
 
-__all__ = ["area_figures", "learning_figures", "make_report", "write_report"]
+__all__ = ["area_figures", "learning_figures", "make_report", "reported_links", "write_report"]
 
 _CURVE_POINTS, _RETURN_DECIMALS = 500, 1
 """Points of the learning curve, each the mean of ten of 5000 episodes (the whole curve would be half of a report), and
@@ -52,8 +61,8 @@ _DECIMALS = 6
 """Decimals of metres and radians in stalls."""
 
 
-def write_report(path: Path, report: Record) -> None:
-    """Write a report as JSON: that of a garage of one level, or of several."""
+def write_report(path: Path, report: Report) -> None:
+    """Write a report as JSON."""
     path.write_text(json_text(report.model_dump(mode="json")), encoding="utf-8", newline="\n")
 
 
@@ -69,26 +78,30 @@ def area_figures(layouts: Sequence[Layout]) -> dict[str, float | None]:
 
 
 def make_report(
+    garage: Garage,
     *,
-    config: GarageConfig,
-    plan: Plan,
-    layout: Layout,
     seconds: Mapping[str, float],
+    unmet: Sequence[Sequence[UnmetClause]] | None = None,
     learning: LearningFigures | None = None,
-    unmet: Sequence[UnmetClause] | None = None,
+    survey: SurveyFigures | None = None,
+    proofs: Sequence[StallProof] = (),
 ) -> Report:
     """Make the report of a garage; it is reproducible, except for ``seconds``.
 
     Parameters
     ----------
-    config, plan, layout
+    garage
         The garage.
     seconds
         Duration of each step in seconds.
-    learning
-        Results of learning, for a plan without its archive.
     unmet
-        Clauses of the profile that the design violates; None if unknown.
+        Clauses of the profile that the design of each level violates; None if unknown.
+    learning
+        Results of learning, for the plan of a single level without its archive.
+    survey
+        What was imported.
+    proofs
+        Proofs of stalls that were imported, if they were asked for.
 
     Notes
     -----
@@ -97,61 +110,134 @@ def make_report(
     learning. ``S`` is a list of rows of symbols (see `garage2usd.structure.grid.Cell`), ``R`` and ``C`` are metres by
     column and by row, stall centres are (x, z) in metres.
     """
-    structure = plan.structure
-    tape = _tape(plan)
+    config = garage.config
     return Report(
         version=VERSION,
         seed=config.seed,
         config_digest=config.digest(),
-        structure_digest=structure.digest(),
         config=config,
+        tape=_tape(garage),
+        parking_stalls=garage.parking_stalls,
+        **area_figures([level.layout for level in garage.levels]),
+        remarks=config.remarks(),
+        survey=survey,
+        links=reported_links(garage),
+        levels=tuple(
+            _level_report(level, None if unmet is None else unmet[number], learning, proofs)
+            for number, level in enumerate(garage.levels)
+        ),
+        seconds={step: round(value, 4) for step, value in seconds.items()},
+    )
+
+
+def _level_report(
+    level: GarageLevel,
+    unmet: Sequence[UnmetClause] | None,
+    learning: LearningFigures | None,
+    proofs: Sequence[StallProof],
+) -> LevelReport:
+    layout = level.layout
+    return LevelReport(
+        name=level.name,
+        floor_m=level.floor_m,
         look=layout.look,
-        tape=tape,
-        rank=None if tape is None else hex(rank_of(tape)),
-        S=tuple(str(structure).splitlines()),
-        R=tuple(structure.R[0].tolist()),
-        C=tuple(structure.C[:, 0].tolist()),
-        one_way=tuple((stretch[0], stretch[1]) for stretch in plan.one_way_stretches),
-        directions=_directions(plan, config),
-        stall_runs=settings_of_runs(plan.runs, plan.directions),
-        score=plan.score,
-        learning=learning or learning_figures(plan, config),
-        principles=principles(structure, bay=config.bay),
-        circulation=_circulation(structure, config),
         **area_figures([layout]),
         parking_stalls=layout.parking_stalls,
         stall_uses={str(use): count for use, count in sorted(Counter(s.use for s in layout.quads).items())},
         illuminance=layout.illuminance,
         not_designed_to=None if unmet is None else tuple(unmet),
-        remarks=config.remarks(),
-        lane_kinds=layout.source.kinds_of_squares(),
         object_counts=layout.counts(),
-        columns_at_mouths=layout.columns_at_mouths() if config.bay.column_setback_m else None,
         unreachable_stalls=tuple(sorted(layout.unreachable)),
         undecided_stalls=tuple(sorted(layout.undecided)),
-        stair_cores=tuple(
-            StairCore(square=core.square, door_m=core.door_m, in_place_of=core.stalls) for core in layout.cores
-        ),
-        fire_compartments=_compartments(layout),
-        stalls=tuple(
-            _reported(stall, squares[stall.access])
-            for squares in [layout.node_squares().tolist()]
-            for stall in layout.quads
-        ),
-        learning_curve=_mean_returns(plan),
-        seconds={step: round(value, 4) for step, value in seconds.items()},
+        **(_surveyed(layout, proofs) if level.planned is None else _planned(level, learning)),
     )
 
 
-def _reported(stall: Stall, access_square: tuple[int, int]) -> ReportedStall:
-    """Record of a stall, with the squares that identify it and its lane in files."""
+def _planned(level: GarageLevel, learning: LearningFigures | None) -> dict[str, Any]:
+    """Return the facts of a level that its squares tell."""
+    plan, layout, config = level.plan, level.layout, level.config
+    structure, tape, squares = plan.structure, _plan_tape(plan), layout.node_squares().tolist()
+    return {
+        "structure_digest": structure.digest(),
+        "tape": tape,
+        "rank": None if tape is None else hex(rank_of(tape)),
+        "S": tuple(str(structure).splitlines()),
+        "R": tuple(structure.R[0].tolist()),
+        "C": tuple(structure.C[:, 0].tolist()),
+        "one_way": tuple((stretch[0], stretch[1]) for stretch in plan.one_way_stretches),
+        "directions": _directions(plan, config),
+        "stall_runs": settings_of_runs(plan.runs, plan.directions),
+        "score": plan.score,
+        "learning": learning or learning_figures(plan, config),
+        "principles": principles(structure, bay=config.bay),
+        "circulation": _circulation(structure, config),
+        "lane_kinds": layout.source.kinds_of_squares(),
+        "columns_at_mouths": layout.columns_at_mouths() if config.bay.column_setback_m else None,
+        "stair_cores": tuple(
+            StairCore(square=core.square, door_m=core.door_m, in_place_of=core.stalls) for core in layout.cores
+        ),
+        "fire_compartments": _compartments(layout),
+        "stalls": tuple(_reported(stall, squares[stall.access]) for stall in layout.quads),
+        "learning_curve": _mean_returns(plan),
+    }
+
+
+def _surveyed(layout: Layout, proofs: Sequence[StallProof]) -> dict[str, Any]:
+    """Return the stalls of a level that was surveyed, with their ids in the source."""
+    proven = {proof.stall: proof.outcome.value for proof in proofs}
+    floor = layout.source
+    assert isinstance(floor, SurveyedFloor)
+    return {
+        "stalls": tuple(
+            _reported(stall).model_copy(
+                update={
+                    "id": fitted.source.name,
+                    "corners_m": tuple((round(x, 4), round(z, 4)) for x, z in stall.corners),
+                    "proof": proven.get(stall.name),
+                }
+            )
+            for stall, fitted in zip(layout.quads, floor.fitted, strict=True)
+        )
+    }
+
+
+def reported_links(garage: Garage) -> tuple[ReportedLink, ...]:
+    """Return the records of the ramps between levels; none of a single level."""
+    building = garage.building
+    clear_m = min(garage.config.fittings.ceiling_height_m, building.storey_m - SLAB_M)
+    links = []
+    for upper, lower in pairwise(garage.levels):
+        layout = lower.layout
+        lanes = layout.well.lanes(layout.structure) if layout.well else ()
+        links += [
+            ReportedLink(
+                kind=link.kind,
+                upper=upper.name,
+                lower=lower.name,
+                direction="down" if link.is_down else "up",
+                squares=link.squares,
+                head=link.head,
+                foot=link.foot,
+                rise_m=building.storey_m,
+                run_m=round(lane.run_m, 6),
+                steepest_percent=round(100 * lane.slope, 3),
+                clear_width_m=lane.width_m,
+                clear_height_m=round(clear_m, 6),
+            )
+            for link, lane in zip(building.links, lanes, strict=True)
+        ]
+    return tuple(links)
+
+
+def _reported(stall: Stall, access_square: tuple[int, int] | None = None) -> ReportedStall:
+    """Record of a stall, where it has squares with those that identify it and its lane in files."""
     facts, (x, z) = dict(stall.facts), stall.centre
     return ReportedStall(
         name=stall.name,
         number=str(stall.number or ""),
         type=str(facts["type"]),
         use=stall.use,
-        square=(int(facts["row"]), int(facts["column"])),
+        square=None if access_square is None else (int(facts["row"]), int(facts["column"])),
         access_square=access_square,
         centre_m=(round(x, _DECIMALS), round(z, _DECIMALS)),
         yaw_rad=round(stall.yaw_rad, _DECIMALS),
@@ -247,8 +333,15 @@ def _circulation(structure: Structure, config: GarageConfig) -> CirculationFigur
     )
 
 
-def _tape(plan: Plan) -> str | None:
+def _tape(garage: Garage) -> str | None:
+    try:
+        return garage.tape if garage.plans else None
+    except ConfigError:  # for lanes given by the user in several pieces
+        return None
+
+
+def _plan_tape(plan: Plan) -> str | None:
     try:
         return plan_tape_of(plan)
-    except ConfigError:  # for lanes given by the user in several pieces
+    except ConfigError:
         return None

@@ -1,13 +1,13 @@
 """Reader of reports and plans as garages; a faulty plan is read as far as possible, so that rules report its faults."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.layout_reader import level_of_layout, level_without_layout
 from garage2usd.common.documents import MAX_REPORT_BYTES, read_json, read_text
-from garage2usd.common.errors import ConfigError, ReportError, UnreachableStallError
+from garage2usd.common.errors import ConfigError, UnreachableStallError
 from garage2usd.config import GarageConfig, config_from_mapping, load_config
 from garage2usd.config.building import check_one_level
 from garage2usd.config.files import is_array_file, matrices_of
@@ -17,7 +17,7 @@ from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.garage_stalls import planned_stalls
 from garage2usd.planning import Plan, evaluate, given_plan, runs_of_settings, with_directions, with_stall_kinds
 from garage2usd.profiles import Profile
-from garage2usd.reading.report import ReportedStall, report_of
+from garage2usd.reading.report import Report, ReportedStall
 from garage2usd.site import with_sides
 from garage2usd.site.given import check_structure
 from garage2usd.structure.directions import given_directions
@@ -30,13 +30,17 @@ _FIELD = "PATH"
 _MOVED_M = 0.001
 
 
-def garage_of_plan(path: Path, *, profile: Profile | None = None) -> tuple[BuiltGarage, GarageConfig]:
-    """Read a garage from a report, a configuration with a structure, or a plan.
+def garage_of_plan(
+    path: Path, *, report: Report | None = None, profile: Profile | None = None
+) -> tuple[BuiltGarage, GarageConfig]:
+    """Read a garage from a report of one level, a configuration with a structure, or a plan.
 
     Parameters
     ----------
     path
         A report (``.json``), a configuration (``.toml``), or a structure as text, JSON or a NumPy file.
+    report
+        The report, if the file is one.
     profile
         Profile for the sizes of a plan without any.
 
@@ -50,6 +54,8 @@ def garage_of_plan(path: Path, *, profile: Profile | None = None) -> tuple[Built
     ConfigError
         If the file is none of these, or a setting is invalid.
     """
+    if report is not None:
+        return _of_report(report, path), report.config
     suffix = path.suffix.lower()
     if suffix == ".toml":
         config = load_config(path)
@@ -62,8 +68,6 @@ def garage_of_plan(path: Path, *, profile: Profile | None = None) -> tuple[Built
         config = config_from_mapping(_given(profile) | {"site": {"structure": text}})
         return _of_config(config, path, kind="plan"), config
     document = read_json(path, field=_FIELD, max_bytes=MAX_REPORT_BYTES)
-    if isinstance(document, dict) and "config" in document:
-        return _of_report(document, path)
     config = config_from_mapping(_given(profile) | _settings_of(document, path))
     return _of_config(config, path, kind="plan"), config
 
@@ -99,22 +103,21 @@ def _of_config(config: GarageConfig, path: Path, *, kind: str) -> BuiltGarage:
     return _read(with_stall_kinds(plan, config), config, path, kind=kind)
 
 
-def _of_report(document: Mapping[str, Any], path: Path) -> tuple[BuiltGarage, GarageConfig]:
-    try:
-        report = report_of(document, path)
-    except ReportError as error:
-        raise ReportError(path, f"{error.reason}; check reads a report with config, S, R and C") from None
-    structure = Structure.from_arrays(cells_from_text("\n".join(report.S), field="S"), report.R, report.C)
-    told, unreachable = report.stalls, report.unreachable_stalls
-    directions = given_directions(structure, report.one_way, field="one_way")
+def _of_report(report: Report, path: Path) -> BuiltGarage:
+    (level,) = report.levels
+    assert level.S is not None
+    assert level.R is not None
+    assert level.C is not None
+    structure = Structure.from_arrays(cells_from_text("\n".join(level.S), field="S"), level.R, level.C)
+    told, unreachable = level.stalls, level.unreachable_stalls
+    directions = given_directions(structure, level.one_way, field="one_way")
     plan = Plan(
         structure,
         evaluate(structure, bay=report.config.bay),
-        runs=tuple(runs_of_settings(report.stall_runs, report.config, directions)),
+        runs=tuple(runs_of_settings(level.stall_runs, report.config, directions)),
         directions=directions,
     )
-    garage = _read(plan, report.config, path, kind="report", listed=told, unreachable=unreachable)
-    return garage, report.config
+    return _read(plan, report.config, path, kind="report", listed=told, unreachable=unreachable)
 
 
 def _read(

@@ -100,7 +100,5 @@ def _is_nose_out(stall: Stall, yaw_rad: float) -> bool:
 def _mean_lux(layouts: Sequence[Layout]) -> float:
     """Return the mean illuminance of stalls, levels weighted by their stalls; 0 without lamps."""
     lit = [(layout.illuminance.stalls.mean, layout.parking_stalls) for layout in layouts if layout.illuminance.stalls]
-    if len(layouts) == 1:
-        return lit[0][0] if lit else 0.0
     total = sum(count for _, count in lit)
     return round(float(np.dot(*np.array(lit).T)) / total, _DIGITS) if total else 0.0

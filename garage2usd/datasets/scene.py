@@ -21,10 +21,10 @@ from garage2usd.datasets.plans import remade
 from garage2usd.datasets.recipe import MakeConfig, Recipe
 from garage2usd.driving import StallProof, prove_stalls
 from garage2usd.exports import export
-from garage2usd.garage_files import draw_pictures, make_garage_report, reported_links
 from garage2usd.pipeline import Garage
-from garage2usd.report import write_report
+from garage2usd.report import make_report, reported_links, write_report
 from garage2usd.stage import StageFormat, write_labels, write_stage
+from garage2usd.view.garage_pictures import draw_pictures
 from garage2usd.view.raster import write_png
 
 __all__ = ["key_of", "make_scene"]
@@ -101,7 +101,7 @@ def _write_all(make: MakeConfig, drawn: DrawnPlan, config: GarageConfig, place: 
     garage = remade(drawn, config)
     judged = [judged_layout(level.layout, level.config) for level in garage.levels]
     unmet = [clauses for _, clauses in judged]
-    report = make_garage_report(garage, seconds={}, unmet=unmet, learning=drawn.learning)
+    report = make_report(garage, seconds={}, unmet=unmet, learning=drawn.learning)
     write_report(place.with_name(f"{place.name}.report.json"), report)
     stage = _write_files(garage, place, make, assets)
     difficulty = dict[str, Any]()

@@ -3,10 +3,11 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-__all__ = ["GARAGE_NAME", "LEVELS_NAME", "ONLY_LEVEL", "LevelPlace", "nearest_floor"]
+__all__ = ["GARAGE_NAME", "LEVELS_NAME", "ONLY_LEVEL", "LevelPlace", "level_name", "level_places", "nearest_floor"]
 
 GARAGE_NAME, LEVELS_NAME = "Garage", "Levels"
 """Names of the prim of a garage, and of the prim below it that holds its levels where there are several."""
+_DECIMALS = 6
 
 
 class LevelPlace(NamedTuple):
@@ -25,11 +26,6 @@ class LevelPlace(NamedTuple):
     name: str
     path: str
     floor_m: float
-
-    @classmethod
-    def among_several(cls, name: str, floor_m: float) -> "LevelPlace":
-        """Return the place of a level in a garage of several levels."""
-        return cls(name, f"/{GARAGE_NAME}/{LEVELS_NAME}/{name}", floor_m)
 
     @property
     def is_only(self) -> bool:
@@ -56,6 +52,21 @@ class LevelPlace(NamedTuple):
 
 ONLY_LEVEL = LevelPlace("", f"/{GARAGE_NAME}", 0.0)
 """The place of the only level of a garage."""
+
+
+def level_places(count: int, storey_m: float) -> list[LevelPlace]:
+    """Return the places of the levels of a garage, the top one first, whose floor lies at 0."""
+    if count == 1:
+        return [ONLY_LEVEL]
+    return [
+        LevelPlace(name, f"/{GARAGE_NAME}/{LEVELS_NAME}/{name}", round(-number * storey_m, _DECIMALS) + 0.0)
+        for number, name in enumerate(map(level_name, range(count)))
+    ]
+
+
+def level_name(level: int) -> str:
+    """Name of a level by its number from 0: ``U1`` is the first one below the street."""
+    return f"U{level + 1}"
 
 
 def nearest_floor(floors_m: Sequence[float], height_m: float) -> int:

@@ -4,9 +4,10 @@ from dataclasses import dataclass
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
+from garage2usd.garage.level_place import level_name
 from garage2usd.site.level_ramps import draw_ramps
 from garage2usd.site.room import make_roomy_site
-from garage2usd.structure.building import Ramps, level_cells, level_name
+from garage2usd.structure.building import Ramps, level_cells
 from garage2usd.structure.grid import Cell, CellArray, Structure
 
 __all__ = ["LevelSites", "check_levels", "level_number", "make_level_sites", "make_street_site"]

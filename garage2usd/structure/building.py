@@ -7,7 +7,6 @@ entrance (2) of the level that they reach.
 
 import hashlib
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -16,10 +15,11 @@ import numpy as np
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.building import LinkKind
+from garage2usd.garage.level_place import LevelPlace, level_places
 from garage2usd.structure.grid import Cell, CellArray, Structure
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["Building", "Flight", "Link", "LinkKind", "Ramps", "Square", "level_cells", "level_name"]
+__all__ = ["Building", "Flight", "Link", "LinkKind", "Ramps", "Square", "level_cells"]
 
 Square = tuple[int, int]
 
@@ -164,11 +164,6 @@ class Flight(Ramps):
         return Link(LinkKind.STRAIGHT, tuple(squares), head, foot, is_down, self.way, self.way.opposite)
 
 
-def level_name(level: int) -> str:
-    """Name of a level by its number from 0: ``U1`` is the first one below the street."""
-    return f"U{level + 1}"
-
-
 def level_cells(cells: CellArray, ramps: Ramps, level: int, levels: int) -> CellArray:
     """Write the ramps on the static squares of a level.
 
@@ -247,15 +242,12 @@ class Building:
         """(row, col) of the squares of the ramps, the same on all levels."""
         return () if self.ramps is None else self.ramps.squares
 
-    def floor_m(self, level: int) -> float:
-        """Height of the floor of a level; the top one lies at 0."""
-        return round(-level * self.storey_m, 6) + 0.0
+    @property
+    def places(self) -> list[LevelPlace]:
+        """Places of the levels, the top one first."""
+        return level_places(len(self.levels), self.storey_m)
 
     def digest(self) -> str:
         """Return the SHA-256 of the digests of all levels; of a single level its own digest."""
         digests = [structure.digest() for structure in self.levels]
         return digests[0] if self.ramps is None else hashlib.sha256("".join(digests).encode()).hexdigest()
-
-    def names(self) -> Sequence[str]:
-        """Names of the levels, the top one first."""
-        return [level_name(level) for level in range(len(self.levels))]

@@ -215,7 +215,7 @@ def edges_of(mask):
 def above(builds, tmp_path_factory):
     """A recording from the top of a ramp to a stall that is taken, with views from above that show no cars."""
     made = builds(HAND_DRAWN, "usdc", "instanced")
-    stalls = {entry["name"]: entry for entry in json.loads(made.report.read_text())["stalls"]}
+    stalls = {entry["name"]: entry for entry in json.loads(made.report.read_text())["levels"][0]["stalls"]}
     goal = next(name for name, entry in stalls.items() if entry["occupied"] and entry["use"] == "standard")
     settings = BirdsEye(metres_per_px=0.05, size_px=(240, 200), centre_m=MIDDLE_M, cars=False)
     camera = {"kind": "pinhole", "name": "ahead", "position_m": [3, 0, 1], "size_px": [32, 24], "focal_px": [20, 20]}

@@ -79,7 +79,7 @@ def drive(builds):
     """A garage, and the way to a stall that a car is parked in."""
     built = builds(HAND_DRAWN, "usdc", "instanced")
     report = json.loads(built.report.read_text())
-    stall = next(entry for entry in report["stalls"] if entry["occupied"] and entry["use"] == "standard")
+    stall = next(entry for entry in report["levels"][0]["stalls"] if entry["occupied"] and entry["use"] == "standard")
     return SimpleNamespace(
         report=built.report, stage=built.stage, labels=built.labels, stall=stall["name"], along=f"1:{stall['name']}"
     )
@@ -233,7 +233,7 @@ def test_the_slot_that_is_driven_to_is_free_and_others_are_as_the_stage_says(rec
     slots = {
         slot["name"]: slot["occupied"] for slot in json.loads((recorded.folder / "slots.json").read_text())["slots"]
     }
-    said = {stall["name"]: stall["occupied"] for stall in report["stalls"]}
+    said = {stall["name"]: stall["occupied"] for stall in report["levels"][0]["stalls"]}
     assert said[drive.stall]
     assert not slots[drive.stall]
     others = said.keys() & slots.keys() - {drive.stall}

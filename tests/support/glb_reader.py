@@ -322,7 +322,7 @@ def _assert_tangents(attributes, corners, points):
 def stalls_of(report):
     """By id: number, use and corners (x, z) of each stall of a report."""
     stalls = {}
-    for stall in report["stalls"]:
+    for stall in report["levels"][0]["stalls"]:
         half = np.array([stall["width_m"], stall["length_m"]]) / 2
         sin, cos = np.sin(stall["yaw_rad"]), np.cos(stall["yaw_rad"])
         across, along = np.array([cos, -sin]), np.array([sin, cos])

@@ -49,7 +49,7 @@ class JudgedStage:
         self.lanes = lanes_of(self.stage)
         self.labelled = labelled_objects(path.with_name(f"{path.stem}_labels.json"))
         report = path.with_name(f"{path.stem}_report.json")
-        stalls = json.loads(report.read_text(encoding="utf-8"))["stalls"] if report.exists() else []
+        stalls = json.loads(report.read_text(encoding="utf-8"))["levels"][0]["stalls"] if report.exists() else []
         self.blocked = {stall["name"] for stall in stalls if "blocked_by" in stall}
 
     @cached_property

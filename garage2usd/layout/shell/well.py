@@ -7,9 +7,10 @@ from typing import NamedTuple
 from garage2usd.config import FittingsConfig
 from garage2usd.config.building import BuildingConfig
 from garage2usd.config.look import WallsLook
+from garage2usd.garage.level_place import level_name
 from garage2usd.layout.placement import Placement
 from garage2usd.objects.outline import Point
-from garage2usd.structure.building import Ramps, level_name
+from garage2usd.structure.building import Ramps
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.stalls import Edge
 

@@ -69,7 +69,5 @@ def test_a_stall_without_area_is_a_fault_of_the_lane_graph(corner, one, tmp_path
         corners[corner] = corners[0]
         points.Set(corners)
 
-    garage = read_built(edited(one, tmp_path / "flat.usda", flatten)).garage
-    assert [fault.message for fault in garage.levels[0].faults if fault.rule == "lane-graph"] == [
-        "a stall without area"
-    ]
+    (level,) = read_built(edited(one, tmp_path / "flat.usda", flatten)).garage.levels
+    assert [fault.message for fault in level.faults if fault.rule == "lane-graph"] == ["a stall without area"]

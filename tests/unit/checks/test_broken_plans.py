@@ -253,7 +253,7 @@ REPORTS = {
 def test_a_report_lists_the_stalls_that_its_plan_gives(change, report, tmp_path):
     document = json.loads(json.dumps(report))
     if change:
-        change(document["stalls"])
+        change(document["levels"][0]["stalls"])
     (tmp_path / "g_report.json").write_text(json.dumps(document))
     findings, _ = check_file(tmp_path / "g_report.json")
     assert {f.rule for f in findings} - FOUND_IN_GOOD_ONE == ({"report-stalls"} if change else set())

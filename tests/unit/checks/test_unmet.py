@@ -80,7 +80,7 @@ def test_a_clause_is_checked_without_a_second_one(clause):
     subject = garage_as_made(garage, source="", kind="report")
     profile = profile_of(**{clause: SECONDS[clause]})
     assert {finding.clause for finding in check(subject, profile)} - {""} == {clause}
-    assert not_checked(subject, profile) == {}
+    assert not_checked(subject.levels[0], profile) == {}
 
 
 ONE_IN_SIX = {"value": 6, "unit": "count"}
@@ -100,7 +100,7 @@ def test_a_clause_that_cannot_be_checked_is_named_by_check_and_build(clauses, re
     assert [line for line in report["stderr"] if line.startswith("not designed to")] == [
         f"not designed to {name}: not checked, as the profile has {reason}"
     ]
-    (entry,) = report["not_designed_to"]
+    (entry,) = report["levels"][0]["not_designed_to"]
     assert (entry["clause"], entry["places"]) == (name, 0)
     checked = CliRunner().invoke(main, ["check", str(tmp_path / "g_report.json")]).output.splitlines()
     assert [line for line in checked if "not checked" in line] == [f"not checked: {name}, as the profile has {reason}"]
@@ -146,7 +146,7 @@ def test_a_distance_for_sprinklers_needs_some():
 def test_build_names_what_the_user_set_against_the_profile(tmp_path):
     config = {**SETTINGS, "profile": "us-ada", "bay": {"stall_width_m": 2.5, "dimensioned": False}}
     report = _built(config, tmp_path)
-    entry = next(entry for entry in report["not_designed_to"] if entry["clause"] == "stall_width")
+    entry = next(entry for entry in report["levels"][0]["not_designed_to"] if entry["clause"] == "stall_width")
     assert (entry["measured"], entry["required"], entry["unit"]) == (2.5, 2.5908, "m")
     assert entry["places"] > 10
     (line,) = (line for line in report["stderr"] if line.startswith("not designed to stall_width: "))
@@ -156,7 +156,7 @@ def test_build_names_what_the_user_set_against_the_profile(tmp_path):
 def test_a_garage_that_keeps_its_profile_has_nothing_to_name(tmp_path):
     config = {"seed": 4, "plan": QUICK, "stage": {"texture_quality": "low"}}
     report = _built(config, tmp_path)
-    assert report["not_designed_to"] == []
+    assert report["levels"][0]["not_designed_to"] == []
     assert not any("not designed" in line for line in report["stderr"])
 
 

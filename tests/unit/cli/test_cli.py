@@ -52,18 +52,19 @@ def test_build_says_what_it_made(tmp_path, config, extension):
     result = run("build", config(QUICK), "--seed", 4, "--output", out)
     assert result.exit_code == 0, result.output
     report = json.loads((tmp_path / "out" / "g_report.json").read_text())
-    stalls = report["score"]["stalls"] - sum(len(core["in_place_of"]) for core in report["stair_cores"])
+    (level,) = report["levels"]
+    stalls = level["score"]["stalls"] - sum(len(core["in_place_of"]) for core in level["stair_cores"])
     assert report["seed"] == 4
-    assert [part["name"] for part in report["fire_compartments"]] == ["F1"]
+    assert [part["name"] for part in level["fire_compartments"]] == ["F1"]
     parking = report["parking_stalls"]
-    assert report["fire_compartments"][0]["stalls"] == parking
-    assert report["object_counts"]["stall"] == stalls == len(report["stalls"])
-    assert sum(report["stall_uses"].values()) == stalls
-    assert report["stall_uses"]["standard"] > stalls / 2
-    assert f"stalls  {parking} ({report['stall_uses']['standard']} standard, " in result.output
+    assert level["fire_compartments"][0]["stalls"] == parking
+    assert level["object_counts"]["stall"] == stalls == len(level["stalls"])
+    assert sum(level["stall_uses"].values()) == stalls
+    assert level["stall_uses"]["standard"] > stalls / 2
+    assert f"stalls  {parking} ({level['stall_uses']['standard']} standard, " in result.output
     assert "every stall, from an entrance and to an exit" in result.output
-    assert f"{report['score']['value']:.2f} (N_S {report['score']['stalls']}, " in result.output
-    assert f"{len(report['stair_cores'])} in the place of {report['score']['stalls'] - stalls} stalls" in result.output
+    assert f"{level['score']['value']:.2f} (N_S {level['score']['stalls']}, " in result.output
+    assert f"{len(level['stair_cores'])} in the place of {level['score']['stalls'] - stalls} stalls" in result.output
     for name in (out, out.with_name("g_plan.png"), out.with_name("g_report.json")):
         assert name.is_file()
         assert str(name) in result.output
@@ -116,7 +117,7 @@ def test_learning_is_drawn_on_request(tmp_path, config):
     assert curve.size == (960, 540)
     assert {colour for _, colour in curve.getcolors(1 << 20)} >= {(176, 52, 40), (170, 190, 214)}
     report = json.loads((tmp_path / "out" / "g_report.json").read_text())
-    for row, line in enumerate(report["S"]):
+    for row, line in enumerate(report["levels"][0]["S"]):
         for col, symbol in enumerate(line):
             colour = best.getpixel((20 + col * 16 + 8, 20 + 24 + row * 16 + 8))
             expected = {".": (176, 204, 228), "=": (148, 156, 166), "E": (72, 160, 96), "X": (206, 84, 72)}[symbol]
@@ -135,7 +136,7 @@ def test_a_tape_rebuilds_the_very_structure(tmp_path, config):
     learnt_otherwise = config("[plan]\nepisodes = 1\nclimb = false\n")
     run("build", learnt_otherwise, "--seed", 8, "--tape", first["tape"], "--output", tmp_path / "b.usdz")
     second = json.loads((tmp_path / "b_report.json").read_text())
-    assert second["structure_digest"] == first["structure_digest"]
+    assert second["levels"][0]["structure_digest"] == first["levels"][0]["structure_digest"]
     assert second["rank"] == first["rank"]
     assert second["score"] == first["score"]
     assert run("build", config(QUICK), "--tape", "S", "--output", tmp_path / "c.usdz").exit_code == 1
@@ -148,9 +149,10 @@ def test_a_tape_rebuilds_directions_and_stalls(tmp_path, config):
     first = json.loads((tmp_path / "a_report.json").read_text())
     run("build", config(QUICK), "--seed", 8, "--tape", first["tape"], "--output", tmp_path / "b.usdz")
     second = json.loads((tmp_path / "b_report.json").read_text())
-    assert first["stall_runs"]
+    (made,), (again,) = first["levels"], second["levels"]
+    assert made["stall_runs"]
     for key in ("S", "R", "C", "stall_runs", "one_way", "directions", "tape", "rank", "score", "stalls"):
-        assert second[key] == first[key], key
+        assert again[key] == made[key], key
     cut = run("build", config(QUICK), "--seed", 8, "--tape", first["tape"][:-1], "--output", tmp_path / "c.usdz")
     assert cut.exit_code == 1
     assert "the tape ends here" in cut.output
@@ -169,12 +171,13 @@ def test_a_stall_without_a_route_is_drawn(tmp_path, config):
 def test_files_of_text_begin_with_a_byte_order_mark_or_not(tmp_path, config, mark):
     made = garage2usd.build(garage2usd.load_config(config(QUICK)), tmp_path / "g.usdz")
     report = json.loads(made.report.read_text())
+    (level,) = report["levels"]
     texts = {
         "c.toml": '[site]\nstructure_file = "s.txt"\n[bay]\ncolumn_widths_file = "r.csv"\nrow_depths_file = "c.csv"\n',
-        "s.txt": "\n".join(report["S"]),
-        "r.csv": ",".join(map(str, report["R"])),
-        "c.csv": "\n".join(map(str, report["C"])),
-        "s.json": json.dumps(report["S"]),
+        "s.txt": "\n".join(level["S"]),
+        "r.csv": ",".join(map(str, level["R"])),
+        "c.csv": "\n".join(map(str, level["C"])),
+        "s.json": json.dumps(level["S"]),
         "p.toml": 'name = "mine"\nbased_on = "cn-jgj100"\n',
         "g_report.json": made.report.read_text(),
         "g_labels.json": made.labels.read_text(),
@@ -411,7 +414,7 @@ main(sys.argv[1:])
 def test_build_says_which_illuminance_decides(tmp_path, config, lane, stall, decides):
     settings = f"{QUICK}[fittings]\nlane_lux = {lane}\nstall_lux = {stall}\n[stage]\ntexture_quality = 'low'\n"
     result = run("build", config(settings), "-o", tmp_path / "g.usda")
-    light = json.loads((tmp_path / "g_report.json").read_text())["illuminance"]
+    light = json.loads((tmp_path / "g_report.json").read_text())["levels"][0]["illuminance"]
     (told,) = (line for line in result.output.splitlines() if line.split()[0] == "light")
     parts = {
         name: f"{name}s {light[f'{name}s']['mean']:.0f} lx ({name}_lux asks for {wanted}"

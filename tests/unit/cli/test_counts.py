@@ -70,7 +70,7 @@ def test_build_and_report_tell_the_same(counted, built):
     assert len(re.findall(r"m2.{0,4}stall", told)) == 1
     assert report["parking_stalls"] == stalls
     assert report["area_per_stall_m2"] == pytest.approx(area_m2, abs=1e-3)
-    assert sum(part["stalls"] for part in report["fire_compartments"]) == stalls
+    assert sum(part["stalls"] for part in report["levels"][0]["fire_compartments"]) == stalls
 
 
 def test_the_plan_tells_it_twice(counted, garage):
@@ -101,8 +101,9 @@ def test_a_data_set_counts_so(tmp_path):
     with tarfile.open(tmp_path / "set" / "shards" / "train-000000.tar") as archive:
         (name,) = (name for name in archive.getnames() if name.endswith("report.json"))
         told = json.load(archive.extractfile(name))
-    kept_free = {"access_aisle", "turning", "unreachable"} & told["stall_uses"].keys()
-    stalls = sum(count for use, count in told["stall_uses"].items() if use not in kept_free)
+    (uses,) = (level["stall_uses"] for level in told["levels"])
+    kept_free = {"access_aisle", "turning", "unreachable"} & uses.keys()
+    stalls = sum(count for use, count in uses.items() if use not in kept_free)
     assert kept_free
     assert row.stalls == told["parking_stalls"] == stalls == row.standard_stalls + row.ev_stalls + row.accessible_stalls
     assert row.area_per_stall_m2 == told["area_per_stall_m2"]
@@ -114,13 +115,13 @@ def test_a_report_of_before_is_read(built):
     folder, _ = built
     report = json.loads((folder / "g_report.json").read_text())
     figures = {"value": 50.0, "stalls": 80}
-    report["learning"] = {
+    report["levels"][0]["learning"] = {
         "learnt": {**figures, "area_per_stall_m2": 30.5},
         "polish": {**figures, "area_per_stall_m2": -1.0},
         "episodes": 1,
         "steps": 1,
     }
-    del report["parking_stalls"], report["not_designed_to"]
+    del report["parking_stalls"], report["levels"][0]["not_designed_to"]
     (folder / "old_report.json").write_text(json.dumps(report))
-    learning = read_report(folder / "old_report.json").learning
+    learning = read_report(folder / "old_report.json").levels[0].learning
     assert (learning.learnt.area_per_planned_stall_m2, learning.polish.area_per_planned_stall_m2) == (30.5, -1.0)

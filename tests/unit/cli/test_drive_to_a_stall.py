@@ -49,7 +49,11 @@ def test_a_stage_and_its_report_have_the_same_trajectory(made, tmp_path):
 
 
 def test_a_stall_is_found_by_name_and_number_in_letters_of_another_case(made, tmp_path):
-    number = next(stall["number"] for stall in json.loads(made.report.read_text())["stalls"] if stall["name"] == STALL)
+    number = next(
+        stall["number"]
+        for stall in json.loads(made.report.read_text())["levels"][0]["stalls"]
+        if stall["name"] == STALL
+    )
     asked = {STALL, STALL.upper(), number, number.lower()}
     assert len(asked) == 4
     said = []

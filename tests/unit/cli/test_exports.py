@@ -97,7 +97,7 @@ def test_masks_keep_robots_off_hatched_ground_and_slow_on_ramps(made):
     plain, keepout, speed = (read_map(made / f"g{mask}.yaml") for mask in ("", "_keepout", "_speed"))
     assert plain.cells.shape == keepout.cells.shape == speed.cells.shape
     assert plain.origin == keepout.origin == speed.origin
-    stalls = json.loads((made / "g_report.json").read_text())["stalls"]
+    stalls = json.loads((made / "g_report.json").read_text())["levels"][0]["stalls"]
     hatched = [stall for stall in stalls if stall["use"] in {"access_aisle", "unreachable"}]
     assert hatched
     for stall in stalls:

@@ -121,10 +121,10 @@ def test_the_stage_has_no_s_r_and_c_and_all_of_the_rest(made):
         tuple(pytest.approx(corner, abs=1e-4) for corner in stall.corners) for stall in made.garage.layout.quads
     ]
     report = json.loads(made.report.read_text())
-    assert [stall["id"] for stall in report["stalls"]] == [
+    assert [stall["id"] for stall in report["levels"][0]["stalls"]] == [
         stall.source.name for stall in made.garage.layout.source.fitted
     ]
-    assert {stall["proof"] for stall in report["stalls"]} == {"reached"}
+    assert {stall["proof"] for stall in report["levels"][0]["stalls"]} == {"reached"}
 
 
 def test_the_same_survey_gives_the_same_bytes(made, tmp_path):

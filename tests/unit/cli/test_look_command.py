@@ -46,7 +46,7 @@ def test_a_garage_of_a_recipe_has_its_look():
 def test_the_report_has_the_look_that_was_drawn(tmp_path):
     config = GarageConfig(seed=3, site={"width_cells": 4, "height_cells": 4}, look={"drawn": True})
     report = json.loads(garage2usd.build(config, tmp_path / "garage.usdc").report.read_text())
-    assert LookConfig(**report["look"]) == drawn_look(config.look, 3)
+    assert LookConfig(**report["levels"][0]["look"]) == drawn_look(config.look, 3)
 
 
 def test_several_looks_are_told_by_pictures_alone():

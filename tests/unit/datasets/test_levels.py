@@ -14,7 +14,7 @@ from garage2usd.datasets import cluster, make_dataset, verify_dataset
 from garage2usd.datasets.drawn_plan import plan_table, plans_of
 from garage2usd.datasets.garage_choice import chosen_garages
 from garage2usd.datasets.plans import planned, remade
-from garage2usd.reading.levels_report import LevelsReport
+from garage2usd.reading.report import Report
 from garage2usd.structure.symmetry import levels_digest, plan_digest
 
 LEVELS = {
@@ -70,16 +70,13 @@ def test_rows_tell_levels_stalls_and_links_as_reports_do(made):
         assert len(row.level_stalls) == row.levels
         assert sum(row.level_stalls) == row.stalls
         report = json.loads(gzip.decompress((folder / "shards" / f"{row.key}.report.json.gz").read_bytes()))
-        if row.levels == 1:
-            assert row.links == ()
-            assert report["parking_stalls"] == row.stalls
-            continue
-        told = LevelsReport.model_validate(report)
-        assert [level.report.parking_stalls for level in told.levels] == [*row.level_stalls]
+        told = Report.model_validate(report)
+        assert told.parking_stalls == row.stalls
+        assert [level.parking_stalls for level in told.levels] == [*row.level_stalls]
         assert [(link.kind, link.upper, link.lower, link.direction) for link in told.links] == [
             (link.kind, link.upper, link.lower, link.direction) for link in row.links
         ]
-        parked = [stall for level in told.levels for stall in level.report.stalls if stall.occupied]
+        parked = [stall for level in told.levels for stall in level.stalls if stall.occupied]
         assert row.cars == len(parked)
 
 

@@ -242,7 +242,7 @@ def test_a_build_says_what_it_marked_or_left_out_and_passes_the_proof(choice, tm
     config = garage2usd.GarageConfig(site=site, bay=NARROW["bay"], plan={"unreachable_stalls": choice})
     built = garage2usd.build(config, tmp_path / "garage.usdc")
     told = json.loads(built.report.read_text())
-    assert set(told["unreachable_stalls"]) == built.garage.layout.unreachable != set()
+    assert set(told["levels"][0]["unreachable_stalls"]) == built.garage.layout.unreachable != set()
     for path in (built.stage, built.report):
         found = {finding.rule for finding in check_file(path)[0]}
         assert "aisle-width" in found

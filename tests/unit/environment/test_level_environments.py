@@ -43,7 +43,7 @@ def test_gymnasiums_checker_has_nothing_to_say_of_any_level(building, level, pre
 
 
 def test_the_site_of_each_level_is_that_of_a_build(made):
-    names = made.building.names()
+    names = [level.name for level in made.levels]
     for name, level in zip(names, made.levels, strict=True):
         environment = LanesEnvironment(made.config, level=name)
         assert environment.process.site == level.site

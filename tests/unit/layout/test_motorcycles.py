@@ -161,7 +161,7 @@ def test_settings_that_cannot_be_are_refused(stalls, said):
 def test_a_stage_and_its_report_tell_of_them(built, garage, stalls):
     names = {stall.name: stall for stall in stalls}
     report = json.loads(built.report.read_text())
-    told = {entry["name"]: entry for entry in report["stalls"] if entry["use"] == "motorcycle"}
+    told = {entry["name"]: entry for entry in report["levels"][0]["stalls"] if entry["use"] == "motorcycle"}
     assert told.keys() == names.keys()
     assert {entry["size"] for entry in told.values()} == {"motorcycle"}
     assert {name for name, entry in told.items() if entry["occupied"]} == {s.name for s in stalls if s.is_occupied}

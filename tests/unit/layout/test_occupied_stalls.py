@@ -84,7 +84,7 @@ def test_stage_report_and_labels_say_which_stall_holds_which_car(made):
         said = prim.GetAttribute("garage:stall:occupied").Get()
         assert said is (None if form == "nested" else name in cars)
 
-    assert {stall.name: stall.occupied for stall in read_report(built.report).stalls} == {
+    assert {stall.name: stall.occupied for stall in read_report(built.report).levels[0].stalls} == {
         name: name in cars for name in outlines
     }
     paths = {entry["id"]: entry["path"] for entry in labelled_objects(built.labels)}

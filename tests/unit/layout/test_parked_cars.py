@@ -262,7 +262,9 @@ def test_files_tell_blocked_stalls(tmp_path):
     built = build(config, tmp_path / "garage.usda")
     blocked = dict(built.garage.layout.blocked)
     assert blocked
-    report = {stall["name"]: stall for stall in json.loads(built.report.read_text(encoding="utf-8"))["stalls"]}
+    report = {
+        stall["name"]: stall for stall in json.loads(built.report.read_text(encoding="utf-8"))["levels"][0]["stalls"]
+    }
     assert {name: stall["blocked_by"] for name, stall in report.items() if "blocked_by" in stall} == blocked
     assert all(report[name]["occupied"] for name in blocked)
     stage = Usd.Stage.Open(str(built.stage))

@@ -15,7 +15,7 @@ from garage2usd.exports import export
 from garage2usd.garage_sources import read_built
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.profiles import load_profile, read_profile
-from garage2usd.reading.levels_report import read_levels_report
+from garage2usd.reading.report import read_report
 from garage2usd.site.level_ramps import with_ramps_room
 from garage2usd.structure.building import level_cells
 from garage2usd.structure.grid import Cell, Structure
@@ -159,7 +159,7 @@ def test_a_helix_that_is_gone_or_moved_is_found_and_not_driven_on(edit, bare, tm
 
 
 def test_the_report_tells_helices(made):
-    report = read_levels_report(made.report)
+    report = read_report(made.report)
     assert [link.kind for link in report.links] == ["helix", "helix"]
     assert all(len(link.squares) == 9 and link.rise_m == 3.6 and link.clear_width_m == 4.2 for link in report.links)
     assert all(60 < link.run_m < 75 and 8 < link.steepest_percent < 12 for link in report.links)

@@ -30,7 +30,7 @@ from garage2usd.garage_sources import read_built
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.level_networks import level_networks
 from garage2usd.reading.files import open_stage
-from garage2usd.reading.levels_report import read_levels_report
+from garage2usd.reading.report import read_report
 from garage2usd.site import make_site
 from garage2usd.site.level_ramps import draw_ramps
 from garage2usd.site.levels import make_level_sites
@@ -239,9 +239,9 @@ def test_files_are_the_same_every_time_but_for_seconds(built, tmp_path):
 
 
 def test_the_report_and_labels_name_each_level(built):
-    report = read_levels_report(built.report)
+    report = read_report(built.report)
     assert [(level.name, level.floor_m) for level in report.levels] == [("U1", 0.0), ("U2", -3.6)]
-    assert report.parking_stalls == sum(level.report.parking_stalls for level in report.levels)
+    assert report.parking_stalls == sum(level.parking_stalls for level in report.levels)
     assert [(link.upper, link.lower, link.direction) for link in report.links] == [
         ("U1", "U2", "down"),
         ("U1", "U2", "up"),
@@ -451,17 +451,17 @@ def _ran(*arguments, code=0):
 
 def test_a_report_of_levels_that_is_edited_has_findings_on_the_level(built, tmp_path):
     report = json.loads(built.report.read_text())
-    gone = report["levels"][1]["report"]["stalls"].pop()
+    gone = report["levels"][1]["stalls"].pop()
     (tmp_path / "a_report.json").write_text(json.dumps(report))
     (lost,) = (each for each in garage2usd.check_file(tmp_path / "a_report.json")[0] if each.severity == "error")
     assert (lost.rule, lost.place) == ("report-stalls", f"U2/{gone['name']}")
     _ran("plan", tmp_path / "a_report.json", "--findings", "-o", tmp_path / "a.svg")
     said = {name: (tmp_path / f"a_{name}.svg").read_text().count("report-stalls") for name in ("U1", "U2")}
     assert said == {"U1": 0, "U2": 1}
-    del report["links"]
+    del report["levels"][1]["floor_m"]
     (tmp_path / "a_report.json").write_text(json.dumps(report))
     ran = _ran("check", tmp_path / "a_report.json", code=1)
-    assert "not a report of a garage of several levels: links" in " ".join(ran.output.split())
+    assert "not a report of a build: levels.1.floor_m: Field required" in " ".join(ran.output.split())
 
 
 def test_the_route_to_a_stall_is_drawn_on_each_level_that_it_leads_over(built, tmp_path):

@@ -229,7 +229,7 @@ def test_masks_of_filters(made, tmp_path):
     plain, keepout, speed = (read_map(tmp_path / f"a{part}.yaml") for part in ("", "_keepout", "_speed"))
     assert plain.cells.shape == keepout.cells.shape == speed.cells.shape
     assert plain.origin == keepout.origin == speed.origin
-    kept = [stall for stall in report["stalls"] if stall["use"] in {"access_aisle", "unreachable"}]
+    kept = [stall for stall in report["levels"][0]["stalls"] if stall["use"] in {"access_aisle", "unreachable"}]
     assert kept
     for stall in kept:
         (x, z), half = stall["centre_m"], min(stall["width_m"], stall["length_m"]) / 2

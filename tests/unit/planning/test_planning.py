@@ -221,7 +221,10 @@ def test_steps_have_ids_of_their_own():
 def test_a_report_has_the_means_of_the_learning_curve(tmp_path, episodes):
     config = GarageConfig(plan={"episodes": episodes, "climb": False})
     built = build(config, tmp_path / "g.usdc")
-    curve, points = built.garage.plan.learning_curve, json.loads(built.report.read_text())["learning_curve"]
+    curve, points = (
+        built.garage.plan.learning_curve,
+        json.loads(built.report.read_text())["levels"][0]["learning_curve"],
+    )
     assert len(points) == min(episodes, 500)
     borders = np.cumsum([0] + [episodes // len(points) + (n < episodes % len(points)) for n in range(len(points))])
     means = [curve[start:end].mean() for start, end in pairwise(borders)]

@@ -12,6 +12,7 @@ from support.sample_files import SAMPLES
 from garage2usd.cli import main
 from garage2usd.common.errors import ReportError, StageError
 from garage2usd.common.json_text import json_text
+from garage2usd.config import GarageConfig
 from garage2usd.garage_sources import check_file
 from garage2usd.reading.label_table import read_label_table
 from garage2usd.reading.labels import read_labels
@@ -29,7 +30,9 @@ def test_a_report_that_was_read_is_written_as_it_was(build):
     assert json_text(report.model_dump(mode="json")) == build.report.read_text()
     assert report.config == build.garage.config
     assert report.garage_config().site.structure == str(build.garage.plan.structure)
-    assert [stall.centre_m for stall in report.stalls] == [stall.centre_m for stall in build.garage.layout.stalls]
+    assert [stall.centre_m for stall in report.levels[0].stalls] == [
+        stall.centre_m for stall in build.garage.layout.stalls
+    ]
 
 
 def test_a_table_that_was_read_holds_what_was_written(build):
@@ -37,12 +40,21 @@ def test_a_table_that_was_read_holds_what_was_written(build):
     assert table.model_dump(mode="json") == json.loads(build.labels.read_text())
 
 
+def level(report):
+    (only,) = report["levels"]
+    return only
+
+
 REPORTS = {
     "seed: Field required": lambda report: report.pop("seed"),
-    "R.2: got 'wide'; allowed: a number": lambda report: report["R"].insert(2, "wide"),
-    "S.0: got 7; allowed: text": lambda report: report["S"].insert(0, 7),
-    "score.stalls: got 0.5; allowed: a whole number": lambda report: report["score"].update(stalls=0.5),
-    "unreachable_stalls.0: got 3; allowed: text": lambda report: report.update(unreachable_stalls=[3]),
+    "levels.0.R.2: got 'wide'; allowed: a number": lambda report: level(report)["R"].insert(2, "wide"),
+    "levels.0.S.0: got 7; allowed: text": lambda report: level(report)["S"].insert(0, 7),
+    "levels.0.score.stalls: got 0.5; allowed: a whole number": lambda report: report["levels"][0]["score"].update(
+        stalls=0.5
+    ),
+    "levels.0.unreachable_stalls.0: got 3; allowed: text": lambda report: report["levels"][0].update(
+        unreachable_stalls=[3]
+    ),
 }
 
 
@@ -72,12 +84,32 @@ def test_a_wrong_setting_in_a_report_is_named_as_one(build, tmp_path):
 
 def test_a_report_of_another_version_may_lack_what_nobody_reads(build, tmp_path):
     document = json.loads(build.report.read_text())
-    kept = {key: document[key] for key in ("seed", "config", "S", "R", "C")}
-    (tmp_path / "g_report.json").write_text(json.dumps({**kept, "of_tomorrow": 1}))
-    again = read_report(tmp_path / "g_report.json").garage_config()
-    assert again == read_report(build.report).garage_config()
-    findings, _ = check_file(tmp_path / "g_report.json")
-    assert not [finding for finding in findings if finding.rule == "report-stalls"]
+    of_whole = {key: document[key] for key in ("seed", "config")}
+    (level,) = document["levels"]
+    matrices = {key: level[key] for key in ("S", "R", "C")}
+    for kept in (
+        {**of_whole, "levels": [{"name": "U1", "floor_m": 0.0, **matrices}], "of_tomorrow": 1},
+        {**of_whole, **matrices},  # the first form, which had no levels
+    ):
+        (tmp_path / "g_report.json").write_text(json.dumps(kept))
+        again = read_report(tmp_path / "g_report.json").garage_config()
+        assert again == read_report(build.report).garage_config()
+        findings, _ = check_file(tmp_path / "g_report.json")
+        assert not [finding for finding in findings if finding.rule == "report-stalls"]
+
+
+def test_the_first_form_of_a_report_of_several_levels_is_read(tmp_path):
+    garage = GarageConfig(seed=1, building={"levels": 2}).model_dump(mode="json")
+    level = {"S": ["E.X"], "R": [8.1] * 3, "C": [8.1], "seed": 2, "config": garage}
+    levels = [{"name": name, "floor_m": floor_m, "report": level} for name, floor_m in (("U1", 0.0), ("U2", -3.6))]
+    path = tmp_path / "g_report.json"
+    path.write_text(json.dumps({"seed": 1, "config": garage, "tape": "a/b/c", "links": [], "levels": levels}))
+    read = read_report(path)
+    assert [(each.name, each.floor_m, each.S) for each in read.levels] == [
+        ("U1", 0.0, ("E.X",)),
+        ("U2", -3.6, ("E.X",)),
+    ]
+    assert (read.seed, read.tape) == (1, "a/b/c")
 
 
 def wall(table, number):

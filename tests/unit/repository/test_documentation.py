@@ -27,8 +27,9 @@ def test_the_page_of_a_builds_files_names_every_key_in_them(tmp_path):
     report, labels = (json.loads((tmp_path / f"garage_{name}.json").read_text()) for name in ("report", "labels"))
     keys = {
         *report,
-        *report["circulation"],
-        *report["stalls"][0],
+        *report["levels"][0],
+        *report["levels"][0]["circulation"],
+        *report["levels"][0]["stalls"][0],
         *labels,
         *labels["classes"][0],
         *labels["columns"],

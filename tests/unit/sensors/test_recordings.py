@@ -63,7 +63,7 @@ def test_a_stall_without_a_way_is_told_with_what_is_in_the_way(tmp_path):
     import garage2usd
 
     made = garage2usd.build(garage2usd.GarageConfig(site={"width_cells": 6, "height_cells": 6}), tmp_path / "g.usdc")
-    stalls = json.loads(made.report.read_text())["stalls"]
+    stalls = json.loads(made.report.read_text())["levels"][0]["stalls"]
     blocked = next((entry["name"] for entry in stalls if entry["use"] in {"access_aisle", "turning"}), None)
     assert blocked is not None
     with pytest.raises(ConfigError, match="a stall that takes a car"):

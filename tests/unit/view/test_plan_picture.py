@@ -321,9 +321,10 @@ def test_lanes_are_tinted_by_whether_cars_drive_through_them(circulating):
 def test_the_title_has_the_figures_of_the_report(circulating, tmp_path):
     report = json.loads(build(circulating.config, tmp_path / "g.usda").report.read_text())
     (title,) = texts(ET.fromstring(to_svg(draw_plan(circulating.layout))), "title")
-    figures, loops = report["circulation"], report["circulation"]["loops"]
+    (level,) = report["levels"]
+    figures, loops = level["circulation"], level["circulation"]["loops"]
     assert title.text == (
-        f"{report['parking_stalls']} stalls, {sum(stall['occupied'] for stall in report['stalls'])} occupied, "
+        f"{report['parking_stalls']} stalls, {sum(stall['occupied'] for stall in level['stalls'])} occupied, "
         f"{report['area_per_stall_m2']:.1f} m2 a stall net, {report['gross_area_per_stall_m2']:.1f} gross, "
         f"{loops} loops, "
         f"longest dead end {figures['longest_dead_end_m']:.1f} m, "
@@ -418,7 +419,7 @@ def test_a_stall_is_chosen_by_its_number(tmp_path):
         (["none.json"], 1, "none.json'; allowed: a readable file (No such file"),
         (["none.obj"], 1, "PATH: got 'none.obj'"),
         (["pipe.json"], 1, "allowed: a regular file"),
-        (["broken.json"], 1, "broken.json: not a report of a build"),
+        (["broken.json"], 1, "report: got 'broken.json'; allowed: JSON ("),
         (["other.json"], 1, "other.json: not a report of a build: seed"),
         (["other.json", "--seed", "3"], 1, "a seed beside a configuration only"),
     ],
@@ -448,7 +449,7 @@ def test_pictures_open_as_such(tmp_path):
 def test_what_a_check_finds_is_drawn_at_its_place(builds, tmp_path):
     build = builds(REPOSITORY / "samples" / "paper_7x9.toml", "usdc")
     report = json.loads(build.report.read_text())
-    moved = report["stalls"][3]
+    moved = report["levels"][0]["stalls"][3]
     moved["centre_m"][0] += 0.5
     (tmp_path / "garage_report.json").write_text(json.dumps(report))
     picture = tmp_path / "plan.svg"

@@ -143,7 +143,7 @@ def test_the_floor_a_stall_is_told_without_and_with_ramps(drawn):
         gross_m2 = shapely.Polygon(ground.exterior).area
         assert gross_m2 > net_m2 + 200
         areas_m2 += net_m2, gross_m2
-        each = own["report"]["area_per_stall_m2"], own["report"]["gross_area_per_stall_m2"]
+        each = own["area_per_stall_m2"], own["gross_area_per_stall_m2"]
         assert np.allclose(each, np.array([net_m2, gross_m2]) / layout.parking_stalls, atol=1e-3)
         title = next(one.text for one in draw_plan(layout).elements if isinstance(one, Text) and one.kind == "title")
         assert f", {each[0]:.1f} m2 a stall net, {each[1]:.1f} gross, " in title
@@ -163,5 +163,5 @@ def test_the_command_draws_it_beside_the_plans(drawn, tmp_path):
     run = CliRunner().invoke(main, ["plan", str(built.stage), "-o", str(tmp_path / "p.svg")])
     assert run.exit_code == 0, run.output
     names = {path.name for path in tmp_path.iterdir()}
-    assert names == {"p_section.svg", *(f"p_{name}.svg" for name in built.garage.building.names())}
+    assert names == {"p_section.svg", *(f"p_{name}.svg" for name in ("U1", "U2", "U3")[: len(built.garage.levels)])}
     assert "Section through the ramps" in (tmp_path / "p_section.svg").read_text()
