@@ -4,7 +4,7 @@
 import logging
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -15,7 +15,7 @@ from PIL import Image
 from garage2usd.as_built.garage import garage_as_made
 from garage2usd.checks import Finding, judged_layout
 from garage2usd.checks.swept_path import design_car
-from garage2usd.common.errors import ConfigError, GenerationError
+from garage2usd.common.errors import ConfigError, Garage2UsdError, GenerationError, OutputError
 from garage2usd.common.json_text import json_text
 from garage2usd.common.output import check_file, check_name, check_writable, publish_at, staging_folder
 from garage2usd.common.processes import run_in_forks, without_collector
@@ -40,8 +40,10 @@ from garage2usd.report import make_report
 from garage2usd.site.levels import LevelSites
 from garage2usd.stage import StageFormat, shared_folder, write_labels, write_stage
 from garage2usd.structure.building import Building
+from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneSquares
 from garage2usd.view.garage_pictures import draw_pictures
+from garage2usd.view.learning_picture import draw_structures
 from garage2usd.view.raster import write_png
 
 __all__ = [
@@ -224,10 +226,16 @@ def build(
         As `generate`.
     OutputError
         If the files cannot be written. They appear whole or not at all.
+
+    Notes
+    -----
+    Where the garage fails after its plan was made, ``garage_failed_plan.json`` keeps S, R and C of the plan, which
+    `check_file` reads, and ``garage_failed_plan.png`` shows it; the error names the files under ``kept``.
     """
     config = config or GarageConfig()
     path = checked_output(output, config)
-    garage, seconds = _generate(config, seed=seed, tape=tape, jobs=jobs, progress=progress)
+    with _keeping_plans(path):
+        garage, seconds = _generate(config, seed=seed, tape=tape, jobs=jobs, progress=progress)
     draw = partial(draw_pictures, garage, learning_curve=learning_curve, best_plans=best_plans)
 
     def report(judged: Sequence[Judged] | None) -> Mapping[str, Any]:
@@ -366,7 +374,8 @@ def _generate(
         wanted = f"a place with room to turn before the ramps, without {lack}"
         raise ConfigError("building.place", place.model_dump(exclude_none=True), wanted)
     reason = f"none of {tried} places of the ramps has room to turn before them; {lack}; a larger site has more places"
-    raise GenerationError("links", reason, seed=config.seed, attempts=tried)
+    with _telling_plans(tight[0].building.levels):
+        raise GenerationError("links", reason, seed=config.seed, attempts=tried)
 
 
 def _made(
@@ -388,10 +397,40 @@ def _made(
     with _timed(seconds, "plan") as told:
         planned = plan_levels(sites, config, tapes, given=plans or (), jobs=jobs, progress=progress)
         told.extend(f"{plan.score.stalls} stalls at a score of {plan.score.value:.2f}" for plan, _, _ in planned)
-    with _timed(seconds, "layout") as told:
+    with _timed(seconds, "layout") as told, _telling_plans([each.plan.structure for each in planned]):
         garage = _laid_out(sites, config, planned, jobs, progress)
         told.append(f"{garage.parking_stalls} stalls to park in, {len(garage.levels)} level(s)")
     return garage
+
+
+@contextmanager
+def _telling_plans(structures: Sequence[Structure]) -> Iterator[None]:
+    """Let an error tell the plans of the levels of the garage that it ends."""
+    try:
+        yield
+    except Garage2UsdError as error:
+        names = (place.in_whole("plan", joint="_") for place in level_places(len(structures), 0.0))
+        error.plans = dict(zip(names, structures, strict=True))
+        raise
+
+
+@contextmanager
+def _keeping_plans(path: Path) -> Iterator[None]:
+    """Write the plans that an error tells beside the stage that is not made."""
+    try:
+        yield
+    except Garage2UsdError as error:
+        with suppress(OutputError), staging_folder(path) as staging:
+            places: dict[Path, Path] = {}
+            for name, each in error.plans.items():
+                file = staging / f"{path.stem}_failed_{name}.json"
+                matrices = {"S": str(each).splitlines(), "R": each.R[0].tolist(), "C": each.C[:, 0].tolist()}
+                file.write_text(json_text(matrices), encoding="utf-8", newline="\n")
+                picture = file.with_suffix(".png")
+                write_png(draw_structures([(each, name)]), picture)
+                places |= {draft: path.with_name(draft.name) for draft in (file, picture)}
+            error.kept = publish_at(places) if places else ()
+        raise
 
 
 def _sites(

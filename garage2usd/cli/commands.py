@@ -26,6 +26,8 @@ class Commands(click.Group):
             return super().main(*args, **kwargs)
         except Garage2UsdError as error:
             click.echo(f"Error: {error}", err=True)
+            if error.kept:
+                click.echo(f"kept, as far as it was planned: {', '.join(map(str, error.kept))}", err=True)
             is_usage = isinstance(error, ConfigError) and error.field in _USAGE_FIELDS
             sys.exit(2 if is_usage else 1)
         except Exception as error:

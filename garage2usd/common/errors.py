@@ -4,6 +4,7 @@ import os
 from collections.abc import Mapping, Sequence
 from enum import Enum
 from pathlib import Path
+from typing import Any
 
 __all__ = [
     "ConfigError",
@@ -22,7 +23,18 @@ __all__ = [
 
 
 class Garage2UsdError(Exception):
-    """Base class of all errors that garage2usd raises on purpose."""
+    """Base class of all errors that garage2usd raises on purpose.
+
+    Attributes
+    ----------
+    plans
+        Structure of each level that was planned before the garage failed, by its name: ``plan``, or ``U1_plan``.
+    kept
+        Files of these plans that a build has left.
+    """
+
+    plans: Mapping[str, Any] = {}
+    kept: tuple[Path, ...] = ()
 
     def __reduce__(self) -> "tuple[object, ...]":
         """Pickle an error by message and attributes, as the constructors differ."""

@@ -8,12 +8,14 @@ import networkx as nx
 import numpy as np
 import pytest
 import shapely
+from click.testing import CliRunner
 from pxr import Usd, UsdGeom
 from support.driving_simulation import World, drive_stalls, ground
 from support.sample_files import REPOSITORY
 from support.soak import soak_but
 
 import garage2usd
+from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
 from garage2usd.driving import DesignCar, Manoeuvre, Obstacles, prove_garage, prove_stalls
 from garage2usd.driving.lane_poses import lane_poses
@@ -183,6 +185,22 @@ def failures(kept):
 def dropped():
     """The narrow garage without the stalls that no car gets into."""
     return drawn(**NARROW, plan={"unreachable_stalls": "drop"})
+
+
+def test_the_plan_of_a_garage_that_fails_is_kept(tmp_path):
+    (tmp_path / "narrow.toml").write_text(
+        f'[site]\nstructure = """{NARROW["structure"]}"""\n'
+        f"[bay]\ncolumn_widths_m = 8.1\nrow_depths_m = {NARROW['bay']['row_depths_m']}\n"
+    )
+    ran = CliRunner().invoke(main, ["build", str(tmp_path / "narrow.toml"), "-o", str(tmp_path / "a" / "g.usdz")])
+    assert ran.exit_code == 1
+    kept = [tmp_path / "a" / f"g_failed_plan.{suffix}" for suffix in ("json", "png")]
+    assert f"kept, as far as it was planned: {kept[0]}, {kept[1]}" in ran.output
+    assert sorted((tmp_path / "a").iterdir()) == kept
+    matrices = json.loads(kept[0].read_text())
+    assert matrices["S"] == NARROW["structure"].split()
+    assert matrices["C"] == NARROW["bay"]["row_depths_m"]
+    assert "aisle-width" in {finding.rule for finding in check_file(kept[0])[0]}
 
 
 def test_a_lane_too_narrow_for_its_stalls_is_refused_with_the_stalls_unless_told_otherwise(failures):
