@@ -10,7 +10,7 @@ import time
 from collections import Counter
 
 from garage2usd.as_built.garage import garage_as_made
-from garage2usd.checks import Severity, check
+from garage2usd.checks import Severity, findings_of
 from garage2usd.config import GarageConfig
 from garage2usd.driving import Limits, prove_stalls
 from garage2usd.pipeline import generate
@@ -47,7 +47,7 @@ def main() -> int:
     for seed in range(asked.first, asked.first + asked.seeds):
         garage = generate(GarageConfig(seed=seed, profile=asked.profile, site=site))
         subject = garage_as_made(garage, source=f"seed {seed}", kind="report")
-        findings = check(subject, garage.config.standard)
+        findings = findings_of(subject, garage.config.standard)
         grave = [finding for finding in findings if finding.severity is not Severity.INFO]
         found.update(f"{finding.severity.value} {finding.rule}" for finding in findings)
         gave_way.update(garage.plan.gave_way)

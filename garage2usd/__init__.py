@@ -13,10 +13,11 @@ if TYPE_CHECKING:
     from garage2usd.common.errors import ConfigError, Garage2UsdError, GenerationError, UnreachableStallError
     from garage2usd.config import GarageConfig, load_config
     from garage2usd.exports import export
-    from garage2usd.garage_sources import check_file
+    from garage2usd.garage_sources import check, drive
     from garage2usd.imports import import_layout
     from garage2usd.pipeline import Build, Garage, build, generate
     from garage2usd.planning.optimum import Optimum, find_optimum
+    from garage2usd.recordings import record
     from garage2usd.structure.grid import Structure
 
 __all__ = [
@@ -30,12 +31,14 @@ __all__ = [
     "Structure",
     "UnreachableStallError",
     "build",
-    "check_file",
+    "check",
+    "drive",
     "export",
     "find_optimum",
     "generate",
     "import_layout",
     "load_config",
+    "record",
 ]
 
 _HOME = {
@@ -49,12 +52,14 @@ _HOME = {
     "Structure": "structure.grid",
     "UnreachableStallError": "common.errors",
     "build": "pipeline",
-    "check_file": "garage_sources",
+    "check": "garage_sources",
+    "drive": "garage_sources",
     "export": "exports",
     "find_optimum": "planning.optimum",
     "generate": "pipeline",
     "import_layout": "imports",
     "load_config": "config",
+    "record": "recordings",
 }
 __getattr__ = on_first_use(__name__, _HOME)
 

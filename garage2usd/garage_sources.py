@@ -14,10 +14,11 @@ from garage2usd.common.documents import MAX_REPORT_BYTES, is_file, read_json
 from garage2usd.common.errors import ConfigError, ReportError
 from garage2usd.common.progress import Progress, silent
 from garage2usd.config import GarageConfig, load_config
-from garage2usd.config.maps import DriveConfig
+from garage2usd.config.maps import DriveConfig, Leg
 from garage2usd.driving import StallProof
 from garage2usd.garage import Fault
 from garage2usd.garage_model import Garage
+from garage2usd.maps.drives import Drive, DrivePlanner
 from garage2usd.pipeline import generate
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
 from garage2usd.reading.files import STAGE_SUFFIXES
@@ -27,7 +28,8 @@ from garage2usd.stage import StageFormat
 __all__ = [
     "BuiltSource",
     "built_source",
-    "check_file",
+    "check",
+    "drive",
     "generated_of",
     "read_built",
     "refuse_seed",
@@ -46,7 +48,7 @@ class BuiltSource(NamedTuple):
 
     def findings(self) -> list[Finding]:
         """Return the findings under the profile and by the rules that need none, errors first."""
-        return checks.check(self.garage, self.profile)
+        return checks.findings_of(self.garage, self.profile)
 
     def not_checked(self) -> dict[str, str]:
         """Return the profile clauses that no rule can check on the garage, each with the reason."""
@@ -57,16 +59,17 @@ class BuiltSource(NamedTuple):
         return prove_built(self.garage, progress=progress)
 
 
-def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[list[Finding], Profile]:
-    """Check a stage, a report or a plan of a garage of one level or several.
+def check(source: str | Path | Garage, *, profile: Profile | None = None) -> tuple[list[Finding], Profile]:
+    """Check a garage against a profile.
 
     Parameters
     ----------
-    path
-        A stage (``.usd``, ``.usda``, ``.usdc``, ``.usdz``), a report (``.json``), a configuration with a structure
-        (``.toml``), or a structure as text, JSON, ``.npy`` or ``.npz``.
+    source
+        A garage as `generate` and `import_layout` make it, or a file: a stage (``.usd``, ``.usda``, ``.usdc``,
+        ``.usdz``), also one that was edited, a report (``.json``), a configuration with a structure (``.toml``), or a
+        structure as text, JSON, ``.npy`` or ``.npz``.
     profile
-        Profile to check against. The default is the profile that the file names, or else ``cn-jgj100``.
+        Profile to check against. The default is the one that the source names, or else ``cn-jgj100``.
 
     Returns
     -------
@@ -78,8 +81,44 @@ def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[lis
     ConfigError, ReportError, StageError
         If the file is none of these.
     """
-    source = read_built(path, profile=profile)
-    return source.findings(), source.profile
+    built = _built(source, profile=profile)
+    return built.findings(), built.profile
+
+
+def drive(
+    source: str | Path | Garage,
+    stall: str | None = None,
+    *,
+    entrance: int | None = None,
+    exit: int | None = None,  # noqa: A002 - the garage's word
+    leg: Leg = Leg.BOTH,
+    settings: DriveConfig | None = None,
+) -> Drive:
+    """Drive from the street into a stall and back.
+
+    Parameters
+    ----------
+    source
+        A garage, or the file of one, as for `check`.
+    stall, entrance, exit, leg
+        As for `garage2usd.maps.drives.DrivePlanner.drive`.
+    settings
+        Limits of the car's motion; those of the source if left out.
+
+    Raises
+    ------
+    ConfigError, ReportError, StageError
+        If the file is no garage, the stall or portal does not exist, or no drive joins them.
+    """
+    built = _built(source)
+    return DrivePlanner(built.garage, settings or built.drive).drive(stall, entrance=entrance, exit=exit, leg=leg)
+
+
+def _built(source: str | Path | Garage, *, profile: Profile | None = None) -> BuiltSource:
+    if not isinstance(source, Garage):
+        return read_built(source, profile=profile)
+    built = built_source(source, source="a garage")
+    return built._replace(profile=profile or built.profile)
 
 
 def read_built(path: str | Path, *, profile: Profile | None = None, progress: Progress = silent) -> BuiltSource:

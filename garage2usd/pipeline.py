@@ -230,7 +230,7 @@ def build(
     Notes
     -----
     Where the garage fails after its plan was made, ``garage_failed_plan.json`` keeps S, R and C of the plan, which
-    `check_file` reads, and ``garage_failed_plan.png`` shows it; the error names the files under ``kept``.
+    `check` reads, and ``garage_failed_plan.png`` shows it; the error names the files under ``kept``.
     """
     config = config or GarageConfig()
     path = checked_output(output, config)

@@ -39,10 +39,10 @@ __all__ = [
     "Severity",
     "as_json",
     "as_table",
-    "check",
     "check_layout",
     "clauses_checked",
     "clauses_in_words",
+    "findings_of",
     "found_in_words",
     "judged_layout",
     "not_checked",
@@ -74,7 +74,7 @@ RULES: tuple[Rule, ...] = tuple(
 _LONG = (*usd.BOOK.rules, *swept_path.BOOK.rules)
 
 
-def check(garage: BuiltGarage, profile: Profile) -> list[Finding]:
+def findings_of(garage: BuiltGarage, profile: Profile) -> list[Finding]:
     """Return the findings of a garage under a profile and the rules that need no profile, errors first.
 
     Each level is checked with its landings as portals; a finding's place is its path or name in the whole garage.

@@ -95,7 +95,7 @@ def _garage(seed: int) -> tuple[str, list[str]]:
     from garage2usd.config import GarageConfig  # noqa: PLC0415
     from garage2usd.driving import prove_stalls  # noqa: PLC0415
     from garage2usd.driving.witness import write_witness  # noqa: PLC0415
-    from garage2usd.garage_sources import check_file  # noqa: PLC0415
+    from garage2usd.garage_sources import check  # noqa: PLC0415
     from garage2usd.pipeline import build  # noqa: PLC0415
     from garage2usd.reading.content import stage_digest  # noqa: PLC0415
     from garage2usd.structure.symmetry import plan_digest  # noqa: PLC0415
@@ -105,7 +105,7 @@ def _garage(seed: int) -> tuple[str, list[str]]:
     with staging_folder() as folder:
         made = build(config, folder / "garage.usdc")
         stage = stage_digest(made.stage, digits=_DIGITS)
-        findings, _ = check_file(made.stage)
+        findings, _ = check(made.stage)
         proofs = prove_stalls(made.garage.layout)
         ways = folder / "ways.json"
         write_witness(ways, proofs)

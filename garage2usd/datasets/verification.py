@@ -23,7 +23,7 @@ from garage2usd.datasets.manifest import MANIFEST_SCHEMA, ManifestRow, rows_of_t
 from garage2usd.datasets.recipe import ASSET_FOLDER, RECIPE_FILE, Distinct, Recipe, load_recipe
 from garage2usd.datasets.shards import SHARD_FOLDER, shard_members
 from garage2usd.datasets.sums import SUMS_FILE, files_of, read_sums, sha256_of
-from garage2usd.garage_sources import check_file
+from garage2usd.garage_sources import check
 from garage2usd.structure.symmetry import levels_digest
 
 __all__ = ["Fault", "verify_dataset"]
@@ -199,7 +199,7 @@ def _of_stage(stage: Path, key: str, config: GarageConfig) -> Iterator[Fault]:
     profile = config.standard
     excused = _LIGHTING if config.look.may_be_dim else frozenset()
     try:
-        findings, _ = check_file(stage, profile=profile)
+        findings, _ = check(stage, profile=profile)
     except Garage2UsdError as error:
         yield Fault(key, f"its stage does not open: {getattr(error, 'reason', error)}")
         return

@@ -25,7 +25,7 @@ import garage2usd
 from garage2usd.as_built.driven_ground import driven_garage
 from garage2usd.config import GarageConfig
 from garage2usd.exports import export
-from garage2usd.garage_sources import check_file, read_built
+from garage2usd.garage_sources import check, read_built
 from garage2usd.maps.parked_cars import parked_cars
 from garage2usd.objects import CAR_LABELS
 from garage2usd.objects.car import OwnCarSpec
@@ -96,7 +96,7 @@ def test_checks_and_scenarios_take_each_class_for_parked_cars(own):
     assert len(parked_cars(garage)) == len(own.cars)
     taken = driven_garage(subject).taken
     assert {car.stall for car in own.cars.values()} <= taken
-    findings, _ = check_file(own.built.stage)
+    findings, _ = check(own.built.stage)
     amiss = {"stall-blocked", "car-outside-stall", "lane-blocked"}
     assert not [finding for finding in findings if finding.rule in amiss]
 

@@ -7,7 +7,7 @@ from support.sample_files import each_build
 
 from garage2usd.as_built.garage import garage_of_stage
 from garage2usd.as_built.stage_reader import level_of_stage
-from garage2usd.checks import check
+from garage2usd.checks import findings_of
 from garage2usd.checks.consistency import BOOK as CONSISTENCY
 from garage2usd.checks.usd import BOOK
 from garage2usd.profiles import Profile
@@ -33,7 +33,7 @@ def test_stages_break_no_rule(sample, extension, builds):
 
 def rules_broken(stage):
     """Rules that a stage breaks, apart from being no garage."""
-    return {finding.rule for finding in check(garage_of_stage(stage, source=""), NO_CLAUSES)} - {"lane-graph"}
+    return {finding.rule for finding in findings_of(garage_of_stage(stage, source=""), NO_CLAUSES)} - {"lane-graph"}
 
 
 def test_the_small_stage_breaks_no_rule(tmp_path):

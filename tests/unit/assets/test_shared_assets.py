@@ -15,7 +15,7 @@ from support.soak import soak_but
 from garage2usd.common.errors import ConfigError, StageError
 from garage2usd.config import GarageConfig
 from garage2usd.config.stage import StageForm
-from garage2usd.garage_sources import check_file
+from garage2usd.garage_sources import check
 from garage2usd.pipeline import build
 from garage2usd.reading.files import open_stage
 from garage2usd.stage.asset_files import _asset_file
@@ -187,7 +187,7 @@ def test_check_and_view_read_shared_assets_as_ones_of_the_stages_own(tmp_path):
     found, shown = [], []
     for assets in ("own", "shared"):
         path = build(small(assets=assets), tmp_path / assets / "a" / "g.usdc").stage
-        found.append(check_file(path)[0])
+        found.append(check(path)[0])
         # but for the digest of the configuration, which says where the assets are
         shown.append(encode_scene(replace(read_scene(open_stage(path), path), facts={})))
     assert found[0] == found[1]

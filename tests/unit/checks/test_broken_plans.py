@@ -10,9 +10,9 @@ from support.soak import soak_but
 from garage2usd import GarageConfig, build
 from garage2usd.as_built import BuiltGarage
 from garage2usd.as_built.layout_reader import level_of_layout
-from garage2usd.checks import Severity, check
+from garage2usd.checks import Severity, findings_of
 from garage2usd.common.errors import ConfigError, ReportError, StageError
-from garage2usd.garage_sources import check_file
+from garage2usd.garage_sources import check
 from garage2usd.layout import lay_out
 from garage2usd.planning import given_plan, with_stall_kinds
 from garage2usd.profiles import load_profile, read_profile
@@ -41,7 +41,7 @@ def found_in(settings, profile=CN):
     plan = with_stall_kinds(given_plan(structure, bay=config.bay), config)
     structure, graph = plan.structure, build_lane_graph(plan.structure, config.bay, plan.runs)
     subject = level_of_layout(lay_out(structure, graph, config), source="", kind="plan")
-    return {finding.rule for finding in check(BuiltGarage.of_level(subject), profile)}
+    return {finding.rule for finding in findings_of(BuiltGarage.of_level(subject), profile)}
 
 
 def settings_with(**sections):
@@ -54,7 +54,7 @@ def settings_with(**sections):
 @pytest.mark.parametrize(("rule", "drawing"), DRAWN.values(), ids=DRAWN)
 def test_a_broken_drawing_is_reported_by_the_rule_meant_for_it(rule, drawing, tmp_path):
     (tmp_path / "plan.txt").write_text(drawing)
-    findings, profile = check_file(tmp_path / "plan.txt")
+    findings, profile = check(tmp_path / "plan.txt")
     assert profile is CN
     told = {finding.rule for finding in findings if finding.severity is not Severity.INFO or finding.rule == rule}
     # small drawings hardly circulate, unless that is what they are about
@@ -144,7 +144,7 @@ def test_a_stage_and_its_report_say_the_same_of_stalls_that_no_car_gets_into(tmp
     made = build(GarageConfig(**settings), tmp_path / "g.usda")
     profile = profile_without("aisle_width", **WIDE_CIRCLE)
     found = [
-        [finding for finding in check_file(path, profile=profile)[0] if finding.rule == "swept-path"]
+        [finding for finding in check(path, profile=profile)[0] if finding.rule == "swept-path"]
         for path in (made.stage, made.report)
     ]
     assert found[0]
@@ -158,13 +158,13 @@ def test_a_turning_radius_that_no_car_has_is_refused():
 
 def test_what_build_would_refuse_is_reported_in_its_words(tmp_path):
     (tmp_path / "narrow.toml").write_text(f'[site]\nstructure = """{PLAN}"""\n[bay]\nrow_depths_m = [8.1, 3.1, 8.1]\n')
-    findings, _ = check_file(tmp_path / "narrow.toml")
+    findings, _ = check(tmp_path / "narrow.toml")
     assert {f.rule for f in findings} - FOUND_IN_GOOD_ONE == {"aisle-width", "plan-refused"}
     assert "bay.row_depths_m: got 3.1; allowed: at least 3.20 m" in next(
         f.message for f in findings if f.rule == "plan-refused"
     )
     (tmp_path / "empty.txt").write_text("E===X")
-    assert {f.rule for f in check_file(tmp_path / "empty.txt")[0]} - FOUND_IN_GOOD_ONE == {"plan-refused"}
+    assert {f.rule for f in check(tmp_path / "empty.txt")[0]} - FOUND_IN_GOOD_ONE == {"plan-refused"}
 
 
 def test_a_narrow_door_is_reported():
@@ -214,7 +214,7 @@ def test_a_stage_and_its_report_say_the_same_of_circulation(form, tmp_path):
     made = build(GarageConfig(**settings), tmp_path / "g.usda")
     profile = profile_without(loops={"steps": [[10, 0]], "above": 1}, stretch_length={"value": 10, **M})
     found = [
-        [finding for finding in check_file(path, profile=profile)[0] if finding.rule in CIRCULATION]
+        [finding for finding in check(path, profile=profile)[0] if finding.rule in CIRCULATION]
         for path in (made.stage, made.report)
     ]
     assert {finding.rule for finding in found[0]} == {"dead-end-depth", "loop", "stretch-length"}
@@ -223,13 +223,13 @@ def test_a_stage_and_its_report_say_the_same_of_circulation(form, tmp_path):
 
 def test_findings_of_circulation_tell_place_and_figures(tmp_path):
     (tmp_path / "plan.txt").write_text(DRAWN["a dead end with branches that are short"][1])
-    (finding,) = (f for f in check_file(tmp_path / "plan.txt")[0] if f.rule == "dead-end-depth")
+    (finding,) = (f for f in check(tmp_path / "plan.txt")[0] if f.rule == "dead-end-depth")
     assert (finding.place, finding.position_m) == ("[4, 2]", pytest.approx((16.45, 27.9)))
     assert (finding.measured, finding.required, finding.unit) == (pytest.approx(26.5, abs=0.05), 24.0, "m")
     assert finding.severity == "warning"
     assert "6 lane squares" in finding.message
     (tmp_path / "plan.txt").write_text(DRAWN["lanes side by side"][1])
-    (finding,) = (f for f in check_file(tmp_path / "plan.txt")[0] if f.rule == "lane-field")
+    (finding,) = (f for f in check(tmp_path / "plan.txt")[0] if f.rule == "lane-field")
     assert (finding.place, finding.measured, finding.required) == ("[1, 2]", pytest.approx(12.7), 11.0)
 
 
@@ -255,7 +255,7 @@ def test_a_report_lists_the_stalls_that_its_plan_gives(change, report, tmp_path)
     if change:
         change(document["levels"][0]["stalls"])
     (tmp_path / "g_report.json").write_text(json.dumps(document))
-    findings, _ = check_file(tmp_path / "g_report.json")
+    findings, _ = check(tmp_path / "g_report.json")
     assert {f.rule for f in findings} - FOUND_IN_GOOD_ONE == ({"report-stalls"} if change else set())
 
 
@@ -271,11 +271,11 @@ def test_the_same_plan_in_every_form_is_judged_alike(tmp_path):
     grid = profile_with(column_spacing={"least": 8.2, "most": 8.3})
     for name, text in forms.items():
         (tmp_path / name).write_text(text)
-        findings, _ = check_file(tmp_path / name)
+        findings, _ = check(tmp_path / name)
         assert [f.rule for f in findings if f.severity is not Severity.INFO] == sorted(FOUND_IN_GOOD_ONE), name
         # who gives sizes keeps them, who gives none gets the grid that is asked for
         is_sized = name in {"matrices.json", "plan.toml"}
-        findings, _ = check_file(tmp_path / name, profile=grid)
+        findings, _ = check(tmp_path / name, profile=grid)
         assert any(f.rule == "column-spacing" for f in findings) is is_sized
 
 
@@ -298,5 +298,5 @@ def test_the_same_plan_in_every_form_is_judged_alike(tmp_path):
 def test_what_is_no_plan_is_refused_in_one_line(name, text, said, tmp_path):
     (tmp_path / name).write_text(text)
     with pytest.raises((ConfigError, ReportError, StageError)) as caught:
-        check_file(tmp_path / name)
+        check(tmp_path / name)
     assert said in str(caught.value)

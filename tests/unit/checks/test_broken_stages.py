@@ -11,7 +11,7 @@ from support.small_garage import SETTINGS
 from garage2usd import GarageConfig, build
 from garage2usd.as_built.garage import garage_of_stage
 from garage2usd.as_built.shapes import Body, MeshShape
-from garage2usd.checks import RULES, check, swept_path, usd
+from garage2usd.checks import RULES, findings_of, swept_path, usd
 from garage2usd.common.errors import StageError
 from garage2usd.config.vehicles import body_named
 from garage2usd.driving import way_search
@@ -45,7 +45,7 @@ def stage(opened):
 
 
 def rules_found(stage, profile=PROFILE):
-    return {finding.rule for finding in check(garage_of_stage(stage, source="edited"), profile)}
+    return {finding.rule for finding in findings_of(garage_of_stage(stage, source="edited"), profile)}
 
 
 def test_the_good_stage_breaks_nothing_else(stage):
@@ -65,7 +65,7 @@ def test_a_stage_without_light_is_dark(stage):
 
 def test_a_finding_names_its_place_and_figures(stage):
     changed("Edges", "garage:lane:width", 1, 4.0)(stage)
-    (finding,) = [f for f in check(garage_of_stage(stage, source=""), PROFILE) if f.rule == "aisle-width"]
+    (finding,) = [f for f in findings_of(garage_of_stage(stage, source=""), PROFILE) if f.rule == "aisle-width"]
     assert (finding.place, finding.position_m) == ("[1, 1]-[1, 2]", (16.2, 12.15))
     assert (finding.measured, finding.required, finding.unit) == (4.0, 5.5, "m")
     assert finding.source == "JGJ 100-2015 (high)"
@@ -73,7 +73,7 @@ def test_a_finding_names_its_place_and_figures(stage):
 
 def test_a_stall_that_no_car_gets_into_is_named_with_what_is_in_the_way(stage):
     box(12.15, 0.0, 8.28, label="static", side=0.3)(stage)
-    found = [f for f in check(garage_of_stage(stage, source=""), PROFILE) if f.rule == "swept-path"]
+    found = [f for f in findings_of(garage_of_stage(stage, source=""), PROFILE) if f.rule == "swept-path"]
     assert [(f.place, f.position_m, f.severity, f.unit) for f in found] == [
         ("Stall_r00_c01_2", (12.15, 5.45), "error", "m")
     ]
@@ -86,7 +86,7 @@ def test_a_stall_that_no_car_gets_into_is_named_with_what_is_in_the_way(stage):
 def test_stalls_whose_search_ended_at_its_bound_are_undecided_and_no_errors(stage, monkeypatch):
     monkeypatch.setattr(way_search, "_PASSES", ((0.36, 20), (0.24, 20)))
     monkeypatch.setattr(way_search, "_MOST_PLACES", 20)
-    found = check(garage_of_stage(stage, source=""), PROFILE)
+    found = findings_of(garage_of_stage(stage, source=""), PROFILE)
     assert {f.rule for f in found} - FOUND_IN_GOOD_ONE == {"swept-path-undecided"}
     undecided = [f for f in found if f.rule == "swept-path-undecided"]
     assert {f.severity for f in undecided} == {"warning"}
@@ -163,7 +163,7 @@ def test_a_sheet_without_any_thickness_is_in_the_way(stage):
     net.CreateFaceVertexCountsAttr([4] * 11)
     net.CreateFaceVertexIndicesAttr([corner for face in faces for corner in face])
     UsdSemantics.LabelsAPI.Apply(net.GetPrim(), "class").CreateLabelsAttr(["static"])
-    found = [f for f in check(garage_of_stage(stage, source=""), PROFILE) if f.rule == "swept-path"]
+    found = [f for f in findings_of(garage_of_stage(stage, source=""), PROFILE) if f.rule == "swept-path"]
     assert [f.place for f in found] == ["Stall_r00_c01_2"]
     assert "; in the way: /Garage/Added, " in found[0].message
 
@@ -184,7 +184,7 @@ def test_points_of_an_instancer_stand_where_they_are_drawn(stage):
     instancer.CreatePrototypesRel().SetTargets([cone.GetPath()])
     instancer.CreateProtoIndicesAttr([0, 0])
     instancer.CreatePositionsAttr([(3.0, 0.2, 3.0), (16.2, 0.2, 12.15)])
-    found = [f for f in check(garage_of_stage(stage, source=""), PROFILE) if f.rule == "lane-blocked"]
+    found = [f for f in findings_of(garage_of_stage(stage, source=""), PROFILE) if f.rule == "lane-blocked"]
     assert [(f.place, f.position_m) for f in found] == [("/Garage/Cones[1]", (16.2, 12.15))]
 
 

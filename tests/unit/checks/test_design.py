@@ -7,7 +7,7 @@ import pytest
 from support.soak import soak_but
 
 from garage2usd.as_built.garage import garage_as_made
-from garage2usd.checks import Severity, check, check_layout
+from garage2usd.checks import Severity, check_layout, findings_of
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, SiteConfig, load_config
 from garage2usd.pipeline import generate
@@ -37,7 +37,7 @@ confidence = "high"
 def errors_of(config):
     garage = generate(config)
     subject = garage_as_made(garage, source="", kind="report")
-    return [f for f in check(subject, config.standard) if f.severity is Severity.ERROR], garage
+    return [f for f in findings_of(subject, config.standard) if f.severity is Severity.ERROR], garage
 
 
 def test_the_default_profile_changes_no_default():

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from support.data_sets import SMALL, small_recipe
 
 from garage2usd.as_built.garage import garage_as_made
-from garage2usd.checks import check
+from garage2usd.checks import findings_of
 from garage2usd.cli import main
 from garage2usd.config import GarageConfig
 from garage2usd.datasets import make_dataset
@@ -86,7 +86,7 @@ def test_check_and_viewer_count_so(counted, garage, built):
     steps = {"steps": [[10, 1]], "above_percent": 100, "unit": "count", "source": "us", "confidence": "low"}
     subject = garage_as_made(garage, source="", kind="report")
     profile = read_profile({"name": "client", "accessible_stalls": steps})
-    (finding,) = (finding for finding in check(subject, profile) if finding.rule == "accessible-count")
+    (finding,) = (finding for finding in findings_of(subject, profile) if finding.rule == "accessible-count")
     assert (finding.required, finding.message) == (stalls, f"too few accessible stalls among {stalls}")
     folder, _ = built
     data = encode_scene(read_scene(open_stage(folder / "g.usda"), folder / "g.usda"))

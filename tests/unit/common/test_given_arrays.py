@@ -11,7 +11,7 @@ import pytest
 from garage2usd.common.documents import read_arrays
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, load_config
-from garage2usd.garage_sources import check_file
+from garage2usd.garage_sources import check
 from garage2usd.profiles import read_profile
 from garage2usd.site import make_site
 
@@ -81,11 +81,11 @@ def test_files_are_read_beside_the_configuration(text, folder):
 
 def test_a_file_of_numpy_is_checked_as_its_text(folder):
     (folder / "plan.txt").write_text(DRAWING)
-    expected = [finding.rule for finding in check_file(folder / "plan.txt")[0]]
-    assert [finding.rule for finding in check_file(folder / "s.npy")[0]] == expected
+    expected = [finding.rule for finding in check(folder / "plan.txt")[0]]
+    assert [finding.rule for finding in check(folder / "s.npy")[0]] == expected
     grid = {"least": 8.11, "most": 8.5, "unit": "m", "source": "the client", "confidence": "high"}
     profile = read_profile({"name": "client", "column_spacing": grid})
-    assert "column-spacing" in {finding.rule for finding in check_file(folder / "garage.npz", profile=profile)[0]}
+    assert "column-spacing" in {finding.rule for finding in check(folder / "garage.npz", profile=profile)[0]}
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from garage2usd.common.errors import OutputError
 from garage2usd.datasets.drawn_plan import DrawnPlan
 from garage2usd.datasets.plans import planned
 from garage2usd.datasets.shards import made_rows, make_shard, shards_of, sweep
-from garage2usd.garage_sources import check_file
+from garage2usd.garage_sources import check
 from garage2usd.pipeline import build
 
 
@@ -79,8 +79,8 @@ def test_stages_of_a_shard_are_those_of_a_build_and_have_no_errors(made, tmp_pat
         assert built.garage.plan.structure.digest() == row.structure_digest
         assert built.garage.layout.parking_stalls == row.stalls
         stage = folder / "shards" / f"{row.key}.usdc"
-        found, _ = check_file(stage)
-        expected, _ = check_file(built.stage)
+        found, _ = check(stage)
+        expected, _ = check(built.stage)
         assert [finding.message for finding in found] == [finding.message for finding in expected]
         assert not [finding for finding in found if finding.severity is Severity.ERROR]
 

@@ -22,7 +22,7 @@ from garage2usd.driving.lane_poses import lane_poses
 from garage2usd.driving.layout_garage import layout_garage, object_name
 from garage2usd.driving.witness import write_witness
 from garage2usd.garage import StallUse
-from garage2usd.garage_sources import check_file
+from garage2usd.garage_sources import check
 from garage2usd.layout import lay_out
 from garage2usd.stage.driving_layer import write_driving_layer
 from garage2usd.structure.grid import Cell
@@ -200,7 +200,7 @@ def test_the_plan_of_a_garage_that_fails_is_kept(tmp_path):
     matrices = json.loads(kept[0].read_text())
     assert matrices["S"] == NARROW["structure"].split()
     assert matrices["C"] == NARROW["bay"]["row_depths_m"]
-    assert "aisle-width" in {finding.rule for finding in check_file(kept[0])[0]}
+    assert "aisle-width" in {finding.rule for finding in check(kept[0])[0]}
 
 
 def test_a_lane_too_narrow_for_its_stalls_is_refused_with_the_stalls_unless_told_otherwise(failures):
@@ -262,7 +262,7 @@ def test_a_build_says_what_it_marked_or_left_out_and_passes_the_proof(choice, tm
     told = json.loads(built.report.read_text())
     assert set(told["levels"][0]["unreachable_stalls"]) == built.garage.layout.unreachable != set()
     for path in (built.stage, built.report):
-        found = {finding.rule for finding in check_file(path)[0]}
+        found = {finding.rule for finding in check(path)[0]}
         assert "aisle-width" in found
         assert not {"swept-path", "report-stalls", "plan-refused"} & found
 

@@ -11,7 +11,7 @@ from garage2usd.config import config_from_mapping
 from garage2usd.driving import prove_stalls
 from garage2usd.exports import export
 from garage2usd.garage import LaneGraph
-from garage2usd.garage_sources import check_file
+from garage2usd.garage_sources import check
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.pipeline import build
 from garage2usd.reading.files import open_stage
@@ -52,7 +52,7 @@ def test_a_direction_is_set_in_one_place(built, tmp_path):
     layout, lanes = built.garage.layout, read_lanes(open_stage(built.stage)).graph
     one_way = {(edge.start, edge.end) for edge in lanes.edges if edge.one_way}
     assert len(one_way) == len(ONE_WAY) - 1 + 2  # and those of the portals
-    assert check_file(built.stage)[0] == []
+    assert check(built.stage)[0] == []
     proofs = prove_stalls(layout)
     assert all(proof.is_proven for proof in proofs)
 

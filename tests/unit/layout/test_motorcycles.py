@@ -20,7 +20,7 @@ from garage2usd.checks import Severity, judged_layout
 from garage2usd.cli import main
 from garage2usd.driving import prove_stalls
 from garage2usd.driving.layout_garage import layout_garage
-from garage2usd.garage_sources import check_file
+from garage2usd.garage_sources import check
 from garage2usd.profiles import PROFILE_NAMES
 from garage2usd.reading.labels import read_labels
 from garage2usd.sensors.formats.coco import CocoImage, coco_keypoints
@@ -185,7 +185,7 @@ def test_a_stage_and_its_report_tell_of_them(built, garage, stalls):
 
 
 def test_check_says_that_no_way_is_proven_into_them(built, stalls):
-    findings, _ = check_file(built.stage)
+    findings, _ = check(built.stage)
     (finding,) = (finding for finding in findings if finding.rule == "motorcycle-path")
     assert finding.severity is Severity.INFO
     assert f"the {len(stalls)} stalls for motorcycles" in finding.message

@@ -16,7 +16,7 @@ from garage2usd.assets.number_plates import painted_plates, plate_coordinates
 from garage2usd.assets.plate_texture import BAND, CHARACTERS, SPACE, cell_corners
 from garage2usd.config import GarageConfig
 from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_BODIES, DRIVEN_PLATE, PAINTS
-from garage2usd.garage_sources import check_file
+from garage2usd.garage_sources import check
 from garage2usd.layout.parking.number_plates import number_plates
 from garage2usd.maps.glb import write_glb
 from garage2usd.objects.car import CarSpec
@@ -134,7 +134,7 @@ def test_their_texture_is_there_and_the_stage_is_sound(made):
     material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
     texture = stage.GetPrimAtPath(material.GetPath().AppendChild("ColourTexture"))
     assert texture.GetAttribute("inputs:file").Get().resolvedPath
-    assert not [finding for finding in check_file(result.stage) if "NumberPlate" in str(finding)]
+    assert not [finding for finding in check(result.stage) if "NumberPlate" in str(finding)]
 
 
 def test_a_stage_without_a_table_of_labels_says_whose_plates_they_are(made):

@@ -5,7 +5,7 @@ from click.testing import CliRunner
 
 from garage2usd import GarageConfig, build
 from garage2usd.as_built.garage import garage_as_made
-from garage2usd.checks import RULES, check, check_layout
+from garage2usd.checks import RULES, check_layout, findings_of
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
 from garage2usd.layout.parking.tight import tight_stalls
@@ -107,7 +107,7 @@ def test_the_check_of_a_build_is_that_of_its_report_without_the_long_rules(tmp_p
     made = build(config, tmp_path / "g.usda")
     garage = made.garage
     subject = garage_as_made(garage, source="", kind="report")
-    assert list(made.findings) == check(subject, config.standard) == check_layout(garage.layout, config)
+    assert list(made.findings) == findings_of(subject, config.standard) == check_layout(garage.layout, config)
     assert (
         {"aisle-width", "portal-width"} <= {finding.rule for finding in made.findings} < {rule.name for rule in RULES}
     )

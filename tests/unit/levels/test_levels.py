@@ -1,6 +1,7 @@
 """Garages of several levels: settings, their random process, files, and what refuses them."""
 
 import json
+from collections import Counter
 
 import numpy as np
 import pytest
@@ -21,7 +22,7 @@ import garage2usd
 from garage2usd import ConfigError, GarageConfig, GenerationError
 from garage2usd.as_built.garage import garage_as_made, garage_of_file, garage_of_stage
 from garage2usd.as_built.proofs import floors_m_of_stalls, prove_built
-from garage2usd.checks import check
+from garage2usd.checks import findings_of, usd
 from garage2usd.checks.levels import findings_of_whole
 from garage2usd.cli import main
 from garage2usd.common.errors import Garage2UsdError, StageError
@@ -273,7 +274,7 @@ def test_variants_reach_all_levels(built):
 
 def test_check_finds_nothing_and_a_lost_ramp_is_found(built):
     garage, profile, _ = read_built(built.stage)
-    assert [finding.rule for finding in check(garage, profile) if finding.severity.value == "error"] == []
+    assert [finding.rule for finding in findings_of(garage, profile) if finding.severity.value == "error"] == []
     stage = open_stage(built.stage)
     stage.SetEditTarget(stage.GetSessionLayer())
     edges = stage.GetPrimAtPath("/Garage/LaneGraph/Edges")
@@ -453,7 +454,7 @@ def test_a_report_of_levels_that_is_edited_has_findings_on_the_level(built, tmp_
     report = json.loads(built.report.read_text())
     gone = report["levels"][1]["stalls"].pop()
     (tmp_path / "a_report.json").write_text(json.dumps(report))
-    (lost,) = (each for each in garage2usd.check_file(tmp_path / "a_report.json")[0] if each.severity == "error")
+    (lost,) = (each for each in garage2usd.check(tmp_path / "a_report.json")[0] if each.severity == "error")
     assert (lost.rule, lost.place) == ("report-stalls", f"U2/{gone['name']}")
     _ran("plan", tmp_path / "a_report.json", "--findings", "-o", tmp_path / "a.svg")
     said = {name: (tmp_path / f"a_{name}.svg").read_text().count("report-stalls") for name in ("U1", "U2")}
@@ -501,3 +502,18 @@ def test_one_command_builds_levels_with_exports_and_pictures_of_learning_on_each
     assert proven.startswith(f"{built.garage.parking_stalls} of {built.garage.parking_stalls} stalls")
     ran = _ran("build", settings, "-o", tmp_path / "b.usdc", "--tape", built.garage.tape, "--best-plans", 1, code=1)
     assert "best_plans: got 1; allowed: only where lanes are learnt" in ran.output
+
+
+def test_a_garage_its_stage_and_its_report_are_checked_and_driven_alike(built):
+    of_usd = {rule.name for rule in usd.BOOK.rules}
+    found, driven = [], []
+    for source in (built.garage, built.stage, built.report):
+        findings, profile = garage2usd.check(source)
+        assert profile.name == built.garage.config.standard.name
+        found.append(Counter(finding.rule for finding in findings if finding.rule not in of_usd))
+        driven.append(garage2usd.drive(source))
+    assert found == found[:1] * 3
+    assert len({drive.route.stall for drive in driven}) == 1
+    assert driven[0].route.stall.startswith("U2/")
+    ends_s = [drive.motion.ends_s for drive in driven]
+    assert ends_s == pytest.approx(ends_s[:1] * 3, abs=0.01)

@@ -18,7 +18,7 @@ from garage2usd.assets.textures import texture_folder
 from garage2usd.config import GarageConfig, LookConfig
 from garage2usd.config.look import Dirt, Drains
 from garage2usd.config.stage import TextureQuality
-from garage2usd.garage_sources import check_file
+from garage2usd.garage_sources import check
 from garage2usd.layout.floor.drains import drains
 from garage2usd.look import drawn_look, finishes_of
 from garage2usd.objects.floor_stain import DirtSpec, PuddleSpec, StainMark, StainSpec
@@ -245,7 +245,7 @@ def test_a_stage_has_water_that_mirrors_and_drains_of_their_class(tmp_path):
     config = GarageConfig(seed=3, site=site, plan={"episodes": 100}, look={"floor": floor})
     built = build(config, tmp_path / "wet.usdc")
     dry = build(config.model_copy(update={"look": LookConfig()}), tmp_path / "dry.usdc")
-    assert check_file(built.stage)[0] == check_file(dry.stage)[0]
+    assert check(built.stage)[0] == check(dry.stage)[0]
     stage = Usd.Stage.Open(str(built.stage))
     prims = list(stage.Traverse(Usd.TraverseInstanceProxies()))
     meshes = {name: [prim for prim in prims if prim.GetName() == name] for name in ("Water", "Gaps", "Mark")}

@@ -11,7 +11,7 @@ from garage2usd.as_built.garage import garage_of_file
 from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB, USUAL_TEMPERATURE_K, lamp_colour
 from garage2usd.config import GarageConfig
 from garage2usd.config.look import LampKind
-from garage2usd.garage_sources import check_file
+from garage2usd.garage_sources import check
 from garage2usd.layout.ceiling.lighting import MAINTENANCE, direct_lux
 from garage2usd.layout.placement import Placement
 from garage2usd.objects.lamp import LampSpec
@@ -160,7 +160,7 @@ def test_a_stage_of_dead_round_lamps(tmp_path):
     assert (subject.lamps, subject.dead_lamps) == (len(read), sum(light.candela == 0 for light in read))
     # the stage's ramps add little
     assert subject.lane_lux == pytest.approx(layout.illuminance.lanes.mean, rel=0.02)
-    finding = next(found for found in check_file(path)[0] if found.rule == "lane-illuminance")
+    finding = next(found for found in check(path)[0] if found.rule == "lane-illuminance")
     assert f"{subject.dead_lamps} of {subject.lamps} lamps give no light" in finding.message
     # dead ones stay dead whatever the variant says
     stage.GetDefaultPrim().GetVariantSet("lights").SetVariantSelection("off")

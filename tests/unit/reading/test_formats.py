@@ -13,7 +13,7 @@ from garage2usd.cli import main
 from garage2usd.common.errors import ReportError, StageError
 from garage2usd.common.json_text import json_text
 from garage2usd.config import GarageConfig
-from garage2usd.garage_sources import check_file
+from garage2usd.garage_sources import check
 from garage2usd.reading.label_table import read_label_table
 from garage2usd.reading.labels import read_labels
 from garage2usd.reading.report import read_report
@@ -68,7 +68,7 @@ def test_all_who_read_a_report_name_what_is_wrong_alike(build, tmp_path, said):
         read_report(path)
     assert str(caught.value).startswith(f"{path}: not a report of a build: {said}")
     with pytest.raises(ReportError) as caught:
-        check_file(path)
+        check(path)
     assert said in str(caught.value)
 
 
@@ -94,7 +94,7 @@ def test_a_report_of_another_version_may_lack_what_nobody_reads(build, tmp_path)
         (tmp_path / "g_report.json").write_text(json.dumps(kept))
         again = read_report(tmp_path / "g_report.json").garage_config()
         assert again == read_report(build.report).garage_config()
-        findings, _ = check_file(tmp_path / "g_report.json")
+        findings, _ = check(tmp_path / "g_report.json")
         assert not [finding for finding in findings if finding.rule == "report-stalls"]
 
 
