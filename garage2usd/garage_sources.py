@@ -108,7 +108,7 @@ def drive(
     Raises
     ------
     ConfigError, ReportError, StageError
-        If the file is no garage, the stall or portal does not exist, or no drive joins them.
+        If the file is not a garage, the stall or portal does not exist, or no drive joins them.
     """
     built = _built(source)
     return DrivePlanner(built.garage, settings or built.drive).drive(stall, entrance=entrance, exit=exit, leg=leg)
@@ -147,7 +147,9 @@ def read_built(path: str | Path, *, profile: Profile | None = None, progress: Pr
         against = profile or load_profile(name if name in PROFILE_NAMES else DEFAULT_PROFILE)
         return BuiltSource(garage, against, DriveConfig())
     report = _report_in(path)
-    if report is None or len(report.levels) == 1:  # of one level S, R and C are read, faults and all
+    if (
+        report is None or len(report.levels) == 1
+    ):  # a plan of one level is read as it is, so that its faults become findings
         plan, config = garage_of_plan(path, report=report, profile=profile)
         return BuiltSource(plan, profile or config.standard, config.maps.drive)
     made = generate(report.config, seed=report.seed, tape=report.tape, progress=progress)

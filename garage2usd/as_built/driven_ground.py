@@ -46,7 +46,7 @@ def driven_garage(level: BuiltLevel, *, height_m: float = CAR_HEIGHT_M, left_out
     level
         The level.
     height_m
-        Height of the car; pieces that begin higher are no obstacles.
+        Height of the car; pieces that begin higher are not obstacles.
     left_out
         Prim paths of objects to omit.
 
@@ -98,7 +98,7 @@ def _standing_out(cars: Mapping[int, Thing], hulls: Grounds, height_m: float) ->
     hulls
         Convex ground of the colliders by number.
     height_m
-        Height of the design car; pieces that begin higher are no obstacles.
+        Height of the design car; pieces that begin higher are not obstacles.
 
     Returns
     -------

@@ -75,7 +75,7 @@ def driven_road(level: BuiltLevel, *, car: DesignCar | None = None, height_m: fl
     car
         The car.
     height_m
-        Height of the car; pieces that begin higher are no obstacles.
+        Height of the car; pieces that begin higher are not obstacles.
 
     Notes
     -----

@@ -81,7 +81,7 @@ class RampLine(NamedTuple):
 
     @property
     def bend(self) -> Bend | None:
-        """The bend of a helix; None for a straight ramp, and for one that is no three quarters of a circle."""
+        """The bend of a helix; None for a straight ramp, and for one that is not three quarters of a circle."""
         x, z = self.places[:, 0], self.places[:, 2]
         (in_x, in_z), (out_x, out_z) = self._ways
         turned = out_x * in_z - out_z * in_x

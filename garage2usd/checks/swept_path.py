@@ -45,7 +45,7 @@ def _undecided(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
 
 @BOOK.rule("motorcycle-path", asks="ways into stalls for motorcycles are proven", severity=Severity.INFO)
 def _motorcycles(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
-    """Yield one finding that names the stalls for motorcycles, as there is no design motorcycle to prove them with."""
+    """Yield one finding that names the stalls for motorcycles: no design motorcycle exists to prove them with."""
     found = [stall for stall in level.stalls if stall.use is StallUse.MOTORCYCLE]
     if found:
         named = ", ".join(stall.name for stall in found[:_NAMED]) + (", ..." if len(found) > _NAMED else "")

@@ -32,6 +32,6 @@ def usd_messages() -> list[str]:
         for message in collector.TakeUncoalescedDiagnostics():
             try:
                 said.append(" ".join(_INTERNAL.sub("", message.commentary).split()))
-            except UnicodeDecodeError:  # it quotes bytes that are no text
+            except UnicodeDecodeError:  # the message quotes bytes that are not text
                 continue
     return list(dict.fromkeys(said))

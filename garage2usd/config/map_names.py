@@ -93,7 +93,7 @@ _RUN_TOGETHER = re.compile(rf"(?:{_LONG}|ao|metal){{2,}}")
 _TOKEN = re.compile(r"[A-Z]{2,}(?![a-z])\d*|[A-Z]?[a-z]+\d*|[A-Z]\d*|\d+x\d+|\d+(?:[kK]|px|bits?)?")
 _MOST_JOINED = 4
 _WEAK, _SHORT = ("metal", "rough"), 3
-"""Words that are no map's with a number behind them, as of metal032, and characters of words that can have one."""
+"""Words that do not name a map if a number follows them, as in metal032, and the characters of such words."""
 
 
 class MapName(NamedTuple):

@@ -23,7 +23,7 @@ class _Going(NamedTuple):
     start, end
         Nodes of the arc.
     turned
-        Side of its last turn, 1 or -1; 0 if that is no hindrance any more.
+        Side of its last turn, 1 or -1; 0 if it no longer limits the next turn.
     since_m
         Distance from that turn to the end of the arc.
     """

@@ -202,7 +202,7 @@ class Layout:
 
     @property
     def area(self) -> FloorArea:
-        """Its floor without and with what is no floor."""
+        """Area of its floor, and of all ground inside its outline."""
         return self.source.area
 
     @property

@@ -47,7 +47,7 @@ class FloorSource:
 
     @property
     def area(self) -> FloorArea:
-        """The floor without and with what is no floor."""
+        """Area of the floor, and of all ground inside the outline."""
         raise NotImplementedError
 
     def access(self, stalls: Sequence[PlacedStall]) -> Sequence[int]:

@@ -148,7 +148,7 @@ class StallPlace(NamedTuple):
     slot
         Position in the row, from 0.
     is_first, is_last
-        Whether there is no stall before it, or after it, in the row.
+        True if no stall precedes it, or follows it, in the row.
     """
 
     ordinal: int

@@ -111,7 +111,7 @@ def write_glb(
             node = glb.add_node(placed.path, place, mesh=mesh_of(placed), above=above, extras=extras)
             if placed.label not in PIECE_LABELS:
                 node_of[placed.path] = node, inverse
-        else:  # no node can say so: it goes into the vertices
+        else:  # a node cannot hold this transform: it is applied to the vertices
             pieces = [piece._replace(triangles=piece.triangles.moved(placed.matrix)) for piece in look.pieces]
             mesh = glb.add_mesh(pieces, name=_name(placed))
             glb.add_node(placed.path, level.own(_IDENTITY), mesh=mesh, above=level.node, extras=extras)

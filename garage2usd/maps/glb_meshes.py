@@ -272,7 +272,7 @@ def _tangents_of(mesh: Triangles, coordinates: NDArray[np.float32]) -> NDArray[n
     for total, along in zip(sums, (along_u, along_v), strict=True):
         np.add.at(total, corners.ravel(), np.repeat(_unit(along, (0.0, 0.0, 0.0)) * area, 3, axis=0))
     normals = mesh.normals.astype(np.float64)
-    # what has no direction gets that of the axis which the normal is farthest from
+    # without a direction, take the axis that is farthest from the normal
     spare = np.eye(3)[np.abs(normals).argmin(axis=1)]
     given = np.linalg.norm(_across(sums[0], normals), axis=1, keepdims=True) > _SMALLEST
     tangents = _unit(_across(np.where(given, sums[0], spare), normals), (1.0, 0.0, 0.0))

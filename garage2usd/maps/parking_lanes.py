@@ -134,7 +134,7 @@ def driven_lanes(networks: Iterable[Network]) -> set[tuple[int, int]]:
     Notes
     -----
     Vehicles turn round where an aisle with two lanes ends, as netconvert makes a connection for that. A lane that
-    begins where an aisle meets a one-way lane is no entrance.
+    begins where an aisle meets a one-way lane is not an entrance.
     """
     networks = tuple(networks)
     graph = nx.DiGraph([pair for network in networks for pair in _connections(network)])

@@ -31,7 +31,7 @@ DEFAULT_PROFILE = "cn-jgj100"
 NO_PROFILE = "none"
 """Name of a profile without clauses, which requires nothing."""
 _WORDS = frozenset({"name", "title", "country"})
-"""Keys of a profile that are no clauses."""
+"""Keys of a profile that are not clauses."""
 _ALLOWED = f"one of {', '.join(PROFILE_NAMES)}"
 
 
@@ -78,9 +78,9 @@ def read_profile(settings: dict[str, Any]) -> Profile:
     Raises
     ------
     ConfigError
-        If a clause is unknown or its value is not allowed; names the clause, the value and the allowed ones. If there
-        is no clause, and the name is that of no shipped profile; names the nearest one. If clauses of a shipped profile
-        are changed under its name.
+        If a clause is unknown or its value is not allowed; names the clause, the value and the allowed ones. If the
+        settings have no clause and no shipped profile has the name; names the nearest one. If clauses of a shipped
+        profile are changed under its name.
     """
     profile = validated(Profile, settings, within="profile")
     name, is_shipped = profile.name, profile.name in PROFILE_NAMES

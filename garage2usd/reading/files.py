@@ -55,7 +55,7 @@ def _open_layers(path: Path) -> list[Sdf.Layer]:
     USD tries a damaged layer again for each prim that refers to it. The limit of time is that of each layer.
     """
     layers: dict[str, Sdf.Layer | None] = {}
-    waiting = [str(path.absolute())]  # "anon:a.usda" alone is no name of a file to USD
+    waiting = [str(path.absolute())]  # USD does not take "anon:a.usda" alone for the name of a file
     while waiting:
         name = waiting.pop()
         allow_seconds(_LEAST_S + _OPENING_S_PER_MB * _megabytes([name]))

@@ -146,7 +146,7 @@ def _labels_of(stage: Usd.Stage) -> Labels:
 def _plates_of(stage: Usd.Stage, ids: Mapping[str, int]) -> Iterator[tuple[int, NumberPlates]]:
     """Yield the id of each prim of number plates, with the id of its car and the text on the plates."""
     for path, number in ids.items():
-        if "[" in path:  # a point of an instancer is no prim
+        if "[" in path:  # a point of an instancer is not a prim
             continue
         prim = stage.GetPrimAtPath(path)
         cars = prim.GetRelationship(CAR_OF_PLATE).GetTargets() if prim.HasRelationship(CAR_OF_PLATE) else []

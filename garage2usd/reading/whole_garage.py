@@ -35,7 +35,7 @@ def open_garage(path: Path) -> Usd.Stage:
     -----
     Positions, hidden levels and selected views are for looking at a garage and change nothing about it. The stage's
     session layer puts the garage back into its own frame, without turn and shift but with its scale, and shows its
-    levels, its groups and its ceiling. A single hidden object is no part of the garage.
+    levels, its groups and its ceiling. A single hidden object is not part of the garage.
     """
     stage = open_stage(path)
     with Usd.EditContext(stage, stage.GetSessionLayer()):
@@ -73,7 +73,7 @@ def _editable_root(stage: Usd.Stage) -> Usd.Prim:
 
 
 def in_own_frame(to_world: _Matrix, *, is_z_up: bool | None = None) -> _Matrix | None:
-    """Return the part of a transform that is no turn and no shift: its scale, and the exchange of axes to Y up.
+    """Return a transform without its rotation and translation: its scale, and the exchange of axes to Y up.
 
     Parameters
     ----------

@@ -161,7 +161,7 @@ def _build(job: dict[str, Any], to_blender: Matrix) -> tuple[bpy.types.Scene, li
     columns = (places[name].tolist() for name in ("shape", "instance", "to_world", "hangs", "cut_m"))
     drawn: list[_Drawn] = []
     for shape, instance, place, hangs, cut_m in zip(*columns, strict=True):
-        if shape in shapes:  # not all that USD can say can Blender draw
+        if shape in shapes:  # Blender cannot draw everything that USD can express
             item = shapes[shape].copy()
             item.parent = None
             item.animation_data_clear()

@@ -301,7 +301,7 @@ def _palette(colours: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray
 
 
 class _Quiet:
-    """Context in which USD's own warnings about a model are no lines of a command."""
+    """Context in which USD's own warnings about a model are not printed by commands."""
 
     def __enter__(self) -> None:
         self._delegate: object = UsdUtils.CoalescingDiagnosticDelegate()

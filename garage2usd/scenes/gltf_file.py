@@ -74,8 +74,8 @@ class GltfFile:
     Raises
     ------
     ConfigError
-        For what is no glTF 2, is cut off, requires an extension that is not read, or has nodes that hold each other;
-        and where a file is read that is missing, as many are that no reading needs.
+        If the file is not glTF 2, is truncated, requires an extension that is not read, or has nodes that hold each
+        other; and where a missing file is read, as many of them are never needed.
     """
 
     def __init__(self, path: Path, *, field: str, max_bytes: int) -> None:

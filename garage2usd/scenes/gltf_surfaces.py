@@ -108,7 +108,7 @@ class GltfSurfaces:
         return {"colour_rgb": colour, "opacity": alpha, "colour_texture": texture}
 
     def _opacity(self, material: Mapping[str, Any], values: Mapping[str, Any], title: str) -> dict[str, Any]:
-        """Return what lets light through: opacity by the mode of alpha, less what is transmitted."""
+        """Return the opacity of a material: that of its alpha mode, reduced by its transmission."""
         mode, found = material.get("alphaMode", "OPAQUE"), dict[str, Any]()
         colour, cutoff = values.get("colour_texture"), _share(material.get("alphaCutoff", 0.5))
         if mode == "MASK" and not cutoff:

@@ -21,7 +21,7 @@ _KEPT_MODES, _KEPT_SUFFIXES = frozenset({"L", "RGB", "RGBA"}), {"PNG": ".png", "
 _WORD_TO_BYTE = 257
 _WHITE = (1.0, 1.0, 1.0)
 _REFLECTED = 0.04
-"""Reflectance of what is no metal, at normal incidence."""
+"""Reflectance of a dielectric at normal incidence."""
 _SMOOTH_COAT = 0.05
 _SMALLEST = 1e-6
 
@@ -219,7 +219,7 @@ def _metallic(look: SurfaceLook, pictures: Pictures, remarks: Remarks) -> Surfac
     Notes
     -----
     From the appendix of KHR_materials_pbrSpecularGlossiness: a surface whose specular colour is brighter than that of
-    what is no metal is a metal to the degree that explains the brightness of both colours.
+    the metalness is the one that explains the brightness of both colours.
     """
     specular_rgb = look.specular_rgb
     if specular_rgb is None:

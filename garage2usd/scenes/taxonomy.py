@@ -22,7 +22,7 @@ __all__ = [
 OBJECT_TAXONOMY = "class"
 """Instance name of the labels with an object's class."""
 SQUARE_TAXONOMY = "square"
-"""Instance name of the labels of squares, which are no object classes."""
+"""Instance name of the labels of squares, which are not object classes."""
 LABELS = "semantics:labels"
 """Namespace of the label attributes."""
 LABELS_SCHEMA = "SemanticsLabelsAPI"

@@ -51,7 +51,7 @@ def helix_places(site: Structure, config: GarageConfig) -> Iterator[Helix]:
 
 
 def helix_cost(site: Structure, helix: Helix) -> int:
-    """Estimate what a place costs: squares along the blocks from which the free strip outwards is no whole modules.
+    """Estimate what a place costs: squares along the blocks whose free strip outwards is not a whole number of modules.
 
     A module is a lane with stalls on both sides, three squares. Before the landings in a row, one module is best.
     """

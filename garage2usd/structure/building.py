@@ -210,7 +210,7 @@ class Building:
     Raises
     ------
     ConfigError
-        If the levels differ in R or C, or a square of a ramp is no obstacle on a level.
+        If the levels differ in R or C, or a square of a ramp is not an obstacle on a level.
     """
 
     levels: tuple[Structure, ...]

@@ -147,7 +147,7 @@ class Helix(Ramps):
         return f"helices from {list(self.corner)}, one down and one up to its {self.aside.name.lower()}, {squares}"
 
     def _block(self, corner: Square, aside: Edge, *, is_down: bool) -> CoilBlock:
-        # in by the landings in a row, cars turn from `way` towards `aside`
+        # where both landings are in one row, cars that come in turn from `way` towards `aside`
         turns_left_by_first = _LEFT_OF[self.way] is aside
         enters_by_first = turns_left_by_first is not self.keeps_left
         return CoilBlock(corner, self.way, aside, self.count, head_is_first=enters_by_first is is_down)

@@ -226,7 +226,7 @@ class _Packing:
 
 
 def _beyond(place: int, taken: Sequence[tuple[int, int]]) -> int:
-    """Return the first place from a given one on that is in no open interval; these are in order."""
+    """Return the first place at or after a given one that lies in none of the open intervals, which are in order."""
     for low, high in taken:
         if low < place < high:
             place = high

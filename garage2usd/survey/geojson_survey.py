@@ -70,7 +70,7 @@ def read_geojson_survey(path: Path) -> Survey:
     Raises
     ------
     ConfigError
-        For what is no GeoJSON, with the feature.
+        If the file is not GeoJSON; names the feature.
     MissingExtraError
         For longitudes and latitudes, without the extra ``maps``.
     """

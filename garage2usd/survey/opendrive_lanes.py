@@ -73,7 +73,7 @@ def lanes_of_road(road: ET.Element, line: RoadLine, place: str) -> Iterator[Road
         ),
         key=lambda section: section.start_m,
     )
-    if not sections:  # as of roads that are there for their objects
+    if not sections:  # as for roads that only carry objects
         return
     ends = [*(section.start_m for section in sections[1:]), line.length_m]
     runs: list[tuple[tuple[int, ...], list[Floats], list[Floats], list[Floats]]] = []

@@ -28,7 +28,7 @@ __all__ = ["STRAIGHT_M", "SurveyParts", "corners_of", "side_at"]
 Floats = NDArray[np.float64]
 
 STRAIGHT_M = 0.15
-"""Distance from the line through its neighbours up to which a point of an outline is no corner."""
+"""Distance from the line through its neighbours up to which a point of an outline is not a corner."""
 _CORNERS = 4
 _LEAST_STALL_M = 1.0
 """Width below which stalls of a row are an error of the source: motorcycles need as much."""

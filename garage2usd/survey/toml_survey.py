@@ -234,7 +234,7 @@ def read_toml_survey(path: Path) -> Survey:
     Raises
     ------
     ConfigError
-        For what is no TOML, and for keys and values that are wrong, with their place.
+        If the file is not TOML, or a key or value is wrong; names its place.
     """
     try:
         drawing = validated(DrawnGarage, read_toml(path, field="SOURCE"))

@@ -75,8 +75,8 @@ _NUMBER, _MOST_LEVELS = re.compile(r"-?\d{1,6}(\.\d*)?"), 50
 def levels_of(tags: Mapping[str, str]) -> set[str]:
     """Return the levels of an element as numbers without trailing zeros.
 
-    For example ``-1.0`` is -1, and ``-1;0`` and ``-1-0`` are both -1 and 0. A level that is no number is its own name;
-    without any, the set is empty.
+    For example ``-1.0`` is -1, and ``-1;0`` and ``-1-0`` are both -1 and 0. A level that is not a number is its own
+    name; without any, the set is empty.
     """
     levels: set[str] = set()
     for part in f"{tags.get('level', '')};{tags.get('repeat_on', '')}".split(";"):

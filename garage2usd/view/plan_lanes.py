@@ -81,7 +81,7 @@ def squares(layout: Layout, found: MeasuredCirculation) -> Iterator[Region | Lin
 
 
 def ribbons(layout: Layout) -> Iterator[Region]:
-    """The floor of a garage without a grid, and its lanes as wide as they are."""
+    """Return the floor of a garage without a grid, and its lanes as ribbons of their own width."""
     for floor in layout.of_kind("floor"):
         (x, _, z), spec = floor.position_m, floor.spec
         assert isinstance(spec, FloorSpec)

@@ -54,7 +54,7 @@ def installed_lamps(
 def ramp_lamps(
     tubes: Sequence[Placement], lights: LightsLook, luminance_nit: float, *, seed: int
 ) -> tuple[Placement, ...]:
-    """Replace the tube lights over ramps by lamps with the luminance of those over squares; empty if it is 0."""
+    """Give the tube lights over ramps the luminance of those over squares; return none if that is 0."""
     if not luminance_nit:
         return ()
     generator = named_generator(seed, Step.LOOK, "lights.ramps")

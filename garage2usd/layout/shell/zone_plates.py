@@ -73,7 +73,7 @@ def zone_plates(
     ----------
     columns, walls, blocks, stalls
         Parts of the garage; blocks are its obstacles and stair cores. The zone of a stall is the first part of its
-        number, ``B2`` of ``B2-07``; there are no plates where numbers have none.
+        number, ``B2`` of ``B2-07``; stalls whose numbers have no zone get no plates.
 
     Notes
     -----

@@ -26,7 +26,7 @@ with of_extra("a ROS 2 bag"):
 __all__ = ["write_ros_bag"]
 
 _VERSION: Literal[8] = 8
-"""Version of the metadata: the newest that ROS 2 Humble and Iron read; in 9, of Jazzy, QoS profiles are no text."""
+"""Version of the metadata: the newest that ROS 2 Humble and Iron read; from 9 on QoS profiles are not text."""
 _MAP, _VEHICLE = "map", "base_link"
 _BEGINS_S = 946_684_800
 """First stamp, 1 January 2000; tf2 would take a stamp of 0 for the latest transform."""
