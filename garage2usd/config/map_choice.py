@@ -128,7 +128,7 @@ def _found(
 
 
 def _plain_colour(named: Sequence[tuple[NamedPicture, MapName]]) -> list[ChosenMap]:
-    """Picture whose name does not tell its map, if it is the only one, or the only one named as the material of the maps."""
+    """Picture whose name does not tell its map: the only one, or the only one named as the material of the maps."""
     unnamed = [
         ChosenMap(file, None, False, (), name.of)
         for file, name in named

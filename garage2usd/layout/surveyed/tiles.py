@@ -188,7 +188,7 @@ class SurveyedTiles(Tiles):
                         yield tile, edge, other
 
     def _with_mouths(self, found: Mapping[Square, Tile]) -> dict[Square, Tile]:
-        """Return the pieces of lanes, each as wide as the stalls beside it allow, with the edges that stalls open onto."""
+        """Return the pieces of lanes, as wide as the stalls beside them allow, with the edges that stalls open onto."""
         lanes = [tile for tile in found.values() if tile.cell is Cell.LANE]
         if not lanes:
             return dict(found)
