@@ -13,9 +13,9 @@ from support.unity import layer, reader
 
 import garage2usd
 from garage2usd.as_built.garage import garage_of_stage
-from garage2usd.as_built.plan_reader import garage_of_plan
 from garage2usd.checks import findings_of
 from garage2usd.common.progress import silent
+from garage2usd.garage_sources import read_built
 from garage2usd.objects import KINDS
 from garage2usd.objects.car import OpenCarSpec
 from garage2usd.reading.files import open_stage
@@ -89,7 +89,7 @@ def test_stage_and_report_are_judged_as_the_garage(made):
     assert any(isinstance(place.spec, OpenCarSpec) for place in built.garage.layout.placements)
     expected = Counter(finding.rule for finding in built.findings)
     profile = built.garage.config.standard
-    for subject in (garage_of_stage(made.stage, source="stage"), garage_of_plan(built.report)[0]):
+    for subject in (garage_of_stage(made.stage, source="stage"), read_built(built.report).garage):
         assert Counter(finding.rule for finding in findings_of(subject, profile)) == expected, subject.source
 
 

@@ -103,7 +103,7 @@ def test_the_whole_file_is_read(tmp_path, suffix):
 
 
 @pytest.mark.parametrize("suffix", sorted(TEXTS))
-@settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_a_damaged_file_is_read_or_refused(tmp_path, suffix, data):
     text = TEXTS[suffix]
@@ -126,7 +126,7 @@ NUMBERS = ["0", "-1", "1e308", "-1e12", "1e-300", "1e7", "nan", "abc", "-0.0"]
 
 
 @pytest.mark.parametrize("suffix", sorted(TEXTS))
-@settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_a_file_with_other_numbers_is_read_or_refused(tmp_path, suffix, data):
     parts = re.split(r"(?<![\w.])(-?\d+(?:\.\d+)?)(?![\w.])", TEXTS[suffix])

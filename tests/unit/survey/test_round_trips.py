@@ -55,7 +55,7 @@ def test_every_column_is_read_once(exported, sample):
     garage, path = exported(sample, "xodr")
     columns = {
         (round(solid.footprint.centroid.x, 2), round(solid.footprint.centroid.y, 2))
-        for solid in garage.solids.standing("column")
+        for solid in garage.levels[0].solids.standing("column")
     }
     found = [tuple(np.round(column.centre, 2)) for column in read_survey(path).columns]
     assert len(found) == len(columns)
