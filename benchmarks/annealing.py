@@ -8,8 +8,20 @@ from garage2usd.common.errors import GenerationError
 from garage2usd.common.randomness import Step, generator
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning import Plan, evaluate
-from garage2usd.planning.board import NO_VALUE, Board, connect, lanes_on, measure, new_board, put_lanes
-from garage2usd.planning.ground import Ground, Lanes, cells_of, ground_of, lanes_of
+from garage2usd.planning.board import (
+    NO_VALUE,
+    Board,
+    Ground,
+    Lanes,
+    cells_of,
+    connect,
+    ground_of,
+    lanes_of,
+    lanes_on,
+    measure,
+    new_board,
+    put_lanes,
+)
 from garage2usd.planning.local_search import Ranked, local_search, ranked_plans
 from garage2usd.structure.grid import Structure
 

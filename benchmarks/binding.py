@@ -56,7 +56,7 @@ SOUND = {"arrays of nobody else", "no shapes"}
 
 
 class Scene(NamedTuple):
-    """As `garage2usd.driving.sweep.Scene`, which needs more packages."""
+    """As `garage2usd.driving.obstacles.Scene`, which needs more packages."""
 
     shapes: Any
     boxes: Any

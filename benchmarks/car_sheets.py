@@ -14,7 +14,7 @@ import bpy
 from PIL import Image, ImageDraw
 
 from garage2usd.assets.cars import car
-from garage2usd.config.stage import TextureQuality
+from garage2usd.config.outputs import TextureQuality
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody, body_named
 from garage2usd.objects.car import KIND, PAINT_SET
 from garage2usd.stage.prototype_layer import write_prototype

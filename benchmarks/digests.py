@@ -26,20 +26,21 @@ from garage2usd.as_built.proofs import prove_built
 from garage2usd.checks import as_json
 from garage2usd.common.errors import Garage2UsdError
 from garage2usd.config import config_from_mapping
-from garage2usd.config.maps import GridConfig, MapsConfig
+from garage2usd.config.outputs import GridConfig, MapsConfig
 from garage2usd.datasets.difficulty import stall_difficulties
 from garage2usd.driving import prove_stalls
 from garage2usd.exports import export
+from garage2usd.garage_model import GarageLevel
 from garage2usd.garage_sources import read_built
 from garage2usd.imports import import_layout
 from garage2usd.layout import Layout
 from garage2usd.maps.drives import DrivePlanner
-from garage2usd.pipeline import GarageLevel, build
+from garage2usd.pipeline import build
 from garage2usd.reading.content import stage_digest
 from garage2usd.reading.files import open_stage
 from garage2usd.sensors.slots import read_slots
+from garage2usd.view.drawing import to_svg
 from garage2usd.view.plan_picture import draw_plan
-from garage2usd.view.svg import to_svg
 
 STORED = Path(__file__).with_suffix(".json")
 SAMPLES = Path(__file__).parents[1] / "samples"

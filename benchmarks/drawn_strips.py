@@ -29,7 +29,7 @@ from garage2usd.reading.labels import read_labels
 from garage2usd.render.cameras import USD_FROM_OPENCV, View
 from garage2usd.render.drawing import Drawing
 from garage2usd.render.pictures import Picture
-from garage2usd.render.slot_labels import NEEDED, SlotLabels
+from garage2usd.render.tables import NEEDED, SlotLabels
 from garage2usd.sensors.slots import Visibility
 
 __all__ = ["DrawnGarage", "StripSettings", "draw_strips"]

@@ -16,15 +16,15 @@ from memory import peak_mb, resident_mb
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdSemantics
 
 from garage2usd.config import GarageConfig
-from garage2usd.config.stage import StageForm
+from garage2usd.config.outputs import StageForm
 from garage2usd.layout import Layout, lay_out
 from garage2usd.objects import KINDS, Spec
 from garage2usd.stage import arrangement_of
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.asset_files import asset_file
+from garage2usd.stage.curves import LANE_GRAPH_FILE
 from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.labels import OBJECT_LABELS
-from garage2usd.stage.lane_curves import LANE_GRAPH_FILE
 from garage2usd.stage.level_stage import write_level_stage
 from garage2usd.stage.prototypes import Prototype, name_prototypes
 from garage2usd.structure.grid import Cell, Structure

@@ -11,9 +11,10 @@ from pxr import Usd
 from strips import SIDES
 
 from garage2usd.as_built.garage import garage_of_stage
-from garage2usd.config.maps import DriveConfig
+from garage2usd.config.outputs import DriveConfig
 from garage2usd.recordings.way import Way
-from garage2usd.sensors.rig.rig import AroundViewCamera, Rig
+from garage2usd.sensors.rig.around_view_camera import AroundViewCamera
+from garage2usd.sensors.rig.rig import Rig
 from garage2usd.sensors.slots import read_slots
 from garage2usd.stage.cameras import DRIVE_NAME
 

@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from garage2usd.common.version import VERSION
+from garage2usd.common.package import VERSION
 
 sys.path.insert(0, str(Path(__file__).parent / "directives"))
 

@@ -7,15 +7,16 @@
 
 from typing import TYPE_CHECKING
 
-from garage2usd.common.public_names import on_first_use
+from garage2usd.common.package import on_first_use
 
 if TYPE_CHECKING:
     from garage2usd.common.errors import ConfigError, Garage2UsdError, GenerationError, UnreachableStallError
     from garage2usd.config import GarageConfig, load_config
     from garage2usd.exports import export
+    from garage2usd.garage_model import Garage
     from garage2usd.garage_sources import check, drive
     from garage2usd.imports import import_layout
-    from garage2usd.pipeline import Build, Garage, build, generate
+    from garage2usd.pipeline import Build, build, generate
     from garage2usd.planning.optimum import Optimum, find_optimum
     from garage2usd.recordings import record
     from garage2usd.structure.grid import Structure
@@ -44,7 +45,7 @@ __all__ = [
 _HOME = {
     "ConfigError": "common.errors",
     "Build": "pipeline",
-    "Garage": "pipeline",
+    "Garage": "garage_model",
     "Garage2UsdError": "common.errors",
     "GarageConfig": "config",
     "GenerationError": "common.errors",

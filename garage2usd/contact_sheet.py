@@ -11,13 +11,12 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from garage2usd.common.errors import ConfigError, GenerationError, UnreachableStallError
-from garage2usd.common.extras import require
 from garage2usd.common.output import check_file, publish_at, staging_folder, unfinished_folder
+from garage2usd.common.package import VERSION, require
 from garage2usd.common.progress import Announce, Progress, silent, unheard
-from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
 from garage2usd.config.look_text import look_in_words
-from garage2usd.config.stage import AssetPlace, StageForm, TextureQuality
+from garage2usd.config.outputs import AssetPlace, StageForm, TextureQuality
 from garage2usd.layout import Layout
 from garage2usd.pipeline import generate
 from garage2usd.planning import Plan
@@ -26,8 +25,6 @@ from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modu
 from garage2usd.render.devices import CPU, find_device
 from garage2usd.stage import stages_of_levels, write_stage
 from garage2usd.stage.cameras import APERTURE_MM, FOCAL_MM
-
-__all__ = ["SHEET_SUFFIXES", "SheetGarage", "draw_contact_sheet"]
 
 _CAMERA = "Inside"
 _LEAN = 0.25

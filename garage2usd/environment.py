@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.common.extras import of_extra
+from garage2usd.common.package import of_extra
 from garage2usd.config import GarageConfig
 from garage2usd.planning.decision import (
     Action,
@@ -31,8 +31,6 @@ with of_extra("garage2usd.environment"):
     import gymnasium
     from gymnasium import spaces
     from gymnasium.error import InvalidAction, ResetNeeded
-
-__all__ = ["ENVIRONMENT_ID", "LanesEnvironment"]
 
 ENVIRONMENT_ID = "garage2usd/Lanes-v0"
 

@@ -9,32 +9,30 @@ from typing import NamedTuple
 
 from garage2usd.as_built.garage import BuiltGarage, garage_of_stage
 from garage2usd.common.errors import ConfigError, MissingExtraError
-from garage2usd.common.extras import require
 from garage2usd.common.output import check_file, check_name, drafting, publish_at, staging_folder
+from garage2usd.common.package import require
 from garage2usd.common.processes import run_in_forks, without_collector
 from garage2usd.common.progress import Progress, silent, unheard
-from garage2usd.config.maps import MapsConfig, ScenarioConfig
-from garage2usd.garage.level_place import ONLY_LEVEL, LevelPlace
+from garage2usd.config.outputs import MapsConfig, ScenarioConfig
+from garage2usd.garage.levels import ONLY_LEVEL, LevelPlace
 from garage2usd.garage_sources import settings_and_tape
 from garage2usd.maps.drives import DrivePlanner
+from garage2usd.maps.facts import stage_facts
 from garage2usd.maps.glb import write_glb
 from garage2usd.maps.level_networks import LevelNetwork, level_networks
 from garage2usd.maps.occupancy import grid_files, write_grid
 from garage2usd.maps.opendrive import write_opendrive
 from garage2usd.maps.parked_cars import parked_cars
-from garage2usd.maps.parking_areas import NETWORK_SUFFIX, write_parking_areas
-from garage2usd.maps.stage_facts import stage_facts
+from garage2usd.maps.sumo import NETWORK_SUFFIX, write_parking_areas
 from garage2usd.pipeline import build
 from garage2usd.reading.files import STAGE_SUFFIXES
 from garage2usd.reading.levels import levels_of
 from garage2usd.reading.report import read_report
 from garage2usd.reading.whole_garage import open_garage
-from garage2usd.scenes.objects import PlacedObject
+from garage2usd.scenes.prims import PlacedObject
 from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.values import metres_y_up
 from garage2usd.scenes.walk import placed_objects
-
-__all__ = ["EXPORT_SUFFIXES", "check_exports", "check_formats", "export", "without_lacking"]
 
 _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO, _GRID = ".json", ".glb", ".osm", ".xodr", ".xosc", ".yaml"
 _AREAS = ".add.xml"

@@ -8,18 +8,15 @@ from typing import NamedTuple
 import numpy as np
 
 from garage2usd.common.errors import Garage2UsdError
-from garage2usd.common.version import VERSION
+from garage2usd.common.package import VERSION
 from garage2usd.config import GarageConfig
 from garage2usd.garage import LaneGraph, Stall
-from garage2usd.garage.joined_levels import JoinedLevels, LevelLanes, RampLane, join_levels
-from garage2usd.garage.level_place import LevelPlace, level_name
+from garage2usd.garage.levels import JoinedLevels, LevelLanes, LevelPlace, RampLane, join_levels, level_name
 from garage2usd.layout import Layout
 from garage2usd.planning import Plan, plan_tape_of, tape_of
 from garage2usd.structure.building import Building
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneSquares
-
-__all__ = ["TAPE_JOINT", "Garage", "GarageLevel", "PlannedParts"]
 
 TAPE_JOINT = "/"
 """Stands between the tapes of the ramps and of the levels."""

@@ -14,7 +14,7 @@ from garage2usd.common.documents import MAX_REPORT_BYTES, is_file, read_json
 from garage2usd.common.errors import ConfigError, ReportError
 from garage2usd.common.progress import Progress, silent
 from garage2usd.config import GarageConfig, load_config
-from garage2usd.config.maps import DriveConfig, Leg
+from garage2usd.config.outputs import DriveConfig, Leg
 from garage2usd.driving import StallProof
 from garage2usd.garage import Fault
 from garage2usd.garage_model import Garage
@@ -24,17 +24,6 @@ from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_pr
 from garage2usd.reading.files import STAGE_SUFFIXES
 from garage2usd.reading.report import LevelReport, Report, read_report, report_of
 from garage2usd.stage import StageFormat
-
-__all__ = [
-    "BuiltSource",
-    "built_source",
-    "check",
-    "drive",
-    "generated_of",
-    "read_built",
-    "refuse_seed",
-    "settings_and_tape",
-]
 
 _SETTINGS, _REPORT = ".toml", ".json"
 

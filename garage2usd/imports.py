@@ -20,13 +20,10 @@ from garage2usd.pipeline import Build, Judged, checked_output, with_things, writ
 from garage2usd.reading.report import SurveyFigures
 from garage2usd.report import make_report
 from garage2usd.structure.building import Building
-from garage2usd.survey.alignment import Alignment, aligned
-from garage2usd.survey.medial_lanes import with_medial_lanes
-from garage2usd.survey.reader import SURVEY_SUFFIXES, read_survey
-from garage2usd.survey.survey import Survey
+from garage2usd.survey.clear_ground import with_medial_lanes
+from garage2usd.survey.reader import read_survey
+from garage2usd.survey.survey import Alignment, Survey, aligned
 from garage2usd.view.garage_pictures import draw_pictures
-
-__all__ = ["SURVEY_SUFFIXES", "import_layout", "read_survey", "surveyed_floor"]
 
 
 @without_collector()

@@ -16,16 +16,20 @@ from garage2usd.common.processes import run_in_forks
 from garage2usd.common.progress import Progress, silent
 from garage2usd.common.randomness import Step, derived_seed
 from garage2usd.config import BayConfig, GarageConfig
-from garage2usd.config.building import BuildingConfig
+from garage2usd.config.site import BuildingConfig
 from garage2usd.garage_model import TAPE_JOINT
 from garage2usd.planning import Plan, completed, evaluate, given_plan, is_of_lanes_alone, plan_lanes, play_plan
 from garage2usd.planning.dimensions import aisle_side_mm, lines_with_aisles
-from garage2usd.site.level_ramps import ramps_are_free, ramps_of_tape, with_ramps_room
-from garage2usd.site.levels import LevelSites, make_level_sites, make_street_site
+from garage2usd.site.levels import (
+    LevelSites,
+    make_level_sites,
+    make_street_site,
+    ramps_are_free,
+    ramps_of_tape,
+    with_ramps_room,
+)
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneSquares, build_lane_graph
-
-__all__ = ["ATTEMPTS", "PlannedLevel", "lane_squares_of", "plan_levels", "sites_and_tapes", "sites_of_plans"]
 
 ATTEMPTS = 4
 """Most places of the ramps that are tried until cars reach every stall: some leave no room to turn before a ramp."""

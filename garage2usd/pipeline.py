@@ -15,22 +15,21 @@ from PIL import Image
 from garage2usd.as_built.garage import garage_as_made
 from garage2usd.checks import Finding, judged_layout
 from garage2usd.checks.swept_path import design_car
+from garage2usd.common.documents import json_text
 from garage2usd.common.errors import ConfigError, Garage2UsdError, GenerationError, OutputError
-from garage2usd.common.json_text import json_text
 from garage2usd.common.output import check_file, check_name, check_writable, publish_at, staging_folder
 from garage2usd.common.processes import run_in_forks, without_collector
 from garage2usd.common.progress import Progress, silent
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import UnreachableStalls
 from garage2usd.driving import DesignCar, StallProof, with_clutter, with_truth_of_misparked, without_unreachable
-from garage2usd.driving.refusal import refuse_undrivable
-from garage2usd.garage.joined_levels import unreached_stalls
-from garage2usd.garage.level_place import level_places
+from garage2usd.driving.layout_garage import refuse_undrivable
+from garage2usd.garage.levels import level_places, unreached_stalls
 from garage2usd.garage_model import Garage, GarageLevel, PlannedParts
 from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.egress.exits import Egress, plan_egress
 from garage2usd.layout.egress.shafts import LevelPlan
-from garage2usd.layout.parking.tight import tight_stalls
+from garage2usd.layout.parking.stalls import tight_stalls
 from garage2usd.layout.shell.wells import make_well
 from garage2usd.level_plans import ATTEMPTS, PlannedLevel, lane_squares_of, plan_levels, sites_and_tapes, sites_of_plans
 from garage2usd.maps.drives import DrivePlanner
@@ -42,22 +41,9 @@ from garage2usd.stage import StageFormat, shared_folder, write_labels, write_sta
 from garage2usd.structure.building import Building
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneSquares
+from garage2usd.view.drawing import write_png
 from garage2usd.view.garage_pictures import draw_pictures
-from garage2usd.view.learning_picture import draw_structures
-from garage2usd.view.raster import write_png
-
-__all__ = [
-    "Build",
-    "Garage",
-    "GarageLevel",
-    "Judged",
-    "build",
-    "checked_output",
-    "generate",
-    "generate_plan",
-    "with_things",
-    "written",
-]
+from garage2usd.view.thumbnails import draw_structures
 
 _LOG = logging.getLogger(__name__)
 _MOST_CHECKED_STALLS = 10_000

@@ -10,16 +10,16 @@ from typing import Any
 
 import numpy as np
 
+from garage2usd.common.documents import json_text
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.json_text import json_text
-from garage2usd.common.version import VERSION
+from garage2usd.common.package import VERSION
 from garage2usd.config import GarageConfig
 from garage2usd.driving import StallProof
 from garage2usd.garage import Stall
 from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.layout import Layout
-from garage2usd.layout.egress.compartments import compartment_name
-from garage2usd.layout.floor_area import FloorArea
+from garage2usd.layout.egress.exits import compartment_name
+from garage2usd.layout.measures import FloorArea
 from garage2usd.layout.shell.well import SLAB_M
 from garage2usd.layout.surveyed import SurveyedFloor
 from garage2usd.planning import (
@@ -51,8 +51,6 @@ from garage2usd.reading.report import (
     UnmetClause,
 )
 from garage2usd.structure.grid import Cell, Structure
-
-__all__ = ["area_figures", "learning_figures", "make_report", "reported_links", "write_report"]
 
 _CURVE_POINTS, _RETURN_DECIMALS = 500, 1
 """Points of the learning curve, each the mean of ten of 5000 episodes (the whole curve would be half of a report), and

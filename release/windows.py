@@ -178,11 +178,10 @@ def _call_the_rest() -> None:
     """Call what none of the ten garages does: optimum, squares of one size, repair, curves and turns."""
     from garage2usd.config import BayConfig, PlanConfig, SiteConfig
     from garage2usd.driving.car import Pose
-    from garage2usd.driving.search import reeds_shepp_words
     from garage2usd.driving.turns import Steering, joining_pieces
+    from garage2usd.driving.way_search import reeds_shepp_words
     from garage2usd.planning import find_optimum, plan_lanes
-    from garage2usd.planning.board import connect, new_board
-    from garage2usd.planning.ground import ground_of
+    from garage2usd.planning.board import connect, ground_of, new_board
     from garage2usd.planning.sarsa import grown, new_memory, observe
     from garage2usd.site import make_site
 

@@ -14,7 +14,7 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 from garage2usd.checks import RULES
-from garage2usd.common.attribute_docstrings import attribute_docstrings
+from garage2usd.common.settings import attribute_docstrings
 from garage2usd.config import PlanConfig, config_schema
 from garage2usd.config.plan import SarsaParameters
 from garage2usd.objects import CLASSES, CLASSES_VERSION, PieceClass

@@ -12,9 +12,7 @@ from garage2usd.as_built.level import BuiltLevel
 from garage2usd.garage import Fault, LaneEdge, LaneGraph, LaneKind, LaneNode, Stall
 from garage2usd.objects.ramp import KIND as RAMP
 from garage2usd.reading.lanes import Lanes
-from garage2usd.scenes.polygons import triangulated
-
-__all__ = ["AttachedLevels", "FoundLevel", "attached_levels", "numbers_of_levels", "sloped_nodes"]
+from garage2usd.scenes.triangles import triangulated
 
 _RISE_M = 0.01
 _MOVED_M = 0.05

@@ -6,8 +6,6 @@ from typing import NamedTuple
 from garage2usd.planning import measured_circulation
 from garage2usd.structure.grid import Structure
 
-__all__ = ["LaneCirculation", "LaneRun", "lane_circulation"]
-
 
 class LaneRun(NamedTuple):
     """A dead end with its branches, or a stretch of lanes without a junction.

@@ -11,16 +11,14 @@ from pxr import Gf, Usd, UsdGeom, UsdPhysics, Vt
 
 from garage2usd.as_built.model import Model
 from garage2usd.as_built.shapes import Array, Body, MeshShape, Thing, box_shape
-from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
+from garage2usd.assets.light import USUAL_LAMP_RGB
 from garage2usd.common.errors import StageError
 from garage2usd.objects import PIECE_LABELS
 from garage2usd.reading.lights import DOMES, LIGHT_TYPES, LightSource, light_of, luminance_of
-from garage2usd.scenes.objects import PlacedObject, once_for_each_look
+from garage2usd.scenes.prims import PlacedObject, once_for_each_look
 from garage2usd.scenes.values import READ_AT, metres_per_unit, metres_y_up, opinions_of
 from garage2usd.scenes.walk import placed_objects
 from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY
-
-__all__ = ["Contents", "PlacedLight", "read_contents"]
 
 _FARTHEST_M = 1e6
 _CALIBRATED = "garage:light:luminance"

@@ -4,8 +4,6 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-__all__ = ["are_dented", "convex_outlines"]
-
 _TRIANGLE = 3
 _FLAT = 1e-6
 """Tolerance for reflex corners, as a share of the squared normal (twice the area): rounding of positions."""

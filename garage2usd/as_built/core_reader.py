@@ -12,8 +12,6 @@ from garage2usd.as_built.level import BuiltLevel
 from garage2usd.as_built.solids import Solid
 from garage2usd.garage import Point
 
-__all__ = ["CoreDoor", "core_doors"]
-
 _LABEL = "obstacle"
 _HEIGHTS_M = (1.9, 2.5)
 _WIDTHS_M = (0.7, 2.0)

@@ -10,9 +10,7 @@ from garage2usd.as_built.driven_road import bent_floors, floors_of_ramps
 from garage2usd.as_built.shapes import Thing
 from garage2usd.driving import SlopedFloor, heights_m
 from garage2usd.garage import LaneGraph
-from garage2usd.garage.level_place import LevelPlace
-
-__all__ = ["BEYOND_TOP_M", "DrivenFloor"]
+from garage2usd.garage.levels import LevelPlace
 
 BEYOND_TOP_M = 1.0
 """Metres beyond the top of a ramp between levels up to which its floor reaches, level."""

@@ -14,12 +14,10 @@ from garage2usd.as_built.placed_pieces import placed_pieces
 from garage2usd.as_built.shapes import Thing
 from garage2usd.common.limits import allow_seconds
 from garage2usd.driving import DrivenGarage
-from garage2usd.driving.assembly import BELONGINGS, StandingThing, assembled
+from garage2usd.driving.layout_garage import BELONGINGS, StandingThing, assembled
 from garage2usd.garage import LaneGraph, Point
 from garage2usd.layout.grounds import Grounds
 from garage2usd.objects import CAR_LABELS
-
-__all__ = ["CAR_HEIGHT_M", "driven_garage", "rounded"]
 
 CAR_HEIGHT_M = 2.0
 """Height of the design car in metres if the profile gives none."""

@@ -15,8 +15,6 @@ from garage2usd.as_built.shapes import Array, Face, Thing
 from garage2usd.driving import BentFloor, DesignCar, DrivenRoad, Obstacles, Portal, Pose, RampFloor, heights_m
 from garage2usd.garage import LaneKind, LaneNode, Point
 
-__all__ = ["Mouth", "bent_floors", "driven_road", "floors_of_ramps", "portal_mouths"]
-
 _GATE, _RAMP = "barrier", "ramp"
 _ARM_FROM_M = 0.5
 """Height in metres above which a gate's pieces belong to its arm."""

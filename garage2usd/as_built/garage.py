@@ -18,15 +18,13 @@ from garage2usd.as_built.shapes import Thing
 from garage2usd.as_built.stage_reader import level_of_stage
 from garage2usd.common.errors import StageError
 from garage2usd.garage import Fault, LaneGraph, Point, Stall
-from garage2usd.garage.level_place import LevelPlace
+from garage2usd.garage.levels import LevelPlace
 from garage2usd.garage_model import Garage
 from garage2usd.objects.ramp import KIND as RAMP
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.levels import level_stage, levels_of, placed_level
 from garage2usd.reading.whole_garage import garage_root, open_garage
-from garage2usd.scenes.objects import PlacedObject
-
-__all__ = ["BuiltGarage", "garage_as_made", "garage_of_file", "garage_of_stage"]
+from garage2usd.scenes.prims import PlacedObject
 
 _SAME_PLACE_DIGITS = 2
 _ONTO_RAMP_M = 4.0

@@ -9,14 +9,12 @@ from garage2usd.as_built.model import Model
 from garage2usd.as_built.shapes import Body, MeshShape, Thing, turned_about_y
 from garage2usd.assets import Part
 from garage2usd.garage import Fault, LaneGraph, Stall
-from garage2usd.garage.level_place import ONLY_LEVEL, LevelPlace
+from garage2usd.garage.levels import ONLY_LEVEL, LevelPlace
 from garage2usd.layout import Layout
 from garage2usd.objects import KINDS, Spec
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import Structure
-
-__all__ = ["level_of_layout", "level_without_layout", "model_of"]
 
 _IDENTITY = np.eye(4)
 

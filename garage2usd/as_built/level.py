@@ -16,12 +16,10 @@ from garage2usd.as_built.shapes import Thing
 from garage2usd.as_built.solids import Solid, Solids
 from garage2usd.as_built.stall_grounds import StallGrounds
 from garage2usd.garage import Fault, LaneGraph, Point, Stall, StallUse
-from garage2usd.garage.level_place import ONLY_LEVEL, LevelPlace
+from garage2usd.garage.levels import ONLY_LEVEL, LevelPlace
 from garage2usd.objects import CAR_LABELS
 from garage2usd.site.portals import outer_squares
 from garage2usd.structure.grid import Cell, Structure
-
-__all__ = ["BuiltLevel"]
 
 _MM2_PER_M2 = 1_000_000
 _LINE_M = 0.06

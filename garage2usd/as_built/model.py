@@ -8,8 +8,6 @@ import numpy as np
 
 from garage2usd.as_built.shapes import Array, Body
 
-__all__ = ["Model"]
-
 _DIGITS = 12
 """Digits of a mesh's place in its object: what sines and cosines of half a turn have beyond is noise."""
 

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from garage2usd.as_built.shapes import Array, Body, Thing
 
-__all__ = ["Door", "Ramp", "Stretch", "doors_of", "face_cuts", "is_bent", "ramps_of", "section_of"]
-
 _CUT_M = 1.0
 """Height above the floor at which a door's width is measured; metres."""
 _SHEET_M = 0.1

@@ -10,8 +10,6 @@ from garage2usd.as_built.outlines import outlines_of
 from garage2usd.as_built.shapes import Body, are_upright
 from garage2usd.layout.grounds import Grounds, grounds_of_corners, hulls_around
 
-__all__ = ["PlacedPieces", "lows_m", "placed_pieces"]
-
 _LEAST_CORNERS = 3
 
 

@@ -9,22 +9,20 @@ from garage2usd.as_built.layout_reader import level_of_layout, level_without_lay
 from garage2usd.common.documents import MAX_REPORT_BYTES, read_json, read_text
 from garage2usd.common.errors import ConfigError, UnreachableStallError
 from garage2usd.config import GarageConfig, config_from_mapping, load_config
-from garage2usd.config.building import check_one_level
 from garage2usd.config.files import is_array_file, matrices_of
+from garage2usd.config.site import check_one_level
 from garage2usd.driving import without_unreachable
 from garage2usd.garage import Fault, Stall
 from garage2usd.layout import Layout, lay_out
-from garage2usd.layout.garage_stalls import planned_stalls
+from garage2usd.layout.parking.stalls import planned_stalls
 from garage2usd.planning import Plan, evaluate, given_plan, runs_of_settings, with_directions, with_stall_kinds
 from garage2usd.profiles import Profile
 from garage2usd.reading.report import Report, ReportedStall
 from garage2usd.site import with_sides
-from garage2usd.site.given import check_structure
-from garage2usd.structure.directions import given_directions
+from garage2usd.site.contour import check_structure
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph, unproven_lane_graph
-
-__all__ = ["garage_of_plan", "report_differences"]
+from garage2usd.structure.lanes import given_directions
 
 _FIELD = "PATH"
 _MOVED_M = 0.001

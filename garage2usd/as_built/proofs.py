@@ -10,9 +10,7 @@ from garage2usd.common.progress import Progress, silent
 from garage2usd.driving import StallProof, prove_garage
 from garage2usd.driving.garage import ABSENT
 from garage2usd.garage import LaneKind, LaneNode
-from garage2usd.garage.level_place import LevelPlace
-
-__all__ = ["floors_m_of_stalls", "prove_built"]
+from garage2usd.garage.levels import LevelPlace
 
 
 def prove_built(garage: BuiltGarage, *, progress: Progress = silent) -> tuple[StallProof, ...]:

@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from garage2usd.garage import Point
 
-__all__ = ["Bend", "RampLine"]
-
 _STRAIGHT_SIN = 0.02
 _ROUND = 0.02
 _LEAST_PLACES = 6

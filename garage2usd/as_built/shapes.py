@@ -12,20 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from garage2usd.as_built.convex_parts import are_dented, convex_outlines
 from garage2usd.as_built.outlines import Outlines, outlines_of
 from garage2usd.layout.grounds import hulls_around
-from garage2usd.scenes.polygons import triangulated
-from garage2usd.structure.pieces import joined
-
-__all__ = [
-    "Body",
-    "Face",
-    "Facets",
-    "MeshShape",
-    "Piece",
-    "Thing",
-    "are_upright",
-    "box_shape",
-    "turned_about_y",
-]
+from garage2usd.scenes.triangles import triangulated
+from garage2usd.structure.squares import joined
 
 Array = NDArray[np.float64]
 

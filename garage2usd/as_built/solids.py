@@ -13,8 +13,6 @@ from garage2usd.as_built.shapes import Thing
 from garage2usd.layout.grounds import Grounds
 from garage2usd.objects import KINDS, PIECE_LABELS
 
-__all__ = ["HANGS_FROM_M", "Solid", "Solids"]
-
 HANGS_FROM_M = 1.0
 """Least height in metres at which a hanging object begins; all others are standing."""
 _FLAT_M = 0.03

@@ -11,7 +11,7 @@ from garage2usd.as_built.contents import PlacedLight, read_contents
 from garage2usd.as_built.level import BuiltLevel
 from garage2usd.common.errors import ConfigError
 from garage2usd.garage import Point
-from garage2usd.garage.level_place import ONLY_LEVEL, LevelPlace
+from garage2usd.garage.levels import ONLY_LEVEL, LevelPlace
 from garage2usd.layout import Placement
 from garage2usd.layout.ceiling.lighting import MAINTENANCE, direct_lux, lane_points_of
 from garage2usd.layout.placement import of_spec
@@ -19,10 +19,8 @@ from garage2usd.objects.lamp import LampSpec
 from garage2usd.reading.lanes import Lanes, moved_stalls, read_lanes
 from garage2usd.reading.lights import LightSource
 from garage2usd.reading.whole_garage import garage_root
-from garage2usd.scenes.objects import PlacedObject
+from garage2usd.scenes.prims import PlacedObject
 from garage2usd.structure.grid import Structure, cells_from_text
-
-__all__ = ["level_of_stage", "profile_name"]
 
 _DISK = "DiskLight"
 _PANELS = frozenset({"RectLight", _DISK})

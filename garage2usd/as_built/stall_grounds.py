@@ -9,8 +9,6 @@ import shapely
 from garage2usd.garage import Stall
 from garage2usd.layout.grounds import Grounds, grounds_of
 
-__all__ = ["StallGrounds"]
-
 _AT_HOME = 0.5
 
 

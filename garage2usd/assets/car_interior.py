@@ -11,8 +11,6 @@ from garage2usd.assets.car_shell import Shell, grid_quads
 from garage2usd.assets.faces import level_lathe_faces
 from garage2usd.assets.mesh import Part, make_part
 
-__all__ = ["behind_seats_m", "interior"]
-
 _DASH_FROM_COWL_M = 0.12
 _SEAT_WIDTH_M = 0.50
 _HEADREST_HALF_M = 0.13

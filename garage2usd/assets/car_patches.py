@@ -8,22 +8,6 @@ from numpy.typing import NDArray
 from garage2usd.assets.car_shell import Contour, Shell, both_sides, grid_quads, simplified
 from garage2usd.assets.mesh import Face
 
-__all__ = [
-    "SKIN_M",
-    "Faces",
-    "Place",
-    "Row",
-    "across",
-    "at_depth",
-    "at_left_depth",
-    "at_x",
-    "disc_patch",
-    "end_patch",
-    "planar_faces",
-    "ribbon",
-    "slab",
-]
-
 SKIN_M = 0.006
 """Default distance by which a patch protrudes from the shell."""
 _SLAB_M = 0.012

@@ -9,8 +9,6 @@ from typing import Any
 
 from pydantic import TypeAdapter
 
-__all__ = ["SHAPES", "Grille", "Head", "Rim", "SideView", "TailLamp"]
-
 _BASES = {"plain_van"}
 """Bodies in the file that are only bases of others."""
 _BOOT_UNTIL = 0.9

@@ -10,8 +10,6 @@ from garage2usd.assets.car_shapes import SideView
 from garage2usd.assets.monotone_curve import MonotoneCurve
 from garage2usd.config.vehicles import CarBody
 
-__all__ = ["Contour", "Shell", "both_sides", "grid_quads", "simplified"]
-
 _ARCH_GAP_M = 0.045
 _ARCH_STEPS = 9
 _HALF_PILLAR_M = 0.045

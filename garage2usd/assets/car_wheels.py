@@ -8,12 +8,9 @@ import numpy as np
 from garage2usd.assets.car_patches import Faces
 from garage2usd.assets.car_shapes import Rim
 from garage2usd.assets.faces import lathe_faces
-from garage2usd.assets.mesh import WELD_DECIMALS, Asset, Collider, Part, make_part
-from garage2usd.assets.pose import Pose
+from garage2usd.assets.mesh import WELD_DECIMALS, Asset, Collider, Part, Pose, make_part
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.vehicles import CarBody
-
-__all__ = ["MOST_STEER_DEG", "steered", "steered_box", "wheels"]
 
 _TYRE_WIDTH_M = 0.21
 _INSIDE_M = 0.012

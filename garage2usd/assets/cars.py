@@ -6,19 +6,24 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.assets.car_ends import (
+    PLATE_M,
+    bright_trim,
+    end_trim,
+    front_plate_m,
+    head_lamps,
+    rear_plate_m,
+    tail_lamps,
+)
 from garage2usd.assets.car_interior import interior
-from garage2usd.assets.car_lamps import head_lamps, tail_lamps
 from garage2usd.assets.car_patches import Faces, planar_faces, ribbon, slab
 from garage2usd.assets.car_shapes import SHAPES
 from garage2usd.assets.car_shell import Shell, both_sides, grid_quads, simplified
-from garage2usd.assets.car_trim import PLATE_M, bright_trim, end_trim, front_plate_m, rear_plate_m
 from garage2usd.assets.car_wheels import wheels
 from garage2usd.assets.faces import box_faces, lathe_faces
 from garage2usd.assets.materials import MATERIALS
 from garage2usd.assets.mesh import Asset, Collider, Part, distinct_normals, make_part
 from garage2usd.config.vehicles import PAINTS, CarBody
-
-__all__ = ["PLATE_M", "car", "dusty", "lamps_of", "lit", "plate_places"]
 
 _ARCH_LIP_M = 0.03
 _ARCH_LIP_OUT_M = 0.01

@@ -10,9 +10,7 @@ from PIL import Image
 from garage2usd.assets.materials import Material, OwnTexture, PaintedTexture, Rgb, StoredTexture, Texture
 from garage2usd.assets.own_textures import own_pixels
 from garage2usd.assets.textures import texture_folder
-from garage2usd.config.stage import TextureQuality
-
-__all__ = ["linear_rgb", "material_colour", "mean_colour"]
+from garage2usd.config.outputs import TextureQuality
 
 _OPAQUE = 255
 _SRGB = np.arange(_OPAQUE + 1) / _OPAQUE

@@ -2,8 +2,6 @@
 
 from enum import StrEnum
 
-__all__ = ["Country"]
-
 
 class Country(StrEnum):
     """A country, by ISO 3166."""

@@ -8,22 +8,6 @@ from numpy.typing import ArrayLike
 
 from garage2usd.assets.mesh import Face
 
-__all__ = [
-    "bent",
-    "box_faces",
-    "disc_faces",
-    "frame_faces",
-    "lathe_faces",
-    "level_lathe_faces",
-    "limb_faces",
-    "loft_faces",
-    "moved",
-    "rectangle_ring",
-    "ring_faces",
-    "tube_faces",
-    "upright_lathe_faces",
-]
-
 _STRAIGHT = 1e-9
 
 

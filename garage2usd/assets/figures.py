@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 from garage2usd.assets.faces import box_faces, limb_faces, loft_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 
-__all__ = ["POSES", "Figure", "Outfit", "Pose", "figure_asset"]
-
 _Vector = NDArray[np.float64]
 _SIDES = (1.0, -1.0)
 """Left and right, along X."""

@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 from garage2usd.assets.materials import MATERIALS
 from garage2usd.assets.mesh import MIN_AREA_M2, WELD_DECIMALS, Collider, Part, make_part, unique_rows
 
-__all__ = ["GRID_M", "flat_part", "level_triangles", "upright_triangles"]
-
 GRID_M = 1e-6
 """Grid in metres to which corners of adjacent sheets are snapped."""
 

@@ -9,21 +9,6 @@ from typing import NamedTuple
 from garage2usd.config.map_names import Channel
 from garage2usd.config.texture_sets import MapFile
 
-__all__ = [
-    "GLOSSES",
-    "MATERIALS",
-    "VARYING",
-    "Finish",
-    "Material",
-    "OwnTexture",
-    "PaintedTexture",
-    "Rgb",
-    "StoredTexture",
-    "Texture",
-    "Touch",
-    "finished",
-]
-
 Rgb = tuple[float, float, float]
 
 

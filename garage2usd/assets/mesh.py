@@ -1,38 +1,22 @@
-"""Meshes as arrays: parts with one material each, made of polygon faces in metres, Y up."""
+"""Meshes as arrays: parts with one material each, made of polygon faces in metres, Y up, and their poses."""
 # Over 300 lines: the values of assets, and the making of parts from faces, which all objects share.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
+from garage2usd.assets.light import USUAL_LAMP_RGB
 from garage2usd.assets.materials import MATERIALS, Finish, Rgb
-from garage2usd.assets.pose import Pose
+from garage2usd.native import elementary
 
-__all__ = [
-    "MIN_AREA_M2",
-    "WELD_DECIMALS",
-    "AreaLight",
-    "Asset",
-    "Collider",
-    "Face",
-    "Part",
-    "along_main_axis",
-    "area_vectors",
-    "distinct_normals",
-    "make_part",
-    "next_corners",
-    "pascal_case",
-    "previous_corners",
-    "unique_rows",
-]
-
+_DIGITS = 12
+"""Digits of sines, so that a quarter and half a turn are exact."""
 Face = NDArray[np.float64]
 """float64, shape (corners, 3): a planar polygon, counter-clockwise seen from outside."""
-
 WELD_DECIMALS = 5
 """Decimals of metres to which corners are rounded."""
 MIN_AREA_M2 = 1e-9
@@ -40,6 +24,37 @@ MIN_AREA_M2 = 1e-9
 _MIN_CORNERS = 3
 _NORMAL_STEPS = 10_000
 """Steps per unit to which normals are rounded; one step is 0.006 degrees."""
+
+
+class Pose(NamedTuple):
+    """A pose in an asset: position in metres, and rotation about +Y in degrees."""
+
+    x_m: float
+    y_m: float
+    z_m: float
+    yaw_deg: float = 0.0
+
+    @property
+    def turn(self) -> NDArray[np.float64]:
+        """Rotation for row vectors; float64, shape (3, 3). The nose of a car faces -Z."""
+        angle = np.radians(self.yaw_deg)
+        cos, sin = round(elementary.cos(float(angle)), _DIGITS), round(elementary.sin(float(angle)), _DIGITS)
+        return np.array([(cos, 0.0, -sin), (0.0, 1.0, 0.0), (sin, 0.0, cos)])
+
+    @property
+    def single(self) -> "Pose":
+        """The pose as a layer holds it, in single precision."""
+        return Pose(*np.array(self, np.float32).tolist())
+
+    def placed(self, points: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
+        """Move points of the pose's axes to those of the asset; shapes (n, 3)."""
+        moved: NDArray[np.float64] = points.astype(np.float64) @ self.turn + self[:3]
+        return moved
+
+    def taken_back(self, points: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
+        """Move points of the asset's axes to those of the pose; shapes (n, 3)."""
+        moved: NDArray[np.float64] = (points.astype(np.float64) - self[:3]) @ self.turn.T
+        return moved
 
 
 class Collider(StrEnum):

@@ -3,8 +3,6 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["MonotoneCurve"]
-
 Array = NDArray[np.float64]
 
 

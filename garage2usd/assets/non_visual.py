@@ -4,8 +4,6 @@ from typing import NamedTuple
 
 from garage2usd.assets.materials import MATERIALS, Material, Touch
 
-__all__ = ["BASE_OF_TOUCH", "NON_VISUAL", "NonVisual"]
-
 _BARE_METALLIC = 0.5
 
 

@@ -22,8 +22,6 @@ if TYPE_CHECKING:  # reading models imports USD, and few garages have any
     from garage2usd.scenes.foreign_models import ForeignPart
     from garage2usd.scenes.plain_surfaces import PlainPicture, PlainSurface
 
-__all__ = ["own_car"]
-
 _CREASE_DEG = 40.0
 _SMALLEST_HULL_M = 0.5
 """Size in all directions below which a part has no collider of its own."""

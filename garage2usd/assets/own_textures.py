@@ -14,10 +14,8 @@ from garage2usd.assets.materials import OwnTexture
 from garage2usd.common.documents import read_bytes
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.map_names import Channel
-from garage2usd.config.stage import TextureQuality
+from garage2usd.config.outputs import TextureQuality
 from garage2usd.config.texture_sets import MapFile
-
-__all__ = ["own_file", "own_pixels", "own_shape"]
 
 Given = TypeVar("Given")
 _LARGEST_PX = {TextureQuality.LOW: 512, TextureQuality.MEDIUM: 1024, TextureQuality.HIGH: 2048}

@@ -7,29 +7,31 @@ from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.layout_reader import level_of_layout
 from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks import (
-    accessible,
+    access,
     aisle,
     circulation,
     clearance,
     consistency,
-    egress,
     feasibility,
-    fire_equipment,
-    headroom,
-    light,
-    portal,
-    ramp,
+    safety,
     stall,
     swept_path,
     usd,
 )
-from garage2usd.checks.finding import Finding, Severity, as_json, as_table
 from garage2usd.checks.levels import findings_of_whole
-from garage2usd.checks.rule import Rule
-from garage2usd.checks.unmet import clauses_in_words, found_in_words, not_checked_lines, unmet_clauses
+from garage2usd.checks.rule import (
+    Finding,
+    Rule,
+    as_json,
+    as_table,
+    clauses_in_words,
+    found_in_words,
+    not_checked_lines,
+    unmet_clauses,
+)
 from garage2usd.config import GarageConfig
 from garage2usd.layout import Layout
-from garage2usd.profiles import Profile
+from garage2usd.profiles import Profile, Severity
 from garage2usd.reading.report import UnmetClause
 
 __all__ = [
@@ -56,13 +58,8 @@ RULES: tuple[Rule, ...] = tuple(
         aisle,
         circulation,
         clearance,
-        headroom,
-        portal,
-        ramp,
-        accessible,
-        light,
-        egress,
-        fire_equipment,
+        access,
+        safety,
         feasibility,
         consistency,
         usd,

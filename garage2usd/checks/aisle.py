@@ -14,8 +14,6 @@ from garage2usd.garage import LaneEdge, Point, Stall, StallKind, StallUse
 from garage2usd.objects import CAR_LABELS
 from garage2usd.profiles import Profile
 
-__all__ = ["BOOK"]
-
 BOOK = RuleBook()
 _BUILDING = {"column", "wall", "obstacle"}
 _MAY_STAND_ON_LANES = {"speed_bump", "barrier", "vehicle_door", "ramp", *_BUILDING}

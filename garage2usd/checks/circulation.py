@@ -10,8 +10,6 @@ from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_structure_i
 from garage2usd.garage import LaneNode, Point
 from garage2usd.profiles import Profile
 
-__all__ = ["BOOK"]
-
 BOOK = RuleBook()
 _BLOCK = 4
 

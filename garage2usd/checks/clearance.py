@@ -16,8 +16,6 @@ from garage2usd.garage import Point, Stall, StallKind
 from garage2usd.layout.grounds import Grounds, grounds_of
 from garage2usd.profiles import Profile
 
-__all__ = ["BOOK"]
-
 BOOK = RuleBook()
 _WALLS = {"wall", "obstacle"}
 _ONE_BAY = 1.5

@@ -6,8 +6,6 @@ from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.profiles import Profile
 
-__all__ = ["BOOK"]
-
 BOOK = RuleBook()
 
 

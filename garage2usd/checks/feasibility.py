@@ -9,8 +9,6 @@ from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.garage import LaneNode, Point, Stall
 from garage2usd.profiles import Profile
 
-__all__ = ["BOOK", "way_in", "way_out"]
-
 BOOK = RuleBook()
 _BESIDE_M = 0.75
 """Greatest distance in metres from a stall's mouth to the carriageway of its lane: half a column and a line."""

@@ -9,14 +9,11 @@ from numpy.typing import NDArray
 
 from garage2usd.as_built.driven_ground import CAR_HEIGHT_M
 from garage2usd.as_built.garage import BuiltGarage
-from garage2usd.checks.finding import Finding, Severity
-from garage2usd.checks.rule import ROUNDING_M
+from garage2usd.checks.rule import ROUNDING_M, Finding
 from garage2usd.garage import LaneKind
-from garage2usd.profiles import Profile
-from garage2usd.scenes.polygons import triangulated
+from garage2usd.profiles import Profile, Severity
+from garage2usd.scenes.triangles import triangulated
 from garage2usd.sensors.rays.ray_caster import BoxTree
-
-__all__ = ["findings_of_whole"]
 
 _STREET = LaneKind.ENTRANCE, LaneKind.EXIT
 _SIDE_ROOM_M = 0.5

@@ -1,22 +1,108 @@
-"""The rule of a garage check: its id, requirement, profile clauses, and the function that finds its violations."""
+"""The rules of checks: what a rule is, the findings of its violations, and the clauses that a garage does not meet."""
 
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
-from typing import NamedTuple
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any, NamedTuple
 
 from garage2usd.as_built.level import BuiltLevel
-from garage2usd.checks.finding import Finding, Severity
 from garage2usd.garage import Point
-from garage2usd.profiles import Clause, Length, LengthRange, Profile
+from garage2usd.profiles import Clause, Length, LengthRange, Profile, Severity
+from garage2usd.reading.report import UnmetClause
 
-__all__ = ["ROUNDING_M", "Miss", "Rule", "RuleBook", "always", "where_laid_out", "where_structure_is_known"]
-
+_WHOLE_FROM = 1000
+_ORDER = {Severity.ERROR: 0, Severity.WARNING: 1, Severity.INFO: 2}
 ROUNDING_M = 1e-3
 """Tolerance in metres when a rule compares lengths."""
+_RULES_NAMED = 3
+_SEVERITIES = (("error", "error"), ("warning", "warning"), ("info", "remark"))
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A place that violates a rule of the garage check.
+
+    Attributes
+    ----------
+    rule
+        Id of the rule.
+    severity
+        Severity of the violation.
+    place
+        Prim path, stall or square; empty for the whole garage.
+    position_m
+        (x, z) of the place in metres; None without a single place.
+    measured, required
+        Measured and required values; None if the rule measures nothing.
+    unit
+        Unit of both values.
+    source
+        Source of the requirement.
+    message
+        Violation in words.
+    clause
+        Name of the profile clause that states the requirement; empty without one.
+    """
+
+    rule: str
+    severity: Severity
+    place: str
+    message: str
+    position_m: tuple[float, float] | None = None
+    measured: float | None = None
+    required: float | None = None
+    unit: str = ""
+    source: str = "garage2usd"
+    clause: str = ""
+
+    def sort_key(self) -> tuple[int, str, str]:
+        """Key that sorts errors first, then findings by rule and place."""
+        return _ORDER[self.severity], self.rule, self.place
+
+
+def as_json(findings: Iterable[Finding]) -> list[dict[str, Any]]:
+    """Convert findings to JSON values."""
+    return [asdict(finding) for finding in findings]
+
+
+def as_table(findings: Iterable[Finding], *, most: int | None = None) -> list[str]:
+    """Format findings as lines of a table, at most `most` per rule; no line without findings."""
+    rows, shown, left = [], dict[str, int](), dict[str, int]()
+    for finding in findings:
+        shown[finding.rule] = shown.get(finding.rule, 0) + 1
+        if most is not None and shown[finding.rule] > most:
+            left[finding.rule] = left.get(finding.rule, 0) + 1
+            continue
+        rows.append(
+            (
+                finding.severity.value,
+                finding.rule,
+                finding.place or "garage",
+                "" if finding.position_m is None else "{:.2f}, {:.2f}".format(*finding.position_m),
+                figure(finding.measured, finding.unit),
+                figure(finding.required, finding.unit),
+                finding.source,
+                finding.message,
+            )
+        )
+    if not rows:
+        return []
+    rows.insert(0, ("severity", "rule", "place", "x, z (m)", "measured", "required", "source", ""))
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+    return lines + [f"... and {count} more of {rule}" for rule, count in left.items()]
+
+
+def figure(value: float | None, unit: str) -> str:
+    """Format a measured value with its unit; empty without a value."""
+    if value is None:
+        return ""
+    digits = f"{value:.0f}" if abs(value) >= _WHOLE_FROM else f"{value:.4g}"
+    return digits if unit in {"count", ""} else f"{digits} {unit}"
 
 
 class Miss(NamedTuple):
-    """A place that violates a rule; see `garage2usd.checks.finding.Finding`.
+    """A place that violates a rule; see `garage2usd.checks.rule.Finding`.
 
     Attributes
     ----------
@@ -33,6 +119,7 @@ class Miss(NamedTuple):
 
 
 Find = Callable[[BuiltLevel, Profile], Iterable[Miss]]
+
 Hindrance = Callable[[BuiltLevel, Profile], str]
 """Function that explains why a rule cannot be checked on a garage; it returns an empty string if the rule can be."""
 
@@ -145,3 +232,67 @@ def _unit(clause: Clause | None) -> str:
     if clause is None or isinstance(clause, Length | LengthRange):
         return "m"
     return str(getattr(clause, "unit", ""))
+
+
+def unmet_clauses(findings: Iterable[Finding], not_checked: Mapping[str, str]) -> tuple[UnmetClause, ...]:
+    """List the profile clauses that a garage does not meet, one entry per clause.
+
+    Parameters
+    ----------
+    findings
+        Findings of the garage, the most severe first.
+    not_checked
+        Clauses that no rule can check, each with the reason.
+    """
+    missed: dict[str, list[Finding]] = {}
+    for finding in findings:
+        if finding.clause:
+            missed.setdefault(finding.clause, []).append(finding)
+    entries = [_missed(clause, places) for clause, places in missed.items()]
+    entries += [
+        UnmetClause(clause=clause, places=0, reason=f"not checked, as {reason}")
+        for clause, reason in not_checked.items()
+    ]
+    return tuple(sorted(entries, key=lambda entry: entry.clause))
+
+
+def clauses_in_words(count: int, name: str) -> str:
+    """Tell how many clauses of the profile of a name were checked."""
+    return f"{count or 'no'} clause{'' if count in {0, 1} else 's'} of {name} checked"
+
+
+def found_in_words(findings: Sequence[Finding], clauses: int, name: str) -> str:
+    """Sum up a check: the number of clauses of a profile that were checked, and what was found by which rules."""
+    told = clauses_in_words(clauses, name)
+    counts = Counter(finding.severity.value for finding in findings)
+    parts = [f"{counts[key]} {word}{'' if counts[key] == 1 else 's'}" for key, word in _SEVERITIES if counts[key]]
+    if not parts:
+        return f"{told}: nothing found" if clauses else told
+    rules = list(dict.fromkeys(finding.rule for finding in findings))[:_RULES_NAMED]
+    return f"{told}: {', '.join(parts)} ({', '.join(rules)})"
+
+
+def not_checked_lines(not_checked: Mapping[str, str]) -> list[str]:
+    """Format one line per reason, with all clauses that are not checked for that reason."""
+    by_reason: dict[str, list[str]] = {}
+    for clause, reason in not_checked.items():
+        by_reason.setdefault(reason, []).append(clause)
+    return [f"not checked: {', '.join(clauses)}, as {reason}" for reason, clauses in by_reason.items()]
+
+
+def _missed(clause: str, places: list[Finding]) -> UnmetClause:
+    first = places[0]
+    parts = [first.message]
+    if first.measured is not None:
+        measured, required = (figure(value, first.unit) for value in (first.measured, first.required))
+        parts.append(f"{measured} where {required} is asked for")
+    if first.place:
+        parts.append(f"at {first.place}" + (f" and {len(places) - 1} more" if len(places) > 1 else ""))
+    return UnmetClause(
+        clause=clause,
+        places=len(places),
+        measured=first.measured,
+        required=first.required,
+        unit=first.unit,
+        reason=", ".join(parts),
+    )

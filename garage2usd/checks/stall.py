@@ -15,8 +15,6 @@ from garage2usd.profiles import Length, Profile
 if TYPE_CHECKING:
     from garage2usd.as_built.solids import Solid
 
-__all__ = ["BOOK"]
-
 BOOK = RuleBook()
 _TOUCH_M = 0.02
 _OVER_LINE_M = 0.1

@@ -6,13 +6,10 @@ from weakref import WeakKeyDictionary
 from garage2usd.as_built.driven_ground import CAR_HEIGHT_M, driven_garage, rounded
 from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks import aisle, clearance, feasibility, stall
-from garage2usd.checks.finding import Severity
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.driving import DesignCar, Limits, StallProof, prove_garage
 from garage2usd.garage import Stall, StallUse
-from garage2usd.profiles import Length, Profile
-
-__all__ = ["BOOK", "design_car"]
+from garage2usd.profiles import Length, Profile, Severity
 
 BOOK = RuleBook()
 _Proofs = tuple[tuple[Stall, StallProof], ...]

@@ -6,14 +6,11 @@ from pathlib import Path, PureWindowsPath
 from pxr import Sdf, Usd, UsdGeom, UsdPhysics, UsdShade, UsdUtils, UsdValidation
 
 from garage2usd.as_built.level import BuiltLevel
-from garage2usd.checks.finding import Severity
 from garage2usd.checks.rule import Miss, RuleBook
-from garage2usd.profiles import Profile
+from garage2usd.profiles import Profile, Severity
 from garage2usd.reading.files import usd_text
-from garage2usd.scenes.taxonomy import LABELS, LABELS_SCHEMA, labels_of
+from garage2usd.scenes.prims import LABELS, LABELS_SCHEMA, labels_of
 from garage2usd.scenes.values import metres_per_unit
-
-__all__ = ["BOOK"]
 
 BOOK = RuleBook()
 _UNRESOLVED = "UnresolvableDependency"

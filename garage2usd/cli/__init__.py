@@ -1,4 +1,4 @@
-"""The command line: arguments, progress bars and exit codes, with one module per command."""
+"""The command line: arguments, progress bars and exit codes."""
 
 import atexit
 import gc
@@ -9,24 +9,20 @@ import click
 
 from garage2usd.cli.build import build
 from garage2usd.cli.check import check
-from garage2usd.cli.commands import Commands
-from garage2usd.cli.compare import compare
-from garage2usd.cli.dataset import dataset
+from garage2usd.cli.dataset import compare, dataset
 from garage2usd.cli.doctor import doctor
 from garage2usd.cli.drive import drive
 from garage2usd.cli.export import export
 from garage2usd.cli.import_layout import import_layout
 from garage2usd.cli.look import look
-from garage2usd.cli.meshes import meshes
+from garage2usd.cli.options import Commands
 from garage2usd.cli.plan import plan
+from garage2usd.cli.process import SUPERVISED, open_streams, supervise
 from garage2usd.cli.render import render
-from garage2usd.cli.schema import schema
-from garage2usd.cli.streams import open_streams
-from garage2usd.cli.supervision import SUPERVISED, supervise
-from garage2usd.cli.textures import textures
+from garage2usd.cli.shipped import meshes, schema, textures
 from garage2usd.cli.view import view
 from garage2usd.common.limits import ONE_THREAD
-from garage2usd.common.version import VERSION
+from garage2usd.common.package import VERSION
 
 __all__ = ["main", "run"]
 

@@ -7,14 +7,11 @@ from typing import TYPE_CHECKING, Self, TextIO
 
 import click
 
-from garage2usd.cli.streams import drawn_on
-from garage2usd.cli.termination import TERMINATION
+from garage2usd.cli.process import TERMINATION, drawn_on
 from garage2usd.common.progress import time_in_words
 
 if TYPE_CHECKING:
     from click._termui_impl import ProgressBar
-
-__all__ = ["Bars"]
 
 _EVERY_S = 10.0
 """Interval between two lines without a cursor; shorter steps print nothing."""

@@ -10,7 +10,7 @@ import click
 from click.core import ParameterSource
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import (
+from garage2usd.cli.options import (
     INPUT_FILE,
     echo_notices,
     echo_table,
@@ -24,12 +24,11 @@ from garage2usd.common.errors import ConfigError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from garage2usd.config.maps import MapsConfig
+    from garage2usd.config.outputs import MapsConfig
+    from garage2usd.garage_model import GarageLevel
     from garage2usd.layout import Layout
-    from garage2usd.pipeline import Build, GarageLevel
+    from garage2usd.pipeline import Build
     from garage2usd.planning import Score
-
-__all__ = ["build"]
 
 _COLUMNS_NAMED = 3
 

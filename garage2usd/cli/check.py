@@ -8,10 +8,8 @@ from pathlib import Path
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, profile_option
+from garage2usd.cli.options import INPUT_FILE, profile_option
 from garage2usd.common.usd_messages import usd_messages
-
-__all__ = ["check"]
 
 _MOST_OF_A_RULE = 10
 

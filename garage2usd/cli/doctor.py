@@ -6,12 +6,10 @@ import time
 
 import click
 
-from garage2usd.cli.parameters import echo_table
+from garage2usd.cli.options import echo_table
 from garage2usd.common.errors import Garage2UsdError
+from garage2usd.common.package import VERSION
 from garage2usd.common.system import HAS_EMBREE, in_words
-from garage2usd.common.version import VERSION
-
-__all__ = ["doctor"]
 
 _PACKAGES = {"numpy": "NumPy", "scipy": "SciPy", "shapely": "Shapely", "usd-core": "USD"}
 _SIDES = 7, 9
@@ -70,7 +68,7 @@ def _versions() -> str:
 
 
 def _rays() -> str:
-    from garage2usd.common.extras import RAYS, is_there  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.common.package import RAYS, is_there  # noqa: PLC0415 - keeps --help instant
 
     if not all(is_there(module) for module in RAYS):
         return "not installed (extra sensors)"
@@ -78,7 +76,7 @@ def _rays() -> str:
 
 
 def _blender() -> str:
-    from garage2usd.common.extras import is_there  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.common.package import is_there  # noqa: PLC0415 - keeps --help instant
     from garage2usd.render.blender_process import find_blender, modules_of  # noqa: PLC0415
 
     blender = find_blender()
@@ -94,7 +92,7 @@ def _garage(seed: int) -> tuple[str, list[str]]:
     from garage2usd.common.output import staging_folder  # noqa: PLC0415
     from garage2usd.config import GarageConfig  # noqa: PLC0415
     from garage2usd.driving import prove_stalls  # noqa: PLC0415
-    from garage2usd.driving.witness import write_witness  # noqa: PLC0415
+    from garage2usd.driving.trajectory import write_witness  # noqa: PLC0415
     from garage2usd.garage_sources import check  # noqa: PLC0415
     from garage2usd.pipeline import build  # noqa: PLC0415
     from garage2usd.reading.content import stage_digest  # noqa: PLC0415

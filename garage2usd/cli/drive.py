@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, drive_options, echo_notices, seed_option
+from garage2usd.cli.options import INPUT_FILE, drive_options, echo_notices, seed_option
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from garage2usd.driving import StallProof
     from garage2usd.garage_sources import BuiltSource
     from garage2usd.maps.drives import Drive
-
-__all__ = ["drive"]
 
 _FORMATS = (".json", ".usda", ".usdc")
 _TRAJECTORY_FORMATS, _ANIMATION_FORMATS = (".csv", ".json"), (".usda", ".usdc")
@@ -120,7 +118,7 @@ def _drive_to(
     rig: str | None,
 ) -> None:
     """Drive to one stall and print the result."""
-    from garage2usd.config.maps import Leg  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.config.outputs import Leg  # noqa: PLC0415 - keeps --help instant
     from garage2usd.maps.drives import DrivePlanner  # noqa: PLC0415
     from garage2usd.sensors.rig.rig import read_rig  # noqa: PLC0415
 
@@ -177,8 +175,8 @@ def _write_drive(output: Path, driven: "Drive", car: "CarBody | None") -> None:
 
 
 def _write(output: Path, proofs: "Sequence[StallProof]", floors_m: "Mapping[str, float]") -> None:
-    from garage2usd.driving.witness import write_witness  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.stage.driving_layer import write_driving_layer  # noqa: PLC0415
+    from garage2usd.driving.trajectory import write_witness  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.stage.curves import write_driving_layer  # noqa: PLC0415
 
     def write(file: Path) -> "Sequence[Path]":
         if file.suffix == ".json":

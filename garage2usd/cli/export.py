@@ -6,9 +6,7 @@ from pathlib import Path
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, drive_options, echo_notices, echo_table, end_incomplete
-
-__all__ = ["export"]
+from garage2usd.cli.options import INPUT_FILE, drive_options, echo_notices, echo_table, end_incomplete
 
 
 @click.command(short_help="Export a stage as a map, a scene or a grid.")
@@ -69,7 +67,7 @@ def export(
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.common.system import cores  # noqa: PLC0415
     from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.config.maps import ScenarioConfig  # noqa: PLC0415
+    from garage2usd.config.outputs import ScenarioConfig  # noqa: PLC0415
     from garage2usd.exports import export as export_garage  # noqa: PLC0415
     from garage2usd.exports import without_lacking  # noqa: PLC0415
 

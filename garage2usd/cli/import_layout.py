@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, echo_notices, echo_table, profile_option, seed_option
+from garage2usd.cli.options import INPUT_FILE, echo_notices, echo_table, profile_option, seed_option
 from garage2usd.common.errors import printable
 
 if TYPE_CHECKING:
     from garage2usd.pipeline import Build
-
-__all__ = ["import_layout"]
 
 _MOST_NAMED = 20
 

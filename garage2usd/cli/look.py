@@ -8,14 +8,11 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.option_values import Numbers, Size
-from garage2usd.cli.parameters import INPUT_FILE, echo_table
+from garage2usd.cli.options import INPUT_FILE, Numbers, Size, echo_table
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
     from garage2usd.contact_sheet import SheetGarage
-
-__all__ = ["look"]
 
 _RECIPE_KEYS = {"garage", "groups", "make", "shards", "splits"}
 

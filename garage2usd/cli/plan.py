@@ -7,17 +7,15 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, echo_table, seed_option
+from garage2usd.cli.options import INPUT_FILE, echo_table, seed_option
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from garage2usd.common.progress import Progress
-    from garage2usd.pipeline import Garage, GarageLevel
+    from garage2usd.garage_model import Garage, GarageLevel
     from garage2usd.view.drawing import Drawing
     from garage2usd.view.plan_sheet import Mark
-
-__all__ = ["plan"]
 
 _FORMATS = (".png", ".svg")
 _ROUNDING = 1e-6
@@ -71,8 +69,11 @@ def plan(
     from garage2usd.common.errors import ConfigError  # noqa: PLC0415 - keeps --help instant
     from garage2usd.common.output import check_file, drafting, publish_at, staging_folder  # noqa: PLC0415
     from garage2usd.garage_sources import generated_of  # noqa: PLC0415
-    from garage2usd.view.raster import to_image, write_png  # noqa: PLC0415
-    from garage2usd.view.svg import to_svg  # noqa: PLC0415
+    from garage2usd.view.drawing import (  # noqa: PLC0415
+        to_image,
+        to_svg,
+        write_png,
+    )
 
     outputs = outputs or (Path(f"{path.stem.removesuffix('_report')}_plan.svg"),)
     for output in outputs:
@@ -105,8 +106,11 @@ def plan(
 
 def _drawings(garage: "Garage", number: str | None, marks: "Mapping[str, Sequence[Mark]]") -> "dict[str, Drawing]":
     """Draw each level, with the route to a stall and the marks on it; of several levels also the section."""
-    from garage2usd.view.plan_picture import draw_plan  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.view.route import find_stall, ways_on_level  # noqa: PLC0415
+    from garage2usd.view.plan_picture import (  # noqa: PLC0415
+        draw_plan,
+        find_stall,
+        ways_on_level,
+    )
     from garage2usd.view.section import draw_section  # noqa: PLC0415
 
     chosen = find_stall(garage.stalls, number) if number else None

@@ -8,8 +8,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.option_values import Place, Several, Size
-from garage2usd.cli.parameters import INPUT_FILE, echo_table
+from garage2usd.cli.options import INPUT_FILE, Place, Several, Size, echo_table
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -17,8 +16,6 @@ if TYPE_CHECKING:
 
     from garage2usd.render import Device, Picture, SlotFormat
     from garage2usd.sensors.rays.birds_eye import BirdsEye
-
-__all__ = ["render"]
 
 _PICTURES = ("colour", "depth", "normals", "instance", "semantic", "semantic_preview")
 _POINTS = ("pcd", "bin", "npz")

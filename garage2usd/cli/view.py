@@ -7,9 +7,7 @@ from pathlib import Path
 
 import click
 
-from garage2usd.cli.parameters import INPUT_FILE
-
-__all__ = ["view"]
+from garage2usd.cli.options import INPUT_FILE
 
 _MOST_PORT = 65535
 

@@ -1,13 +1,14 @@
-"""Reading of untrusted text, TOML, JSON and NumPy files up to a size limit, with one error for every defect."""
+"""Documents: untrusted text, TOML, JSON and NumPy files read up to a size limit, and JSON written compactly."""
 
 import codecs
 import io
 import json
 import os
+import re
 import stat
 import tomllib
 import zipfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, NoReturn
@@ -18,29 +19,18 @@ from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
 
-__all__ = [
-    "ARRAY_SUFFIXES",
-    "MAX_REPORT_BYTES",
-    "MAX_SETTINGS_BYTES",
-    "is_file",
-    "read_arrays",
-    "read_bytes",
-    "read_json",
-    "read_text",
-    "read_toml",
-]
-
 ARRAY_SUFFIXES = (".npy", ".npz")
 """Extensions of NumPy files."""
 _HEADERS: dict[tuple[int, int], Callable[[io.BytesIO], tuple[tuple[int, ...], bool, np.dtype[Any]]]] = {
     (1, 0): npy_format.read_array_header_1_0,
     (2, 0): npy_format.read_array_header_2_0,
 }
-
 MAX_SETTINGS_BYTES = 16 * 1024 * 1024
 """Size limit of configurations, profiles and structures."""
 MAX_REPORT_BYTES = 512 * 1024 * 1024
 """Size limit of build reports, which list every stall."""
+_STRING_OR_ZERO = re.compile(r'(?P<string>"(?:[^"\\]|\\.)*")|(?<=\d)(?<!-0)\.0(?![\de])')
+"""A string, or the ``.0`` of an integral number; that of -0.0 is kept, since integers have no signed zero."""
 
 
 def is_file(path: Path) -> bool:
@@ -192,3 +182,33 @@ def _array(data: bytes) -> NDArray[Any]:
 
 def _refuse(constant: str) -> NoReturn:
     raise ValueError(f"{constant} is not a number")
+
+
+def short_json(value: object) -> str:
+    """Format JSON without blanks, and with integral floats as integers: 2.0 as 2.
+
+    Raises
+    ------
+    ValueError
+        If a number is NaN or infinite, which JSON does not support.
+    """
+    text = json.dumps(value, separators=(",", ":"), allow_nan=False)
+    return _STRING_OR_ZERO.sub(lambda found: found["string"] or "", text)
+
+
+def json_text(document: Mapping[str, object]) -> str:
+    """Format a JSON object with one line per key, per object of a list, and per list of an object; else compact."""
+    return _in_lines(document, _inner) + "\n"
+
+
+def _inner(value: object) -> str:
+    match value:
+        case [{}, *_]:
+            return "[\n" + ",\n".join(map(short_json, value)) + "\n]"
+        case dict() if any(isinstance(entry, list | tuple) for entry in value.values()):
+            return _in_lines(value, short_json)
+    return short_json(value)
+
+
+def _in_lines(entries: Mapping[str, object], text: Callable[[object], str]) -> str:
+    return "{\n" + ",\n".join(f"{short_json(key)}:{text(value)}" for key, value in entries.items()) + "\n}"

@@ -6,21 +6,6 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
-__all__ = [
-    "ConfigError",
-    "DataSetError",
-    "Garage2UsdError",
-    "GenerationError",
-    "MissingExtraError",
-    "OutputError",
-    "RenderError",
-    "ReportError",
-    "StageError",
-    "UnreachableStallError",
-    "UnreadableFileError",
-    "printable",
-]
-
 
 class Garage2UsdError(Exception):
     """Base class of all errors that garage2usd raises on purpose.

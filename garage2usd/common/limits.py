@@ -7,8 +7,6 @@ limits.
 
 from garage2usd.common.system import limit_memory, limit_processor_s
 
-__all__ = ["ONE_THREAD", "allow_seconds", "enforce", "lift"]
-
 ONE_THREAD = {"PXR_WORK_THREAD_LIMIT": "1", "TF_ENV_SETTING_ALERTS_ENABLED": "0", "OPENBLAS_NUM_THREADS": "1"}
 """Environment variables that restrict libraries to the calling thread, set before they are loaded.
 

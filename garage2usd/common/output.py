@@ -15,22 +15,6 @@ from typing import IO
 from garage2usd.common.errors import ConfigError, OutputError
 from garage2usd.common.system import KEEPS_OPEN_FILES, LONGEST_PATH, lock, name_fault, persistently
 
-__all__ = [
-    "HIDDEN_PREFIX",
-    "can_say",
-    "check_file",
-    "check_name",
-    "check_writable",
-    "drafting",
-    "only_run",
-    "publish",
-    "publish_at",
-    "staging_folder",
-    "store",
-    "unfinished_folder",
-    "writing",
-]
-
 HIDDEN_PREFIX = ".garage2usd-"
 """Prefix of the names of temporary output files, before they are moved into place."""
 _KEY = "work.txt"

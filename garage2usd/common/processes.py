@@ -10,8 +10,6 @@ from typing import TypeVar, cast
 
 from garage2usd.common.system import can_be_copied
 
-__all__ = ["run_in_forks", "without_collector"]
-
 _Outcome = TypeVar("_Outcome")
 
 

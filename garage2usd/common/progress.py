@@ -2,8 +2,6 @@
 
 from typing import Protocol
 
-__all__ = ["Announce", "Progress", "silent", "time_in_words", "unheard"]
-
 _TEN_S, _MINUTE_S = 10, 60
 
 

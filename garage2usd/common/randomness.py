@@ -4,8 +4,6 @@ from enum import IntEnum, unique
 
 import numpy as np
 
-__all__ = ["Step", "derived_seed", "generator", "named_generator"]
-
 
 @unique
 class Step(IntEnum):

@@ -1,13 +1,16 @@
-"""Base classes and validation of settings and records in files."""
+"""Base classes and validation of settings and records in files, and what their docstrings say of each field."""
 
+import ast
+import inspect
 import re
+import textwrap
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, ValidationError
 from pydantic_core import CoreSchema
 
-from garage2usd.common.attribute_docstrings import attribute_docstrings
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.spelling import nearest
 
@@ -15,7 +18,36 @@ if TYPE_CHECKING:
     from pydantic.fields import FieldInfo
     from pydantic_core import ErrorDetails
 
-__all__ = ["Record", "Settings", "config_error", "first_fault", "validated"]
+
+def attribute_docstrings(cls: type) -> dict[str, str]:
+    """Return the docstring below each annotated attribute that a class or one of its bases declares.
+
+    Their source is parsed, which for all settings takes about a quarter of the time of loading the package.
+    """
+    found: dict[str, str] = {}
+    for base in reversed(cls.__mro__):
+        if "__annotations__" in vars(base):
+            found |= _declared(base)
+    return found
+
+
+def _declared(cls: type) -> dict[str, str]:
+    try:
+        source = inspect.getsource(cls)
+    except (OSError, TypeError):  # a class of C, or one without a file
+        return {}
+    (declaration,) = ast.parse(textwrap.dedent(source)).body
+    if not isinstance(declaration, ast.ClassDef):
+        return {}
+    return {
+        before.target.id: inspect.cleandoc(after.value.value)
+        for before, after in pairwise(declaration.body)
+        if isinstance(before, ast.AnnAssign)
+        and isinstance(before.target, ast.Name)
+        and isinstance(after, ast.Expr)
+        and isinstance(after.value, ast.Constant)
+        and isinstance(after.value.value, str)
+    }
 
 
 class Settings(BaseModel):
@@ -160,6 +192,7 @@ def _allowed_by_all(
 
 
 _MOST_NAMED = 20
+
 _IN_WORDS = {
     "bool_parsing": "true or false",
     "bool_type": "true or false",
@@ -182,6 +215,7 @@ _IN_WORDS = {
     "tuple_type": "a list",
 }
 """Allowed values by pydantic's name of the error, for messages of pydantic that name classes of Python."""
+
 _COUNT = re.compile(r"\w+ should have (at (?:least|most) \d+ \w+).*")
 
 

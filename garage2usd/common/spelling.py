@@ -5,8 +5,6 @@ import re
 from collections.abc import Collection, Iterable, Mapping
 from typing import TypeVar
 
-__all__ = ["find_named", "nearest", "spans_in_words"]
-
 _SPANS = 12
 _COUNTED = re.compile(r"(.*?)(\d{1,9})", re.DOTALL)
 

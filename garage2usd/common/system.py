@@ -25,28 +25,6 @@ else:
     import fcntl
     import resource
 
-__all__ = [
-    "HAS_EMBREE",
-    "KEEPS_OPEN_FILES",
-    "LIBRARY_SUFFIX",
-    "LONGEST_PATH",
-    "OUT_OF_TIME",
-    "blender_places",
-    "can_be_copied",
-    "cores",
-    "end_with",
-    "in_words",
-    "is_console",
-    "limit_memory",
-    "limit_processor_s",
-    "link_folder",
-    "lock",
-    "name_fault",
-    "persistently",
-    "run_in_child",
-    "temporary_in",
-]
-
 _T = TypeVar("_T")
 
 LIBRARY_SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")

@@ -3,8 +3,6 @@
 import re
 from typing import Any
 
-__all__ = ["collect_usd_messages", "keep_usd_messages", "usd_messages"]
-
 _collectors: list[Any] = []
 _is_kept = False
 _INTERNAL = re.compile(r"\s*\(instantiating stage on stage [^)]*\)|\s*<0x[0-9a-f]+>")

@@ -11,17 +11,14 @@ from pydantic import Field, ValidationError, field_validator
 from garage2usd.common.documents import read_toml
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.settings import Settings, config_error
-from garage2usd.config.building import BuildingConfig
-from garage2usd.config.clutter import ClutterConfig
 from garage2usd.config.design import designed_settings
 from garage2usd.config.files import with_files, with_textures, without_files
-from garage2usd.config.fittings import FittingsConfig, ParkingConfig
+from garage2usd.config.fittings import ClutterConfig, FittingsConfig, ParkingConfig
 from garage2usd.config.look import LookConfig
-from garage2usd.config.maps import MapsConfig
+from garage2usd.config.outputs import MapsConfig, StageConfig
 from garage2usd.config.own_cars import VehiclesConfig, read_own_cars
 from garage2usd.config.plan import PlanConfig
-from garage2usd.config.site import BayConfig, SiteConfig
-from garage2usd.config.stage import StageConfig
+from garage2usd.config.site import BayConfig, BuildingConfig, SiteConfig
 from garage2usd.config.stalls import StallsConfig
 from garage2usd.config.texture_sets import texture_remarks
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile, read_profile

@@ -13,8 +13,6 @@ from garage2usd.profiles.access import least_stall_width_m
 from garage2usd.profiles.clauses import Illuminance
 from garage2usd.profiles.profile import USUAL_CAR_WIDTH_M
 
-__all__ = ["designed_settings"]
-
 _Sections = Mapping[str, Mapping[str, Any]]
 """Settings given by the user, by section and key."""
 _MODELS: dict[str, type[Settings]] = {

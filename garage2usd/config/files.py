@@ -7,8 +7,6 @@ from typing import Any, NamedTuple
 from garage2usd.common.documents import ARRAY_SUFFIXES, read_arrays, read_text
 from garage2usd.common.errors import ConfigError
 
-__all__ = ["FOLDERS", "absolute_in", "is_array_file", "matrices_of", "with_files", "with_textures", "without_files"]
-
 
 class _Given(NamedTuple):
     """A matrix that a file may hold: section, setting, the setting with the file's path, and name in .npz files."""

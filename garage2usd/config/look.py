@@ -13,38 +13,6 @@ from pydantic import AfterValidator, Field, ValidationInfo, field_validator
 from garage2usd.common.settings import Settings
 from garage2usd.config.texture_sets import TextureFolder, read_texture_sets
 
-__all__ = [
-    "AISLE",
-    "NATURAL",
-    "NO_DADO",
-    "BandForm",
-    "CeilingFinish",
-    "CeilingLook",
-    "ColumnSection",
-    "ColumnsLook",
-    "Daylight",
-    "Dirt",
-    "Drains",
-    "FloorFinish",
-    "FloorLook",
-    "Gloss",
-    "Guard",
-    "LampKind",
-    "LightsLook",
-    "LookConfig",
-    "MarkingsLook",
-    "NumberForm",
-    "NumberPlace",
-    "NumbersLook",
-    "Pictogram",
-    "SignsLook",
-    "SignsOf",
-    "StallPattern",
-    "WallFinish",
-    "WallsLook",
-    "Wear",
-]
-
 NATURAL = "natural"
 """The material's natural colour."""
 NO_DADO = "none"

@@ -6,8 +6,6 @@ from typing import Any
 from garage2usd.common.settings import Settings
 from garage2usd.config.look import LookConfig
 
-__all__ = ["look_in_words", "look_text"]
-
 _TOLD = (
     ("floor", ("finish", "colour", "gloss")),
     ("markings", ("pattern", "colour", "wear")),

@@ -8,8 +8,6 @@ from typing import NamedTuple
 from garage2usd.common.errors import ConfigError, printable
 from garage2usd.config.map_names import Channel, MapName, read_map_name
 
-__all__ = ["PICTURES", "ChosenMap", "MapChoice", "NamedPicture", "choose_maps"]
-
 PICTURES = frozenset({".png", ".jpg", ".jpeg"})
 """Extensions of pictures that are read."""
 _ALPHA = 3

@@ -5,8 +5,6 @@ from collections.abc import Collection
 from enum import StrEnum
 from typing import NamedTuple
 
-__all__ = ["Channel", "MapName", "channels_of", "read_map_name"]
-
 
 class Channel(StrEnum):
     """Quantity that a texture map, or one channel of it, stores."""

@@ -24,8 +24,6 @@ from garage2usd.scenes.gltf_file import GLTF_SUFFIXES
 if TYPE_CHECKING:  # reading models imports USD, and few garages have any
     from garage2usd.scenes.foreign_models import ForeignPart
 
-__all__ = ["ModelFolder", "OwnCar", "VehiclesConfig", "cars_by_name", "folder_of", "placed_parts", "read_own_cars"]
-
 FIELD = "vehicles.models"
 MODEL_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz", *GLTF_SUFFIXES)
 """Extensions of model files."""
@@ -438,7 +436,7 @@ def _outermost(triangles: NDArray[np.float64], place: tuple[float, float], towar
 
 
 def _hull(points: NDArray[np.float64]) -> tuple[tuple[float, float], ...]:
-    """Convex hull (x, z) of points, in the vertex order of `garage2usd.objects.outline.rectangle`."""
+    """Convex hull (x, z) of points, in the vertex order of `garage2usd.objects.kind.rectangle`."""
     from scipy.spatial import ConvexHull  # noqa: PLC0415 - as above
 
     flat = points[:, [0, 2]]

@@ -8,17 +8,6 @@ from pydantic import Field
 from garage2usd.common.settings import Settings
 from garage2usd.config.site import SquareIndex
 
-__all__ = [
-    "Agent",
-    "Aisles",
-    "Choice",
-    "CirculationMode",
-    "DeadEnds",
-    "PlanConfig",
-    "SarsaParameters",
-    "UnreachableStalls",
-]
-
 
 class DeadEnds(StrEnum):
     """Rule on dead-end aisles."""

@@ -6,11 +6,8 @@ from typing import Annotated, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 
 from garage2usd.common.settings import Settings
-from garage2usd.config.side import Side
-from garage2usd.config.site import SquareIndex
+from garage2usd.config.site import Side, SquareIndex
 from garage2usd.garage.kinds import StallKind
-
-__all__ = ["FREE", "GivenRun", "SizeClass", "StallsConfig"]
 
 FREE = "free"
 """Kinds that planning chooses."""

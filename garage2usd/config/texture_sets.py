@@ -17,8 +17,6 @@ from garage2usd.common.spelling import nearest
 from garage2usd.config.map_choice import PICTURES, MapChoice, NamedPicture, choose_maps, unused_in_words
 from garage2usd.config.map_names import Channel, channels_of
 
-__all__ = ["REPEAT_M", "MapFile", "Role", "TextureFolder", "TextureSet", "read_texture_sets", "texture_remarks"]
-
 FIELD = "look.textures"
 SIZES_FILE = "textures.toml"
 _OTHER_PICTURES = frozenset({".exr", ".hdr", ".tif", ".tiff", ".tga", ".bmp", ".webp", ".dds", ".ktx", ".ktx2", ".gif"})

@@ -4,18 +4,6 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 
-__all__ = [
-    "CAR_BODIES",
-    "DRIVEN_BODIES",
-    "DRIVEN_PAINT",
-    "DRIVEN_PLATE",
-    "PAINTS",
-    "SEGMENTS",
-    "CarBody",
-    "VehicleClass",
-    "body_named",
-]
-
 SEGMENTS = ("city", "hatchback", "saloon", "estate", "suv", "mpv", "van", "pickup", "sports")
 """Body classes, whose shares differ between markets."""
 

@@ -2,8 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from garage2usd.common.extras import require
-from garage2usd.common.public_names import on_first_use
+from garage2usd.common.package import on_first_use, require
 
 if TYPE_CHECKING:
     from garage2usd.datasets.comparison import Comparison, compare_dataset

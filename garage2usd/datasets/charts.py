@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.common.extras import of_extra
+from garage2usd.common.package import of_extra
 
 with of_extra("the page of a data set"):
     import matplotlib as mpl
@@ -16,8 +16,6 @@ with of_extra("the page of a data set"):
     from matplotlib.backends.backend_svg import FigureCanvasSVG
     from matplotlib.figure import Figure
     from matplotlib.ticker import MaxNLocator
-
-__all__ = ["bars", "histogram", "split_colours"]
 
 _PALETTE = ("#4878a8", "#d9973a", "#57a773", "#b5599b", "#8b7d6b", "#3fa7b5")
 """Palette of splits; the first three colours differ in grey and for colour-blind readers."""

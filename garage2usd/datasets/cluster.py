@@ -13,9 +13,7 @@ from distributed import Client, KilledWorker, LocalCluster, as_completed
 
 from garage2usd.common.errors import ConfigError, DataSetError, Garage2UsdError
 from garage2usd.common.limits import ONE_THREAD
-from garage2usd.common.version import VERSION
-
-__all__ = ["Workers", "workers"]
+from garage2usd.common.package import VERSION
 
 Task = TypeVar("Task")
 Outcome = TypeVar("Outcome")

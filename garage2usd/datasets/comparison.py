@@ -14,12 +14,10 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.version import VERSION
+from garage2usd.common.package import VERSION
 from garage2usd.datasets.making import TABLE_FILE
 from garage2usd.datasets.manifest import MANIFEST_SCHEMA, ManifestRow, rows_of_table
 from garage2usd.datasets.published import PublishedFigure, PublishedFigures, Quantity, read_published
-
-__all__ = ["Compared", "Comparison", "compare_dataset", "compare_rows"]
 
 _SHARES = (0.05, 0.25, 0.5, 0.75, 0.95)
 """Shares of the quantiles that a comparison tells."""

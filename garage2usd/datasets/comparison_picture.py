@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from garage2usd.common.extras import of_extra
+from garage2usd.common.package import of_extra
 from garage2usd.datasets.comparison import Compared, Comparison
 from garage2usd.datasets.published import Between, Quantiles
 
@@ -15,8 +15,6 @@ with of_extra("the picture of a comparison"):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
     from matplotlib.ticker import MaxNLocator, PercentFormatter
-
-__all__ = ["PICTURE_SUFFIXES", "draw_comparison"]
 
 PICTURE_SUFFIXES = (".png", ".svg")
 _COLUMNS = 4

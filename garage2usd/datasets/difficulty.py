@@ -16,23 +16,7 @@ from garage2usd.common.documents import MAX_SETTINGS_BYTES, read_json
 from garage2usd.common.settings import Record
 from garage2usd.datasets.stall_features import StallFeatures, measured_stalls
 from garage2usd.driving import StallProof
-from garage2usd.pipeline import Garage, GarageLevel
-
-__all__ = [
-    "REFERENCE_FILE",
-    "GarageDifficulty",
-    "Level",
-    "Reference",
-    "ReferenceGarage",
-    "StallDifficulty",
-    "garage_difficulty",
-    "midranks",
-    "proven_values",
-    "ranked",
-    "reference",
-    "scores_of",
-    "stall_difficulties",
-]
+from garage2usd.garage_model import Garage, GarageLevel
 
 REFERENCE_FILE = Path(__file__).with_name("difficulty.json")
 _DIGITS = 6

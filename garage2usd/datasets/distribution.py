@@ -10,8 +10,6 @@ from pydantic import Field, model_validator
 from garage2usd.common.settings import Settings, validated
 from garage2usd.native import elementary
 
-__all__ = ["Beta", "Choice", "Distribution", "LogNormal", "LogRange", "Mix", "Range", "distribution_of"]
-
 Number = int | float
 Weight = Annotated[float, Field(gt=0, le=1e9)]
 Shape = Annotated[float, Field(ge=0.05, le=1000)]

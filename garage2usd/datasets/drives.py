@@ -10,7 +10,7 @@ from pydantic import Field, field_validator
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.randomness import Step, generator
 from garage2usd.common.settings import Settings
-from garage2usd.config.maps import DriveConfig
+from garage2usd.config.outputs import DriveConfig
 from garage2usd.recordings import CloudFormat, Device, check_recording, record
 from garage2usd.recordings import Sequence as SequenceFormat
 from garage2usd.render import Picture, SlotFormat
@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from garage2usd.driving import StallProof
-
-__all__ = ["DrivesConfig", "check_drives", "record_drives"]
 
 _TEXTS = {".json", ".yaml"}
 _FIRST_DATE = (1980, 1, 1, 0, 0, 0)

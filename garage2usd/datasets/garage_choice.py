@@ -13,8 +13,6 @@ from garage2usd.datasets.making import PLAN_FILE
 from garage2usd.datasets.plans import planned, replanned
 from garage2usd.datasets.recipe import RECIPE_FILE, Recipe, load_recipe
 
-__all__ = ["chosen_garages"]
-
 
 def chosen_garages(path: Path, numbers: Sequence[int]) -> Iterator[SheetGarage]:
     """Yield selected garages of a recipe, each as soon as it is planned.

@@ -12,25 +12,21 @@ import pyarrow.parquet as pq
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.output import HIDDEN_PREFIX, check_writable, only_run, store, writing
+from garage2usd.common.package import VERSION
 from garage2usd.common.progress import Progress, silent
-from garage2usd.common.version import VERSION
-from garage2usd.datasets.card import data_card
-from garage2usd.datasets.contour import contour_shape
+from garage2usd.datasets.card import SUMS_FILE, damaged_assets, data_card, read_sums, sha256_of, sums_text
 from garage2usd.datasets.difficulty import Level
-from garage2usd.datasets.drawn_plan import DrawnPlan, plan_table, plans_of
+from garage2usd.datasets.drawn_plan import DrawnPlan, contour_shape, plan_table, plans_of
 from garage2usd.datasets.drives import check_drives
 from garage2usd.datasets.manifest import ManifestRow, manifest_table, table_bytes, text_of_rows
 from garage2usd.datasets.plans import PlanDraw, chunks, landings_of, planned
 from garage2usd.datasets.recipe import RECIPE_FILE, Recipe
 from garage2usd.datasets.shards import Shard, failed_row, made_rows, make_shard, shards_of, sweep
-from garage2usd.datasets.sums import SUMS_FILE, damaged_assets, read_sums, sha256_of, sums_text
 from garage2usd.datasets.variety import PlanFigures
 from garage2usd.exports import check_formats
 
 if TYPE_CHECKING:
     from garage2usd.datasets.cluster import Workers
-
-__all__ = ["DataSet", "make_dataset"]
 
 PLAN_FILE, TABLE_FILE, LINES_FILE, CARD_FILE = "plans.parquet", "manifest.parquet", "manifest.jsonl", "README.md"
 PAGE_FILE = "variety.html"

@@ -9,17 +9,6 @@ import pyarrow.parquet as pq
 
 from garage2usd.common.settings import Record
 
-__all__ = [
-    "MANIFEST_SCHEMA",
-    "FileEntry",
-    "LinkEntry",
-    "ManifestRow",
-    "manifest_table",
-    "rows_of_text",
-    "table_bytes",
-    "text_of_rows",
-]
-
 
 class FileEntry(Record):
     """A file of a garage: suffix after the garage's key, size and SHA-256."""

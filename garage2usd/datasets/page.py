@@ -8,22 +8,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.common.extras import of_extra
+from garage2usd.common.package import of_extra
 from garage2usd.datasets.charts import bars, histogram, split_colours
-from garage2usd.datasets.contour import ContourShape
 from garage2usd.datasets.difficulty import Level
+from garage2usd.datasets.drawn_plan import ContourShape
 from garage2usd.datasets.variety import FIGURES, PlanFigures, Spread, Variety
-from garage2usd.layout.floor_area import FloorArea
+from garage2usd.layout.measures import FloorArea
 from garage2usd.structure.symmetry import cropped_cells
-from garage2usd.view.drawing import Colour
-from garage2usd.view.plan_thumbnail import THUMBNAIL_COLOURS, draw_thumbnail
-from garage2usd.view.svg import to_svg
+from garage2usd.view.drawing import Colour, to_svg
+from garage2usd.view.thumbnails import THUMBNAIL_COLOURS, draw_thumbnail
 
 with of_extra("the page of a data set"):
     from jinja2 import Environment, StrictUndefined
     from markupsafe import Markup
-
-__all__ = ["write_page"]
 
 _TEMPLATE = Path(__file__).with_name("page.html.jinja")
 _MOST_DRAWN = 200

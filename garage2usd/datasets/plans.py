@@ -10,23 +10,13 @@ from garage2usd.config import GarageConfig
 from garage2usd.datasets.difficulty import GarageDifficulty, garage_difficulty, stall_difficulties
 from garage2usd.datasets.drawn_plan import DrawnPlan
 from garage2usd.datasets.recipe import Distinct, Recipe
-from garage2usd.pipeline import Garage, GarageLevel, generate, generate_plan
+from garage2usd.garage_model import Garage, GarageLevel
+from garage2usd.pipeline import generate, generate_plan
 from garage2usd.planning import Plan, evaluate, read_tail, tail_of
 from garage2usd.report import learning_figures
-from garage2usd.site.level_ramps import ramps_of_tape
+from garage2usd.site.levels import ramps_of_tape
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.symmetry import levels_digest
-
-__all__ = [
-    "PlanDraw",
-    "chunks",
-    "error_line",
-    "planned",
-    "proportional",
-    "rated",
-    "remade",
-    "replanned",
-]
 
 Key = TypeVar("Key")
 

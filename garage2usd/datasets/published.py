@@ -13,18 +13,6 @@ from scipy import stats
 from garage2usd.common.documents import read_toml
 from garage2usd.common.settings import Settings, validated
 
-__all__ = [
-    "WORLD_FILE",
-    "Between",
-    "LogNormalFigure",
-    "PublishedFigure",
-    "PublishedFigures",
-    "Quantiles",
-    "Quantity",
-    "Uniform",
-    "read_published",
-]
-
 WORLD_FILE = Path(__file__).with_name("world.toml")
 """The figures that the package ships."""
 

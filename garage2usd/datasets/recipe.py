@@ -13,29 +13,26 @@ from pydantic import Field, field_validator, model_validator
 
 from garage2usd.common.documents import MAX_SETTINGS_BYTES, read_json, read_toml
 from garage2usd.common.errors import ConfigError
+from garage2usd.common.package import VERSION
 from garage2usd.common.randomness import Step, derived_seed
 from garage2usd.common.settings import Settings, validated
-from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig, config_from_mapping, profile_setting
 from garage2usd.config.files import FOLDERS
 from garage2usd.datasets.difficulty import Level
 from garage2usd.datasets.distribution import Weight, distribution_of
 from garage2usd.datasets.drives import DrivesConfig
-from garage2usd.datasets.group_places import MOST_EVEN, drawn_place, even_place, setting_generator
-from garage2usd.datasets.settings_table import first_value, merge_settings, pin_textures, resolved
+from garage2usd.datasets.recipe_settings import (
+    MOST_EVEN,
+    drawn_place,
+    even_place,
+    first_value,
+    merge_settings,
+    pin_textures,
+    resolved,
+    setting_generator,
+)
 from garage2usd.sensors.rig.rig import read_rig
 from garage2usd.site.levels import check_levels
-
-__all__ = [
-    "Alternative",
-    "Distinct",
-    "MakeConfig",
-    "Recipe",
-    "ShardForm",
-    "ShardsConfig",
-    "folder_remarks",
-    "load_recipe",
-]
 
 ASSET_FOLDER = "assets"
 RECIPE_FILE = "recipe.json"

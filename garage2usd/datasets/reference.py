@@ -13,15 +13,13 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.common.documents import json_text
 from garage2usd.common.errors import Garage2UsdError
-from garage2usd.common.json_text import json_text
 from garage2usd.common.output import publish, staging_folder
 from garage2usd.config import GarageConfig
 from garage2usd.datasets.difficulty import REFERENCE_FILE, Reference, ReferenceGarage, proven_values, scores_of
 from garage2usd.datasets.stall_features import StallFeatures, measured_stalls
 from garage2usd.pipeline import generate
-
-__all__ = ["make_reference", "reference_settings", "reference_stalls"]
 
 GARAGES = 200
 _SIZES = ((5, 5), (6, 8), (7, 9), (9, 12), (12, 16), (16, 20))

@@ -19,8 +19,6 @@ from garage2usd.datasets.plans import error_line, proportional
 from garage2usd.datasets.recipe import ASSET_FOLDER, Recipe, ShardForm
 from garage2usd.datasets.scene import make_scene
 
-__all__ = ["SHARD_FOLDER", "Shard", "empty_splits", "made_rows", "make_shard", "shard_members", "shards_of", "sweep"]
-
 SHARD_FOLDER = "shards"
 _SHARD_DIGITS = 6
 

@@ -8,11 +8,9 @@ from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.driving import StallProof, prove_stalls
+from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.layout import Layout
 from garage2usd.layout.ceiling.lighting import direct_lux
-from garage2usd.pipeline import Garage, GarageLevel
-
-__all__ = ["StallFeatures", "measured_stalls"]
 
 _DIGITS = 6
 _WIDEST_COLUMN_M = 1.2

@@ -10,12 +10,10 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.datasets.contour import ContourShape
 from garage2usd.datasets.difficulty import Level
+from garage2usd.datasets.drawn_plan import ContourShape
 from garage2usd.structure.grid import Cell, CellArray
 from garage2usd.structure.symmetry import canonical_cells, eight_symmetries, plan_digest
-
-__all__ = ["FIGURES", "PlanFigures", "Spread", "Variety", "nearest_shares"]
 
 _ROWS_AT_ONCE = 1024
 """Number of plans compared at once, which limits memory."""

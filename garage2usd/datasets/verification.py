@@ -11,22 +11,20 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from garage2usd.checks import Severity
-from garage2usd.checks.light import DEAD_LAMPS
+from garage2usd.checks.safety import DEAD_LAMPS
 from garage2usd.common.errors import ConfigError, Garage2UsdError
 from garage2usd.common.output import staging_folder
 from garage2usd.common.progress import Progress, silent
 from garage2usd.common.system import link_folder
 from garage2usd.config import GarageConfig
+from garage2usd.datasets.card import SUMS_FILE, files_of, read_sums, sha256_of
 from garage2usd.datasets.drawn_plan import DrawnPlan, plans_of
 from garage2usd.datasets.making import LINES_FILE, PLAN_FILE, TABLE_FILE
 from garage2usd.datasets.manifest import MANIFEST_SCHEMA, ManifestRow, rows_of_table, rows_of_text
 from garage2usd.datasets.recipe import ASSET_FOLDER, RECIPE_FILE, Distinct, Recipe, load_recipe
 from garage2usd.datasets.shards import SHARD_FOLDER, shard_members
-from garage2usd.datasets.sums import SUMS_FILE, files_of, read_sums, sha256_of
 from garage2usd.garage_sources import check
 from garage2usd.structure.symmetry import levels_digest
-
-__all__ = ["Fault", "verify_dataset"]
 
 _STAGES = (".usdc", ".usdz")
 _LIGHTING = frozenset({"lane-illuminance", "stall-illuminance"})

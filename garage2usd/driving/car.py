@@ -7,8 +7,6 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.native import elementary
 from garage2usd.profiles.profile import USUAL_CAR_LENGTH_M, USUAL_CAR_WIDTH_M
 
-__all__ = ["DesignCar", "Point", "Pose"]
-
 Point = tuple[float, float]
 """(x, z) in metres."""
 _WIDEST_M, _LONGEST_M, _WIDEST_TURN_M = 3.0, 12.0, 30.0

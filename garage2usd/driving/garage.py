@@ -15,15 +15,21 @@ import shapely
 
 from garage2usd.common.progress import Progress, silent
 from garage2usd.driving.car import DesignCar, Pose
-from garage2usd.driving.lane_poses import families, lane_poses
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
-from garage2usd.driving.proof import LanePose, Limits, Outcome, Search, least_clearance_m, touched_parked
+from garage2usd.driving.proof import (
+    LanePose,
+    Limits,
+    Outcome,
+    Search,
+    families,
+    lane_poses,
+    least_clearance_m,
+    touched_parked,
+)
 from garage2usd.driving.way_search import find_guided_way, find_way_by_steps
 from garage2usd.garage import DEAD_END_LIMIT_M, Arc, LaneGraph, Point, Stall
 from garage2usd.native import elementary
-
-__all__ = ["ABSENT", "DrivenGarage", "Find", "Nose", "StallProof", "middle_of", "prove_garage"]
 
 Find = Callable[[DesignCar, Pose, Obstacles, Sequence[LanePose], Limits], Search]
 ABSENT = "a car in "

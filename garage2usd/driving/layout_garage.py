@@ -1,34 +1,84 @@
-"""A layout and its lane graph as a garage for driving: proofs of stalls, unreachable stalls, and clutter."""
+"""A layout as a garage for driving: its proofs of stalls, and the refusal of one with unreachable stalls."""
+# Over 300 lines: assembly, proofs and refusal follow one another, and share what a layout leaves out.
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 import shapely
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.common.progress import Progress, silent
 from garage2usd.config import GarageConfig
-from garage2usd.driving.assembly import StandingThing, assembled
 from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.garage import DrivenGarage, StallProof, prove_garage
 from garage2usd.driving.manoeuvre import Manoeuvre
+from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.proof import Limits, Outcome
+from garage2usd.garage import LaneGraph, Stall, StallUse
 from garage2usd.layout import Layout, Placement
 from garage2usd.layout.grounds import Grounds
-from garage2usd.layout.parking.open_boots import stalls_of_open_boots
+from garage2usd.layout.parking.car_details import stalls_of_open_boots
+from garage2usd.objects import CAR_LABELS
 
-__all__ = [
-    "layout_garage",
-    "object_name",
-    "prove_stalls",
-    "with_clutter",
-    "with_truth_of_misparked",
-    "without_unreachable",
-]
-
+BELONGINGS = frozenset({*CAR_LABELS, "wheel_stop", "traffic_cone"})
+"""Semantic classes of objects that do not obstruct a car parking in the stall around them."""
 _CLEAR_M = 0.1
 """Distance in metres between clutter and proven manoeuvres: twice the margin of the proof."""
 _STEP_M = 0.25
+_MOST_TRIED, _NAMED = 24, 5
+
+
+class StandingThing(NamedTuple):
+    """An object on the floor that a car could touch.
+
+    Attributes
+    ----------
+    name
+        Unique name in the garage.
+    label
+        Semantic class.
+    ground
+        Footprint on the floor, (x, z) in metres.
+    home
+        Name of the stall that contains the object, if any; used for `BELONGINGS` only.
+    """
+
+    name: str
+    label: str
+    ground: shapely.Geometry
+    home: str | None = None
+
+
+def assembled(stalls: Iterable[Stall], lanes: LaneGraph, standing: Iterable[StandingThing]) -> DrivenGarage:
+    """Assemble the garage for driving.
+
+    Parameters
+    ----------
+    stalls
+        All stalls. Those for motorcycles are obstacles: the car's proof is none for them.
+    lanes
+        The lanes.
+    standing
+        Obstacles, including the parked cars.
+    """
+    stalls = tuple(stalls)
+    # cars keep off stalls for motorcycles, taken or not
+    kept_off = [StandingThing(at.name, at.use, at.polygon) for at in stalls if at.use is StallUse.MOTORCYCLE]
+    # the proof names what is in the way in the order of the obstacles, and cars last
+    things = sorted([*standing, *kept_off], key=lambda thing: thing.label in CAR_LABELS)
+    own: dict[str, tuple[str, ...]] = {}
+    for thing in things:
+        if thing.label in BELONGINGS and thing.home is not None:
+            own[thing.home] = (*own.get(thing.home, ()), thing.name)
+    return DrivenGarage(
+        tuple(stall for stall in stalls if stall.takes_cars),
+        lanes,
+        Obstacles.of((thing.name, thing.ground) for thing in things),
+        frozenset(thing.home for thing in things if thing.label in CAR_LABELS and thing.home is not None),
+        own,
+    )
 
 
 def prove_stalls(
@@ -212,3 +262,65 @@ def _standing(layout: Layout) -> Iterator[StandingThing]:
     for place in objects.at(np.flatnonzero(is_touched[objects.spec])):
         ground = shapely.MultiPolygon([shapely.Polygon(outline) for outline in place.outlines()])
         yield StandingThing(object_name(place), place.spec.kind.label, ground, place.stall)
+
+
+def refuse_undrivable(
+    layout: Layout,
+    config: GarageConfig,
+    tight: Sequence[Stall],
+    *,
+    progress: Progress = silent,
+) -> None:
+    """Raise an error if a car cannot drive into one of the stalls in doubt and out of it.
+
+    Parameters
+    ----------
+    layout, config
+        The garage.
+    tight
+        The stalls in doubt; at most 24 of them, spread evenly, are tried.
+    progress
+        Function called for each stall.
+
+    Raises
+    ------
+    ConfigError
+        With the setting of the aisle's width and the stalls without manoeuvres.
+    """
+    every = max(1, -(-len(tight) // _MOST_TRIED))
+    garage = layout_garage(layout)
+    names = {stall.name for stall in tight[::every]}
+    tried = [at for at in garage.stalls if at.name in names]
+    proofs = prove_garage(garage, tried, most_explained=0, progress=progress)
+    without = {proof.stall for proof in proofs if not proof.is_proven}
+    if not without:
+        return
+    found = [stall for stall in tight if stall.name in without]
+    narrowest_m = min(layout.lane_graph.clear_aisle_m(stall.access, stall.outwards) for stall in found)
+    named = _named([stall.name for stall in found])
+    undecided = [proof.stall for proof in proofs if proof.outcome is Outcome.UNDECIDED]
+    open_ = f" (undecided, as the search ended at its bound: {_named(undecided)})" if undecided else ""
+    field, value = _setting(config, found[0])
+    raise ConfigError(
+        field,
+        value,
+        f"aisles and stalls that the design car of 4.8 x 1.8 m gets into: it gets into {len(tried) - len(found)} of "
+        f"{len(tried)} that were tried, not into {named}{open_}; their aisles are {narrowest_m:.2f} m clear, 5.5 m are "
+        f"enough for stalls of 2.4 m; plan.unreachable_stalls = 'mark', 'drop' or 'keep' builds it nevertheless",
+    )
+
+
+def _named(stalls: Sequence[str]) -> str:
+    return ", ".join(stalls[:_NAMED]) + (", ..." if len(stalls) > _NAMED else "")
+
+
+def _setting(config: GarageConfig, stall: Stall) -> tuple[str, object]:
+    """Return the setting that determines the aisle of a stall, and its value."""
+    bay = config.bay
+    x, z = stall.outwards
+    key = "row_depths_m" if abs(z) > abs(x) else "column_widths_m"
+    if getattr(bay, key) is not None:
+        return f"bay.{key}", getattr(bay, key)
+    if bay.dimensioned:
+        return "bay.stall_width_m", bay.stall_width_m
+    return "bay.square_side_m", bay.square_side_m

@@ -10,10 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.driving.car import Pose
-from garage2usd.driving.sweep import Floats
+from garage2usd.driving.obstacles import Floats
 from garage2usd.native import elementary
-
-__all__ = ["Gear", "Manoeuvre", "Move", "Waypoint"]
 
 
 class Gear(StrEnum):

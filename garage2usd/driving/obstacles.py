@@ -1,21 +1,66 @@
-"""Obstacles to a car, as named convex polygons in arrays."""
+"""Obstacles to a car as convex polygons, and the collision test of a car that moves; in C, `sweep.c`."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from garage2usd.driving.car import DesignCar
-from garage2usd.driving.sweep import Floats, Scene
-from garage2usd.native import elementary
+from garage2usd.native import Bools, Float64Cube, Float64s, Float64Table, Int64s, elementary, in_c
 
-__all__ = ["Obstacles"]
-
+Floats = Float64s
 _CORNERS = 4
 _ROUNDING_M2 = 1e-9
+
+
+class Scene(NamedTuple):
+    """A car and its obstacles.
+
+    Attributes
+    ----------
+    shapes
+        Corners of convex polygons in order, the last possibly repeated; shape (m, k, 2).
+    boxes
+        Left, top, right and bottom of each; shape (m, 4).
+    body
+        Distances from the rear axle to nose and tail, and half the width.
+    """
+
+    shapes: Float64Cube
+    boxes: Float64Table
+    body: Floats
+
+
+@in_c
+def bulge(radius: float, turn: float, body: Floats) -> float:
+    """Bound the deviation of any point of the car's body from its chord, on an arc of the rear axle's middle."""
+    raise NotImplementedError
+
+
+def touched_shapes(scene: Scene, pose: Floats, margin: float) -> Int64s:
+    """Return the numbers of the shapes closer than a margin to a car at a pose (x, z, yaw)."""
+    is_touched = np.zeros(len(scene.shapes), np.bool_)
+    _mark_touched(scene, pose, margin, is_touched)
+    return np.flatnonzero(is_touched)
+
+
+@in_c
+def _mark_touched(scene: Scene, pose: Floats, margin: float, is_touched: Bools) -> None:
+    raise NotImplementedError
+
+
+def least_clearance(scene: Scene, poses: Floats, bulges: Floats, most: float) -> float:
+    """Return a lower bound of the distance to shapes along poses (x, z, yaw) with a bulge per step, at most `most`."""
+    return _least_along(scene, poses, len(poses) - 1, bulges, most)
+
+
+@in_c
+def _least_along(scene: Scene, poses: Floats, steps: int, bulges: Floats, most: float) -> float:
+    raise NotImplementedError
 
 
 @dataclass(frozen=True, eq=False)

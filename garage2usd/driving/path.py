@@ -10,11 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre
-from garage2usd.driving.obstacles import Obstacles
-from garage2usd.driving.sweep import least_clearance
+from garage2usd.driving.obstacles import Obstacles, least_clearance
 from garage2usd.native import elementary
-
-__all__ = ["GAUSS", "WEIGHTS", "Path", "PathPoints", "Piece"]
 
 Floats = NDArray[np.float64]
 # rounded, as eigenvalues differ in the last bits from processor to processor

@@ -13,17 +13,6 @@ from garage2usd.driving.garage import DrivenGarage
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.garage import LaneKind
 
-__all__ = [
-    "BentFloor",
-    "DrivenRoad",
-    "FloorSpan",
-    "Portal",
-    "RampFloor",
-    "SlopedFloor",
-    "floor_heights_m",
-    "heights_m",
-]
-
 Floats = NDArray[np.float64]
 _ON_EDGE = 1e-9
 _EDGE_M = 1e-5

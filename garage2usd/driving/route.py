@@ -7,19 +7,15 @@ from itertools import chain
 
 from garage2usd.driving.car import DesignCar
 from garage2usd.driving.garage import Find, Nose, StallProof, prove_garage
-from garage2usd.driving.lane_poses import families
-from garage2usd.driving.lane_search import path_between_portals, path_from_entrance, path_to_exit
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.path import Path
-from garage2usd.driving.proof import LanePose, Limits
+from garage2usd.driving.proof import LanePose, Limits, families
 from garage2usd.driving.road import DrivenRoad, Portal
-from garage2usd.driving.roadmap import GRAINS, Grain, Roadmap
+from garage2usd.driving.roadmap import GRAINS, Grain, Roadmap, path_between_portals, path_from_entrance, path_to_exit
 from garage2usd.driving.turns import Steering
 from garage2usd.driving.way_search import find_guided_way, find_way_by_steps
 from garage2usd.garage import LaneKind, Stall
-
-__all__ = ["Route", "Router"]
 
 _MORE_CHANGES, _FURTHER_M = 6, 20.0
 """Gear changes and reach of a second manoeuvre search, for stalls without room to turn on the lanes."""

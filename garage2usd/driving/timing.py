@@ -8,14 +8,12 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from garage2usd.config.maps import DriveConfig
+from garage2usd.config.outputs import DriveConfig
 from garage2usd.driving.car import DesignCar
 from garage2usd.driving.path import Floats, Path, Piece
 from garage2usd.driving.road import FloorSpan, floor_heights_m
 from garage2usd.driving.trajectory import Trajectory
 from garage2usd.native import elementary
-
-__all__ = ["Motion", "timed"]
 
 _NODE_M, _LEAST_NODES = 0.05, 8
 """Distance in metres between the nodes of a run, with constant acceleration in between, and their least number."""

@@ -1,21 +1,25 @@
-"""A trajectory of a car: its states over time, as CSV and JSON."""
+"""The states of a driven car over time as CSV and JSON, and the manoeuvres of a swept-path proof as JSON."""
 
 import csv
 import json
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.common.version import VERSION
-from garage2usd.driving.car import DesignCar
-
-__all__ = ["Trajectory", "write_trajectory_csv", "write_trajectory_json"]
+from garage2usd.common.package import VERSION
+from garage2usd.driving.car import DesignCar, Pose
+from garage2usd.driving.garage import StallProof
+from garage2usd.driving.manoeuvre import Manoeuvre
+from garage2usd.driving.proof import Limits, Outcome
 
 Floats = NDArray[np.float64]
 _DIGITS = 6
+_STEP_M = 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,3 +85,69 @@ def write_trajectory_json(path: Path, trajectory: Trajectory, car: DesignCar, fa
     """Write a trajectory as JSON, with the car and further properties of the drive."""
     document = {"version": VERSION, **facts, "car": asdict(car), "columns": trajectory.columns()}
     path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8", newline="\n")
+
+
+def write_witness(
+    path: Path,
+    proofs: Sequence[StallProof],
+    *,
+    car: DesignCar | None = None,
+    limits: Limits | None = None,
+    floors_m: Mapping[str, float] | None = None,
+) -> None:
+    """Write the swept-path proof of each stall as JSON.
+
+    Notes
+    -----
+    ``moves`` are gear, curvature (1/m, positive to the driver's left) and length (m) in order from ``start``; they
+    define the manoeuvre. ``poses`` sample it at most 0.25 m apart: distance driven (m), x, z (m), yaw (right-handed
+    about +Y, 0 points to -Z), gear (1 or -1) and curvature. All refer to the middle of the rear axle. Stalls without
+    manoeuvres list the touched objects; those for which the search reached its bound are ``undecided``. With
+    `floors_m`, the height of the floor under each stall by name, ``floor_m`` says it: all poses of a stall are on it.
+    """
+    car = car or DesignCar()
+    document = {
+        "version": VERSION,
+        "car": {**asdict(car), "rear_axle_radius_m": round(car.rear_axle_radius_m, _DIGITS)},
+        "limits": asdict(limits or Limits()),
+        "stalls": [_stall(proof, floors_m) for proof in proofs],
+    }
+    path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8", newline="\n")
+
+
+def _stall(proof: StallProof, floors_m: Mapping[str, float] | None) -> dict[str, Any]:
+    return {
+        "name": proof.stall,
+        **({} if floors_m is None else {"floor_m": floors_m[proof.stall]}),
+        "proven": proof.is_proven,
+        "nose": proof.nose and proof.nose.value,
+        "clear_with_all_stalls_taken": proof.is_full,
+        "backs_out_of_dead_end": proof.backs_out,
+        **({"undecided": True} if proof.outcome is Outcome.UNDECIDED else {}),
+        "touched": proof.touched,
+        "touched_alone_in_the_way": proof.is_single_cause,
+        "in": proof.way_in and _way(proof.way_in),
+        "out": proof.way_out and _way(proof.way_out),
+    }
+
+
+def _way(way: Manoeuvre) -> dict[str, Any]:
+    return {
+        "clearance_m": round(way.clearance_m, _DIGITS),
+        "length_m": round(way.length_m, _DIGITS),
+        "gear_changes": way.gear_changes,
+        "start": _pose(way.start),
+        "moves": [[move.gear.value, round(move.curvature_per_m, 9), round(move.length_m, 9)] for move in way.moves],
+        "poses": [
+            [round(at.arc_m, _DIGITS), *_pose(at.pose), at.gear.sign, round(at.curvature_per_m, _DIGITS)]
+            for at in way.waypoints(_STEP_M)
+        ],
+    }
+
+
+def _pose(pose: Pose) -> list[float]:
+    return [
+        round(pose.x_m, _DIGITS),
+        round(pose.z_m, _DIGITS),
+        round(math.remainder(pose.yaw_rad, math.tau), _DIGITS),
+    ]

@@ -16,8 +16,6 @@ from garage2usd.driving.manoeuvre import Gear
 from garage2usd.driving.path import GAUSS, WEIGHTS, Floats, Piece
 from garage2usd.native import Float64s, elementary, in_c
 
-__all__ = ["Steering", "joining_pieces"]
-
 _MOST_RAD = 2.4
 """Greatest angle of each of the two turns."""
 _SCAN_RAD = math.radians(2.0)

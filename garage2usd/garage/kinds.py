@@ -2,8 +2,6 @@
 
 from enum import StrEnum
 
-__all__ = ["StallKind", "StallUse"]
-
 
 class StallUse(StrEnum):
     """Use of a stall."""

@@ -15,8 +15,6 @@ import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["DEAD_END_LIMIT_M", "Arc", "DeadEnd", "LaneEdge", "LaneGraph", "LaneKind", "LaneNode", "Point"]
-
 Point = tuple[float, float]
 """(x, z) in metres."""
 Arc = tuple[int, int]

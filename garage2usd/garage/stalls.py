@@ -11,8 +11,6 @@ from garage2usd.garage.kinds import StallKind, StallUse
 from garage2usd.garage.lanes import Point
 from garage2usd.native import elementary
 
-__all__ = ["Fault", "Stall"]
-
 _SQUARE_DEG = 1.0
 """Tolerance in degrees for a stall whose sides are perpendicular to its mouth."""
 _LEAST_SKEW = 1e-4

@@ -17,31 +17,28 @@ from garage2usd.config.plan import DeadEnds, UnreachableStalls
 from garage2usd.garage import LaneGraph, Stall, StallUse
 from garage2usd.layout.ceiling.beams import beams, ceiling_levels
 from garage2usd.layout.ceiling.lighting import LightLevels
-from garage2usd.layout.clearance import check_carriageways
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress.cores import Core, core_placements
 from garage2usd.layout.egress.exits import Egress, plan_egress
 from garage2usd.layout.egress.shafts import LevelPlan
-from garage2usd.layout.floor_area import FloorArea
 from garage2usd.layout.furnishing import Floor, furnished
-from garage2usd.layout.garage_stalls import garage_stalls, stall_quads
+from garage2usd.layout.measures import FloorArea, check_carriageways
 from garage2usd.layout.parking.designation import with_designated_stalls
-from garage2usd.layout.parking.stall_table import STALL_USES, StallTable
-from garage2usd.layout.parking.stalls import stalls_of, with_turning_stalls
+from garage2usd.layout.parking.stalls import garage_stalls, stall_quads, stalls_of, with_turning_stalls
 from garage2usd.layout.parking.zones import Zones, with_numbers
 from garage2usd.layout.placement import PlacedStall, Placement
 from garage2usd.layout.shell.building import columns, corner_columns, outer_walls
 from garage2usd.layout.shell.well import Well
 from garage2usd.layout.source import FloorSource, PlannedFloor
-from garage2usd.layout.table import ObjectTable
+from garage2usd.layout.table import STALL_USES, ObjectTable, StallTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel
 from garage2usd.look import drawn_look
 from garage2usd.objects import KINDS
+from garage2usd.objects.kind import Point
 from garage2usd.objects.number_plate import NumberPlateSpec
-from garage2usd.objects.outline import Point
-from garage2usd.structure.dead_ends import DEAD_END_LIMIT_MM, dead_ends
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneSquares, Square
+from garage2usd.structure.lanes import DEAD_END_LIMIT_MM, dead_ends
 
 __all__ = [
     "Layout",

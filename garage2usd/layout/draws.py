@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 from garage2usd.common.randomness import Step, generator, named_generator
 from garage2usd.structure.lane_graph import Square
 
-__all__ = ["SquareDraws"]
-
 
 class SquareDraws:
     """Random numbers for each square of a garage, by random step.

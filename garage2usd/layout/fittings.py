@@ -7,13 +7,13 @@ import numpy as np
 
 from garage2usd.common.randomness import Step, generator
 from garage2usd.config import FittingsConfig
-from garage2usd.garage import LaneKind
+from garage2usd.garage import LaneKind, StallUse
 from garage2usd.layout.ceiling.beams import CeilingLevels
-from garage2usd.layout.ceiling.lamps import TUBE
+from garage2usd.layout.ceiling.lighting import TUBE
 from garage2usd.layout.ceiling.services import LINES_REACH_M
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress.cores import Core
-from garage2usd.layout.placement import PlacedStall, Placement, StallUse, sum_of_yaws
+from garage2usd.layout.placement import PlacedStall, Placement, sum_of_yaws
 from garage2usd.layout.tiles import Tile, Tiles
 from garage2usd.objects.cone import ConeSpec
 from garage2usd.objects.speed_bump import SPEED_BUMP_HEIGHT_M, SpeedBumpSpec
@@ -21,8 +21,6 @@ from garage2usd.profiles import Profile
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import Square
 from garage2usd.structure.stalls import Edge
-
-__all__ = ["TUBE_DEPTH_M", "cones", "speed_bumps", "tube_lights"]
 
 _QUARTER_TURN = np.pi / 2
 TUBE_DEPTH_M = 0.105

@@ -1,51 +1,66 @@
 """What is put into a floor: every object of a level as a placement, from its lanes, stalls, columns and walls alone."""
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import shapely
 
+from garage2usd.assets.countries import Country
 from garage2usd.config import GarageConfig, LookConfig
-from garage2usd.config.look import AISLE, FloorFinish
+from garage2usd.config.look import AISLE, FloorFinish, SignsLook, SignsOf
 from garage2usd.garage import LaneGraph, Stall
 from garage2usd.layout.ceiling.beams import ceiling_levels
-from garage2usd.layout.ceiling.lamps import installed_lamps, ramp_lamps
-from garage2usd.layout.ceiling.level_signs import level_plates, level_signs
-from garage2usd.layout.ceiling.lighting import LightLevels, lane_points_of, light_up
+from garage2usd.layout.ceiling.lighting import LightLevels, installed_lamps, lane_points_of, light_up, ramp_lamps
 from garage2usd.layout.ceiling.services import cable_trays, ducts, sprinklers
-from garage2usd.layout.ceiling.signs_and_mirrors import exit_signs, lane_signs, mirrors
+from garage2usd.layout.ceiling.signs import exit_signs, lane_signs, level_plates, level_signs, mirrors
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress.cores import Core, crossings_to
 from garage2usd.layout.fittings import cones, speed_bumps, tube_lights
-from garage2usd.layout.floor.drains import drains
+from garage2usd.layout.floor.drainage import drains, puddles
 from garage2usd.layout.floor.panels import drawn_markings_of, floor_panels
-from garage2usd.layout.floor.puddles import puddles
 from garage2usd.layout.floor.repairs import floor_repairs
 from garage2usd.layout.floor.stains import floor_stains
 from garage2usd.layout.floor.stall_numbers import stall_numbers
-from garage2usd.layout.parking.clutter import clutter
+from garage2usd.layout.parking.car_details import number_plates, opened
 from garage2usd.layout.parking.designation import chargers
-from garage2usd.layout.parking.no_parking import no_parking_signs
-from garage2usd.layout.parking.number_plates import number_plates
-from garage2usd.layout.parking.open_boots import opened
-from garage2usd.layout.parking.own_cars import with_own_cars
+from garage2usd.layout.parking.loose_objects import clutter, no_parking_signs
+from garage2usd.layout.parking.other_vehicles import park_motorbikes, with_own_cars
 from garage2usd.layout.parking.parked_cars import park_cars
-from garage2usd.layout.parking.parked_motorbikes import park_motorbikes
-from garage2usd.layout.parking.stalls import stall_panels, wheel_stops
-from garage2usd.layout.parking.tight import tight_stalls
+from garage2usd.layout.parking.stalls import stall_panels, tight_stalls, wheel_stops
+from garage2usd.layout.parking.zones import zone_plates
 from garage2usd.layout.placement import PlacedStall, Placement
-from garage2usd.layout.shell.boards import with_boards
-from garage2usd.layout.shell.fire_shutters import fire_shutters
+from garage2usd.layout.shell.building import with_boards
 from garage2usd.layout.shell.mounts import mounted_objects
 from garage2usd.layout.shell.ramps import ramp_lights, with_barriers, with_ramps
-from garage2usd.layout.shell.well import Well
-from garage2usd.layout.shell.zone_plates import zone_plates
-from garage2usd.layout.signs import country_of, with_signs_of
+from garage2usd.layout.shell.well import Well, fire_shutters
 from garage2usd.layout.tiles import TileGrid, Tiles
+from garage2usd.objects.exit_sign import ExitSignSpec
+from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
+from garage2usd.objects.level_plate import LevelPlateSpec
+from garage2usd.objects.level_sign import LevelSignSpec
+from garage2usd.objects.portal import PortalSpec
+from garage2usd.profiles import Profile
 from garage2usd.structure.grid import Cell
 
-__all__ = ["Floor", "Furnishing", "furnished"]
+_IN_WORDS = ExitSignSpec | HydrantCabinetSpec | LevelPlateSpec | LevelSignSpec | PortalSpec
+
+
+def country_of(signs: SignsLook, profile: Profile) -> Country:
+    """Return the country of a garage's signs, by its look and profile."""
+    is_known = signs.of is SignsOf.PROFILE and profile.country in set(Country)
+    return Country(profile.country) if is_known else Country.NONE
+
+
+def with_signs_of(country: Country, parts: Iterable[Iterable[Placement]]) -> Iterator[Iterable[Placement]]:
+    """Set the country of all signs among the objects, for its texts, colours and numbers."""
+    for part in parts:
+        yield (
+            replace(each, spec=replace(each.spec, country=country))
+            if country and isinstance(each.spec, _IN_WORDS)
+            else each
+            for each in part
+        )
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,5 +1,4 @@
 """Placements of objects and stalls: engine-neutral values in metres, Y up, +X along columns, +Z along rows."""
-# Over 300 lines: what is placed, and the turns and frames in which all else places it.
 
 import math
 from collections.abc import Iterable, Iterator
@@ -9,30 +8,10 @@ from typing import TypeVar
 from garage2usd.config.stalls import SizeClass
 from garage2usd.garage import StallKind, StallUse
 from garage2usd.native import elementary
-from garage2usd.objects.kind import Spec
-from garage2usd.objects.outline import Box, Point, Polygon
+from garage2usd.objects.kind import Box, Point, Polygon, Spec
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import Square, StallType
-from garage2usd.structure.stall_shapes import PERPENDICULAR_DEG, kind_of_angle, slope_of_angle
-from garage2usd.structure.stalls import Edge
-
-__all__ = [
-    "PlacedStall",
-    "Placement",
-    "StallUse",
-    "box_inside",
-    "cos_sin",
-    "edge_yaw_rad",
-    "of_spec",
-    "placed",
-    "point_inside",
-    "rounded",
-    "stall_name",
-    "sum_of_yaws",
-    "to_local",
-    "to_world",
-    "turned_yaw_rad",
-]
+from garage2usd.structure.stalls import PERPENDICULAR_DEG, Edge, kind_of_angle, slope_of_angle
 
 _S = TypeVar("_S", bound=Spec)
 

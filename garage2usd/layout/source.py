@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from garage2usd.garage import LaneGraph
 from garage2usd.layout.egress.exits import Egress
-from garage2usd.layout.floor_area import FloorArea
+from garage2usd.layout.measures import FloorArea
 from garage2usd.layout.placement import PlacedStall
 from garage2usd.layout.shell.well import Well
 from garage2usd.structure.grid import Structure, outside_squares
@@ -18,8 +18,6 @@ from garage2usd.structure.lane_graph import LaneSquares
 
 if TYPE_CHECKING:
     from garage2usd.layout import Layout
-
-__all__ = ["FloorSource", "PlannedFloor"]
 
 
 class FloorSource:

@@ -23,32 +23,16 @@ from garage2usd.layout.placement import (
     to_world,
 )
 from garage2usd.objects.ceiling import CeilingSpec
-from garage2usd.objects.kind import Spec
-from garage2usd.objects.outline import Point, Polygon, rectangle
-from garage2usd.structure.doors import door_edges
+from garage2usd.objects.kind import Point, Polygon, Spec, rectangle
 from garage2usd.structure.grid import Cell, Structure, outside_squares
 from garage2usd.structure.lane_graph import LaneSquares, Square
-from garage2usd.structure.stalls import Edge, StallRow
+from garage2usd.structure.stalls import Edge, StallRow, door_edges
 
 if TYPE_CHECKING:
     import networkx as nx
 
 if TYPE_CHECKING:
     import networkx as nx
-
-__all__ = [
-    "StallPlace",
-    "Tile",
-    "TileGrid",
-    "Tiles",
-    "ceiling_panel",
-    "ground_inside",
-    "lane_edges",
-    "row_point",
-    "row_rectangle",
-    "row_strip",
-    "stall_outline",
-]
 
 CEILING_THICKNESS_M = 0.25
 _LEAST_OPENING_M2 = 1e-6

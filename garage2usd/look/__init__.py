@@ -3,15 +3,20 @@
 from garage2usd.assets import Finish
 from garage2usd.config.look import LookConfig
 from garage2usd.look.axes import Axes
-from garage2usd.look.ceiling import ceiling_finishes, drawn_ceiling
-from garage2usd.look.columns import column_finishes, drawn_columns
-from garage2usd.look.floor import drawn_floor, floor_finishes
-from garage2usd.look.lights import drawn_lights, light_finishes
-from garage2usd.look.markings import drawn_markings, paint_finishes
-from garage2usd.look.numbers import drawn_numbers
-from garage2usd.look.signs import drawn_signs
-from garage2usd.look.textures import own_finishes
-from garage2usd.look.walls import drawn_walls, wall_finishes
+from garage2usd.look.finishes import own_finishes
+from garage2usd.look.markings import drawn_markings, drawn_numbers, drawn_signs, paint_finishes
+from garage2usd.look.surfaces import (
+    ceiling_finishes,
+    column_finishes,
+    drawn_ceiling,
+    drawn_columns,
+    drawn_floor,
+    drawn_lights,
+    drawn_walls,
+    floor_finishes,
+    light_finishes,
+    wall_finishes,
+)
 
 __all__ = ["drawn_look", "finishes_of"]
 

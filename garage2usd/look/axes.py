@@ -9,8 +9,6 @@ from garage2usd.common.randomness import Step, named_generator
 from garage2usd.config.look import LookConfig
 from garage2usd.native import elementary
 
-__all__ = ["Axes", "Group"]
-
 Value = TypeVar("Value")
 _BYTE = 255
 

@@ -1,14 +1,23 @@
-"""Markings of a look: drawn lines and the finishes of their paints."""
+"""Markings, numbers and signs of a look: drawn values, and the finishes of paints."""
 
 from collections.abc import Mapping
 from dataclasses import replace
 
 from garage2usd.assets import MATERIALS, Finish, Material, PaintedTexture, Rgb, finished
 from garage2usd.assets.colours import linear_rgb, material_colour
-from garage2usd.config.look import BandForm, MarkingsLook, NumbersLook, Pictogram, StallPattern, Wear
+from garage2usd.config.look import (
+    BandForm,
+    MarkingsLook,
+    NumberForm,
+    NumberPlace,
+    NumbersLook,
+    Pictogram,
+    SignsLook,
+    SignsOf,
+    StallPattern,
+    Wear,
+)
 from garage2usd.look.axes import Group
-
-__all__ = ["drawn_markings", "paint_finishes"]
 
 _WHITE, _CREAM, _GREY, _DARK_GREY = "#dedede", "#cfc8a8", "#a6a6a2", "#868682"
 _YELLOW, _DULL_YELLOW, _ORANGE, _BLUE = "#d8a62e", "#b0924a", "#d87822", "#3f6fb0"
@@ -77,7 +86,9 @@ def drawn_markings(axes: Group) -> MarkingsLook:
 
 _WORSE = {Wear.LIGHT: Wear.WORN, Wear.WORN: Wear.FADED}
 """Wear of paint in the wheel tracks, if it is worse than elsewhere."""
+
 _STEPS = 24
+
 _WORN = {Wear.FRESH: None, Wear.LIGHT: "paint_fresh", Wear.WORN: "paint_worn", Wear.FADED: "paint_gone"}
 """Material of each degree of wear; None for even paint."""
 
@@ -132,3 +143,34 @@ def _mask(material: Material) -> str:
 
 def _colour_of(key: str, finishes: Mapping[str, Finish]) -> Rgb:
     return material_colour(finished(key, finishes).material)
+
+
+def drawn_numbers(axes: Group) -> NumbersLook:
+    """Draw the look of numbers: mostly on the floor at the entry."""
+    place = axes.one_of(
+        "place",
+        {
+            NumberPlace.MOUTH: 0.55,
+            NumberPlace.LANE: 0.1,
+            NumberPlace.MIDDLE: 0.08,
+            NumberPlace.REAR: 0.05,
+            NumberPlace.WALL: 0.07,
+            NumberPlace.NONE: 0.15,
+        },
+    )
+    form = axes.one_of("form", {NumberForm.SHORT: 0.42, NumberForm.FULL: 0.5, NumberForm.BOXED: 0.08})
+    # long numbers have lower characters
+    heights = {0.2: 0.2, 0.25: 0.35, 0.3: 0.3, 0.35: 0.15}
+    if form is not NumberForm.FULL:
+        heights = {0.2: 0.1, 0.3: 0.3, 0.4: 0.3, 0.5: 0.2, 0.6: 0.1}
+    return NumbersLook(
+        place=place,
+        form=form,
+        height_m=axes.one_of("height_m", heights),
+        colour=axes.colour("colour", {"#dedede": 0.5, "#d8a62e": 0.24, "#b0924a": 0.18, "#3c3d40": 0.08}),
+    )
+
+
+def drawn_signs(axes: Group) -> SignsLook:
+    """Draw the convention of signs: mostly that of the country."""
+    return SignsLook(of=axes.one_of("of", {SignsOf.PROFILE: 0.8, SignsOf.INTERNATIONAL: 0.2}))

@@ -12,7 +12,7 @@ from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.ramp_line import Bend
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.spelling import find_named, spans_in_words
-from garage2usd.config.maps import DriveConfig, Leg
+from garage2usd.config.outputs import DriveConfig, Leg
 from garage2usd.driving import BentFloor, DesignCar, Portal, Pose, RampFloor
 from garage2usd.driving.manoeuvre import Gear
 from garage2usd.driving.path import Path, Piece
@@ -22,8 +22,6 @@ from garage2usd.driving.timing import Motion, timed
 from garage2usd.driving.trajectory import Trajectory
 from garage2usd.garage import LaneKind, Stall
 from garage2usd.maps.level_routes import LevelRoutes
-
-__all__ = ["Drive", "DrivePlanner"]
 
 _STEP_S = 0.05
 _BEYOND_FOOT_M = 2.0

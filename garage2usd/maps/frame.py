@@ -5,8 +5,6 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["heading_rad", "map_point", "map_points", "projection"]
-
 
 def map_points(ground: ArrayLike) -> NDArray[np.float64]:
     """Convert ground points (x, z) of the stage to map points (x, y); float64, shape (..., 2)."""

@@ -15,24 +15,21 @@ from garage2usd.as_built.shapes import are_upright
 from garage2usd.common.errors import StageError
 from garage2usd.garage import Stall
 from garage2usd.layout.grounds import hulls_of
+from garage2usd.maps.facts import StallFacts, stage_facts
 from garage2usd.maps.glb_file import GlbFile, Piece
 from garage2usd.maps.glb_lights import place_of, punctual_light, why_left_out
 from garage2usd.maps.glb_meshes import are_rigid, by_facets, joined, rigid_inverses
-from garage2usd.maps.stage_facts import stage_facts
-from garage2usd.maps.stall_facts import StallFacts
 from garage2usd.objects import CAR_LABELS, PIECE_LABELS
 from garage2usd.reading.labels import Labels, read_labels
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.levels import levels_of
 from garage2usd.scenes.looks import MeshLooks
 from garage2usd.scenes.meshes import DRAWN_TYPES, Triangles
-from garage2usd.scenes.objects import DrawnPart, Matrix, PlacedObject, once_for_each_look
+from garage2usd.scenes.prims import DrawnPart, Matrix, PlacedObject, once_for_each_look
 from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.surfaces import SurfaceLook
 from garage2usd.scenes.values import metres_per_unit, metres_y_up
 from garage2usd.scenes.walk import placed_objects
-
-__all__ = ["write_glb"]
 
 _STALLS = "stalls"
 _STALL = "parking_stall"

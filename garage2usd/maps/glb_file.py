@@ -10,18 +10,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.common.json_text import short_json
-from garage2usd.common.version import VERSION
-from garage2usd.maps.glb_materials import Materials
+from garage2usd.common.documents import short_json
+from garage2usd.common.package import VERSION
+from garage2usd.maps.glb_materials import Materials, shortest
 from garage2usd.maps.glb_meshes import Primitive, beside, places_of, primitive_of
-from garage2usd.maps.glb_textures import shortest
 from garage2usd.scenes.meshes import Triangles
-from garage2usd.scenes.objects import Matrix
 from garage2usd.scenes.pictures import Pictures
+from garage2usd.scenes.prims import Matrix
 from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.surfaces import SurfaceLook
-
-__all__ = ["GlbFile", "Piece"]
 
 _FLOAT, _SHARE = 5126, 5123
 _MOST = 65535

@@ -6,12 +6,10 @@ from typing import Any
 import numpy as np
 from pxr import Usd
 
-from garage2usd.maps.glb_textures import shortest
+from garage2usd.maps.glb_materials import shortest
 from garage2usd.reading.lights import DOMES, LIGHT_TYPES, LightSource, light_of, unsaid_of
-from garage2usd.scenes.objects import Matrix
+from garage2usd.scenes.prims import Matrix
 from garage2usd.scenes.remarks import Remarks
-
-__all__ = ["place_of", "punctual_light", "why_left_out"]
 
 _HALF_ROUND_DEG = 90.0
 _EDGE = 0.999

@@ -10,17 +10,6 @@ from numpy.typing import NDArray
 
 from garage2usd.scenes.meshes import Triangles, cross
 
-__all__ = [
-    "Primitive",
-    "are_rigid",
-    "beside",
-    "by_facets",
-    "joined",
-    "places_of",
-    "primitive_of",
-    "rigid_inverses",
-]
-
 Matrices = NDArray[np.float64]
 """Transforms for points as rows; float64, shape (n, 4, 4)."""
 

@@ -8,8 +8,6 @@ from itertools import chain
 from garage2usd.maps.network import LEFT, RIGHT, Network, Road
 from garage2usd.maps.osm_file import APART_M, OsmFile, Place
 
-__all__ = ["Bound", "LaneBounds", "lane_bounds"]
-
 _SAG_M = 1e-3
 """Greatest deviation of a polyline from its lane bound, where its points are `APART_M` from one another."""
 _LEAST_M = 1e-6

@@ -16,8 +16,6 @@ from garage2usd.maps.lane_bounds import Bound, LaneBounds
 from garage2usd.maps.osm_file import Member, OsmFile, Place
 from garage2usd.maps.xml_text import number_text
 
-__all__ = ["Feet", "add_lots", "add_stalls", "stall_points"]
-
 Floats = NDArray[np.float64]
 _MOST_ASIDE = 2.0
 """Ratio of distance ahead to distance beside a corner above which a lane bends away."""

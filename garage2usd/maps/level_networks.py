@@ -12,10 +12,8 @@ from garage2usd.common.errors import StageError
 from garage2usd.garage import Stall
 from garage2usd.maps.frame import map_point
 from garage2usd.maps.network import Lanes, Neighbour, Network, Road
-from garage2usd.maps.reference_line import Arc, Point, ReferenceLine
 from garage2usd.maps.road_builder import MOST_PORTAL_LANE_M, elevation, network_of
-
-__all__ = ["LevelNetwork", "level_networks"]
+from garage2usd.maps.road_nodes import Arc, Point, ReferenceLine
 
 _GAP_M = 2.0
 """Greatest gap between the profile of a ramp and the road of the landing at its head."""

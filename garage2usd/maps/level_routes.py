@@ -6,13 +6,11 @@ from collections.abc import Sequence
 from garage2usd.as_built.driven_road import driven_road
 from garage2usd.as_built.level import BuiltLevel
 from garage2usd.common.errors import ConfigError
-from garage2usd.config.maps import DriveConfig
+from garage2usd.config.outputs import DriveConfig
 from garage2usd.driving import DesignCar, Portal, StallProof
 from garage2usd.driving.route import Route, Router
 from garage2usd.driving.turns import Steering
 from garage2usd.garage import Stall
-
-__all__ = ["LevelRoutes"]
 
 _NAMED = 6
 

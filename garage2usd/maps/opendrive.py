@@ -11,10 +11,11 @@ import numpy as np
 from pxr import Usd
 
 from garage2usd.as_built import BuiltGarage
-from garage2usd.config.maps import MapsConfig
+from garage2usd.config.outputs import MapsConfig
+from garage2usd.maps.facts import stage_facts
 from garage2usd.maps.frame import projection
 from garage2usd.maps.level_networks import LevelNetwork, level_networks
-from garage2usd.maps.network import LEFT, RIGHT, Junction, Neighbour, Network, Road
+from garage2usd.maps.network import LEFT, RIGHT, Junction, Neighbour, Network, Road, RoadPlaces
 from garage2usd.maps.opendrive_objects import (
     MapObject,
     Signal,
@@ -24,11 +25,7 @@ from garage2usd.maps.opendrive_objects import (
     solids_of,
     stalls_of,
 )
-from garage2usd.maps.road_places import RoadPlaces
-from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.maps.xml_text import child, write_xml
-
-__all__ = ["write_opendrive"]
 
 _CENTRE_LINE_M = 0.12
 _AROUND_M = 10.0
@@ -64,7 +61,7 @@ def write_opendrive(
     Notes
     -----
     Numbers of roads, junctions and objects are integers, as CARLA requires; the ids of stalls are names. Stalls,
-    columns and walls lie beside straight roads (`garage2usd.maps.road_places`), with outlines as they stand in the
+    columns and walls lie beside straight roads (`garage2usd.maps.network`), with outlines as they stand in the
     stage. The projection is a transverse Mercator around the stage's origin, in which metres are metres.
     """
     levels = level_networks(garage) if networks is None else networks

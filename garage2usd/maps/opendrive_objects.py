@@ -14,12 +14,9 @@ from garage2usd.as_built import BuiltLevel
 from garage2usd.as_built.shapes import Thing
 from garage2usd.garage import Stall, StallUse
 from garage2usd.maps.frame import heading_rad, map_point, map_points
-from garage2usd.maps.network import Network, Road
-from garage2usd.maps.road_places import RoadPlaces
+from garage2usd.maps.network import Network, Road, RoadPlaces
 from garage2usd.maps.xml_text import child
 from garage2usd.native import elementary
-
-__all__ = ["MapObject", "Signal", "add_objects", "add_signals", "signals_of", "solids_of", "stalls_of"]
 
 Floats = NDArray[np.float64]
 

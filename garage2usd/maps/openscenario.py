@@ -7,9 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from garage2usd.common.extras import of_extra
-from garage2usd.common.version import VERSION
-from garage2usd.config.maps import DriveConfig
+from garage2usd.common.package import VERSION, of_extra
+from garage2usd.config.outputs import DriveConfig
 from garage2usd.driving import DesignCar
 from garage2usd.driving.trajectory import Trajectory
 from garage2usd.maps.frame import heading_rad, map_point, map_points
@@ -19,8 +18,6 @@ from garage2usd.native import elementary
 
 with of_extra("a scenario"):
     from scenariogeneration import xosc
-
-__all__ = ["EGO", "write_scenario"]
 
 EGO = "Ego"
 """Name of the driven car."""

@@ -8,14 +8,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from garage2usd.common.extras import of_extra
+from garage2usd.common.package import of_extra
 from garage2usd.maps.frame import projection
 from garage2usd.maps.xml_text import number_text, tag_text, write_lines
 
 with of_extra("a Lanelet2 map"):
     from pyproj import Transformer
-
-__all__ = ["APART_M", "Member", "OsmFile", "Place"]
 
 Place = tuple[float, float, float]
 """Point (x, y, z) in metres, in the frame of `garage2usd.maps.frame`."""

@@ -13,8 +13,6 @@ from garage2usd.as_built.placed_pieces import placed_pieces
 from garage2usd.native import elementary
 from garage2usd.objects import CAR_LABELS
 
-__all__ = ["ParkedCar", "parked_cars"]
-
 
 @dataclass(frozen=True, slots=True)
 class ParkedCar:

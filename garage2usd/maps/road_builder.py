@@ -10,10 +10,7 @@ from garage2usd.as_built import BuiltLevel
 from garage2usd.common.errors import StageError
 from garage2usd.driving import RampFloor
 from garage2usd.maps.network import LEFT, RIGHT, Junction, LaneLink, Lanes, Neighbour, Network, Road
-from garage2usd.maps.reference_line import Point, straight, turn
-from garage2usd.maps.road_nodes import OUTSIDE, Opening, RoadNode, road_nodes
-
-__all__ = ["MOST_PORTAL_LANE_M", "elevation", "network_of"]
+from garage2usd.maps.road_nodes import OUTSIDE, Opening, Point, RoadNode, road_nodes, straight, turn
 
 MOST_PORTAL_LANE_M = 3.75
 """Greatest width of a portal's lane; wider doors and ramps keep a margin on both sides."""

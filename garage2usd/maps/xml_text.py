@@ -6,8 +6,6 @@ from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
 
-__all__ = ["child", "element_lines", "number_text", "tag_text", "write_lines", "write_xml"]
-
 _DIGITS = 9
 _DECLARATION = "<?xml version='1.0' encoding='utf-8'?>"
 _INDENT, _END = "  ", " />"

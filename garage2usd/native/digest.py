@@ -3,8 +3,6 @@
 import hashlib
 from pathlib import Path
 
-__all__ = ["digest_of"]
-
 
 def digest_of(folder: Path) -> str:
     """Compute the SHA-256 digest of a folder's C files and headers, including their names; 64 hexadecimal digits."""

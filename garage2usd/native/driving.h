@@ -53,7 +53,7 @@ typedef struct {
     Axis axes[8];
 } Hull;
 
-/* garage2usd.driving.sweep.Scene */
+/* garage2usd.driving.obstacles.Scene */
 typedef struct {
     DoubleCube shapes;
     DoubleTable boxes;

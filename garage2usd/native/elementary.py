@@ -12,22 +12,6 @@ from numpy.typing import NDArray
 
 from garage2usd.native import Float64s, in_c
 
-__all__ = [
-    "arccos",
-    "arcsin",
-    "arctan",
-    "arctan2",
-    "cos",
-    "exp",
-    "hypot",
-    "log",
-    "power",
-    "rect",
-    "sin",
-    "tan",
-    "turned",
-]
-
 Floats = NDArray[np.float64]
 F = TypeVar("F", float, Floats)
 

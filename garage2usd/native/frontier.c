@@ -4,7 +4,7 @@
  * frontier and what can follow it; an enumeration by these suffixes then meets only layouts that may win. */
 #include "broken_profile.h"
 
-/* Squares around the site, as garage2usd.planning.ground.PADDING. */
+/* Squares around the site, as garage2usd.planning.board.PADDING. */
 #define PADDING 4
 
 /* garage2usd.planning.frontier.Enumeration */

@@ -34,7 +34,7 @@ typedef struct {
     double stretch_cost;
 } CirculationRules;
 
-/* garage2usd.planning.ground.Ground */
+/* garage2usd.planning.board.Ground */
 typedef struct {
     int64_t stride;
     Int8Row cells;
@@ -68,7 +68,7 @@ typedef struct {
     int64_t excess;
 } Survey;
 
-/* garage2usd.planning.archive.Archive */
+/* garage2usd.planning.board.Archive */
 typedef struct {
     DoubleRow values;
     UInt64Row keys;

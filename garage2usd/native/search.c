@@ -31,7 +31,7 @@ enum { TRIED = 3, LOOKED_TO = 2, TOGETHER = 6 };
 #define AHEAD 1.5
 #define SAME_AIM_M 0.2
 
-/* garage2usd.driving.search.Task */
+/* garage2usd.driving.way_search.Task */
 typedef struct {
     Scene scene;
     DoubleRow start;

@@ -8,9 +8,7 @@ from importlib import import_module
 from pkgutil import iter_modules
 
 from garage2usd.objects.car import CAR_KINDS
-from garage2usd.objects.kind import Kind, Spec, TilePart
-from garage2usd.objects.mounted import Mounted
-from garage2usd.objects.pieces import PIECES, PieceClass
+from garage2usd.objects.kind import PIECES, Kind, Mounted, PieceClass, Spec, TilePart
 
 __all__ = [
     "CAR_LABELS",

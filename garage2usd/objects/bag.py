@@ -5,10 +5,7 @@ from enum import StrEnum
 
 from garage2usd.assets.faces import box_faces, limb_faces, loft_faces, rectangle_ring
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.outline import Polygon, rectangle
-
-__all__ = ["KIND", "BagSort", "BagSpec"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, rectangle
 
 KIND = Kind("bag", number=44, label="bag", cityscapes="dynamic", group="Clutter")
 

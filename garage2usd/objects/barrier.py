@@ -7,10 +7,7 @@ import numpy as np
 
 from garage2usd.assets.faces import box_faces, moved
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.outline import Polygon, rectangle
-
-__all__ = ["ARM_BEFORE_M", "ARM_HALF_M", "KIND", "PIVOT_M", "BarrierSpec"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, rectangle
 
 KIND = Kind("barrier", number=19, label="barrier", cityscapes="guard rail", group="Ramps")
 

@@ -4,10 +4,7 @@ from dataclasses import dataclass
 
 from garage2usd.assets.faces import box_faces
 from garage2usd.assets.mesh import Asset, Collider, make_part
-from garage2usd.objects.kind import Kind, Spec, VariantSet
-from garage2usd.objects.outline import Box
-
-__all__ = ["KIND", "BeamNodeSpec", "BeamSpec"]
+from garage2usd.objects.kind import Box, Kind, Spec, VariantSet
 
 KIND = Kind("beam", number=9, label="beam", cityscapes="building", follows=VariantSet.CEILING)
 

@@ -7,10 +7,7 @@ import numpy as np
 
 from garage2usd.assets.faces import box_faces, lathe_faces, limb_faces, loft_faces, moved, rectangle_ring, tube_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.outline import Polygon, rectangle
-
-__all__ = ["BICYCLE_COLOURS", "KIND", "BicycleSpec", "wheel_faces"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, rectangle
 
 KIND = Kind("bicycle", number=40, label="bicycle", cityscapes="bicycle", group="Clutter")
 

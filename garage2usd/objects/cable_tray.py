@@ -6,8 +6,6 @@ from garage2usd.assets.faces import box_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
 from garage2usd.objects.kind import Kind, Spec, VariantSet
 
-__all__ = ["KIND", "CableTraySpec"]
-
 KIND = Kind("cable_tray", number=11, label="cable_tray", cityscapes="static", follows=VariantSet.CEILING)
 
 _RAIL_M = 0.015

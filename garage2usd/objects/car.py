@@ -10,10 +10,7 @@ from garage2usd.assets.mesh import Asset
 from garage2usd.assets.own_car import own_car
 from garage2usd.config.own_cars import OwnCar
 from garage2usd.config.vehicles import PAINTS, CarBody, body_named
-from garage2usd.objects.kind import Kind, Look, Spec, TilePart, VariantSet
-from garage2usd.objects.outline import Polygon, rectangle
-
-__all__ = ["CAR_KINDS", "KIND", "PAINT_SET", "CarSpec", "OpenCarSpec", "OwnCarSpec", "car_spec"]
+from garage2usd.objects.kind import Kind, Look, Polygon, Spec, TilePart, VariantSet, rectangle
 
 KIND = Kind("car", number=16, label="car", cityscapes="car", follows=VariantSet.OCCUPANCY, part=TilePart.PARKING)
 _VAN = replace(KIND, number=46, label="van")

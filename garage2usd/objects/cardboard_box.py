@@ -4,10 +4,7 @@ from dataclasses import dataclass
 
 from garage2usd.assets.faces import box_faces
 from garage2usd.assets.mesh import Asset, Collider, make_part
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.outline import Polygon, rectangle
-
-__all__ = ["BOX_SIZES_M", "KIND", "BoxSpec"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, rectangle
 
 KIND = Kind("cardboard_box", number=38, label="cardboard_box", cityscapes="dynamic", group="Clutter")
 

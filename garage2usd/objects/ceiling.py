@@ -6,8 +6,6 @@ from garage2usd.assets.faces import box_faces
 from garage2usd.assets.mesh import Asset, Collider, make_part
 from garage2usd.objects.kind import Kind, Spec, VariantSet
 
-__all__ = ["KIND", "CeilingSpec"]
-
 KIND = Kind("ceiling", number=3, label="ceiling", cityscapes="building", group="Ceilings", follows=VariantSet.CEILING)
 
 

@@ -4,10 +4,7 @@ from dataclasses import dataclass
 
 from garage2usd.assets.faces import box_faces, tube_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
-from garage2usd.objects.kind import Kind, Spec, TilePart
-from garage2usd.objects.outline import Polygon, rectangle
-
-__all__ = ["CHARGER_BACK_M", "CHARGER_FRONT_M", "KIND", "ChargerSpec"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, TilePart, rectangle
 
 KIND = Kind("charger", number=22, label="charger", cityscapes="static", part=TilePart.PARKING)
 

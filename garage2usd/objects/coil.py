@@ -10,12 +10,9 @@ from numpy.typing import NDArray
 
 from garage2usd.assets.faces import box_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
-from garage2usd.garage.coil_line import CoilLine, CoilPlaces, heights_along
-from garage2usd.objects.kind import Spec
-from garage2usd.objects.outline import Point, Polygon
+from garage2usd.garage.ramp_lines import CoilLine, CoilPlaces, heights_along
+from garage2usd.objects.kind import Point, Polygon, Spec
 from garage2usd.objects.ramp import RampSpec
-
-__all__ = ["CoilSpec", "CrossingSpec"]
 
 _KERB_WIDTH_M, _KERB_HEIGHT_M = 0.18, 0.15
 _FLAT = 1e-4

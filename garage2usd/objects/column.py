@@ -12,10 +12,7 @@ from numpy.typing import NDArray
 from garage2usd.assets.faces import box_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.config.look import ColumnSection, Guard
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.outline import Point, Polygon, square
-
-__all__ = ["KIND", "ROUND_SEGMENTS", "Board", "ColumnSpec"]
+from garage2usd.objects.kind import Kind, Point, Polygon, Spec, square
 
 KIND = Kind("column", number=7, label="column", cityscapes="pole", group="Columns")
 

@@ -5,10 +5,7 @@ from itertools import pairwise
 
 from garage2usd.assets.faces import box_faces, upright_lathe_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
-from garage2usd.objects.kind import Kind, Spec, TilePart
-from garage2usd.objects.outline import Polygon, square
-
-__all__ = ["KIND", "ConeSpec"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, TilePart, square
 
 KIND = Kind("cone", number=15, label="traffic_cone", cityscapes="static", part=TilePart.PARKING)
 

@@ -8,8 +8,6 @@ from garage2usd.assets.flat import GRID_M, flat_part
 from garage2usd.assets.mesh import Asset
 from garage2usd.objects.kind import Kind, Spec
 
-__all__ = ["CHANNEL_WIDTH_M", "GULLY_SIDE_M", "KIND", "DrainSpec"]
-
 KIND = Kind("drain", number=36, label="drain", cityscapes="road", is_solid=False)
 
 GULLY_SIDE_M, CHANNEL_WIDTH_M = 0.3, 0.15

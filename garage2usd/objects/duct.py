@@ -7,8 +7,6 @@ from garage2usd.assets.faces import box_faces, level_lathe_faces, moved, ring_fa
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
 from garage2usd.objects.kind import Kind, Spec, VariantSet
 
-__all__ = ["KIND", "DuctSpec"]
-
 KIND = Kind("duct", number=10, label="duct", cityscapes="static", follows=VariantSet.CEILING)
 
 _FLANGE_PITCH_M = 1.35

@@ -11,11 +11,8 @@ from garage2usd.assets.faces import box_faces
 from garage2usd.assets.flat import upright_triangles
 from garage2usd.assets.glyphs import text_length, text_shape
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
-from garage2usd.assets.pictograms import running_man
 from garage2usd.objects.kind import Kind, Spec, VariantSet
-from garage2usd.objects.signage import SIGNAGE, Signage
-
-__all__ = ["EXIT_SIGN_WIDTH_M", "KIND", "ExitSignSpec", "Turn"]
+from garage2usd.objects.signage import SIGNAGE, Signage, running_man
 
 KIND = Kind("exit_sign", number=24, label="exit_sign", cityscapes="traffic sign", follows=VariantSet.CEILING)
 

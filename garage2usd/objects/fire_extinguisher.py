@@ -9,11 +9,7 @@ import shapely
 from garage2usd.assets.faces import box_faces, lathe_faces, level_lathe_faces, moved, tube_faces, upright_lathe_faces
 from garage2usd.assets.flat import upright_triangles
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.mounted import Mounted
-from garage2usd.objects.outline import Polygon, rectangle
-
-__all__ = ["KIND", "MOUNTED", "FireExtinguisherSpec"]
+from garage2usd.objects.kind import Kind, Mounted, Polygon, Spec, rectangle
 
 KIND = Kind("fire_extinguisher", number=28, label="fire_extinguisher", cityscapes="static", group="FireProtection")
 

@@ -4,10 +4,7 @@ from dataclasses import dataclass
 
 from garage2usd.assets.faces import box_faces
 from garage2usd.assets.mesh import Asset, Collider, make_part
-from garage2usd.objects.kind import Kind, Spec, VariantSet
-from garage2usd.objects.outline import Polygon, rectangle
-
-__all__ = ["KIND", "FireShutterSpec"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, VariantSet, rectangle
 
 KIND = Kind(
     "fire_shutter",

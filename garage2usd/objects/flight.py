@@ -6,11 +6,8 @@ import numpy as np
 
 from garage2usd.assets.faces import moved
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
-from garage2usd.objects.kind import Spec
-from garage2usd.objects.outline import Point, Polygon, rectangle
+from garage2usd.objects.kind import Point, Polygon, Spec, rectangle
 from garage2usd.objects.ramp import RampSpec, grooved, kerb, strip
-
-__all__ = ["FlightSpec"]
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,6 @@
 from garage2usd.objects.kind import Kind
 from garage2usd.objects.panel import PanelSpec
 
-__all__ = ["KIND", "FloorSpec"]
-
 KIND = Kind("floor", number=1, label="floor", cityscapes="road", is_solid=False)
 
 

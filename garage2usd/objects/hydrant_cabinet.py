@@ -11,12 +11,8 @@ from garage2usd.assets.faces import box_faces, level_lathe_faces, moved, ring_fa
 from garage2usd.assets.flat import upright_triangles
 from garage2usd.assets.glyphs import text_length, text_shape
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.mounted import Mounted
-from garage2usd.objects.outline import Polygon, rectangle
+from garage2usd.objects.kind import Kind, Mounted, Polygon, Spec, rectangle
 from garage2usd.objects.signage import SIGNAGE
-
-__all__ = ["KIND", "MOUNTED", "HydrantCabinetSpec"]
 
 KIND = Kind("hydrant_cabinet", number=27, label="hydrant_cabinet", cityscapes="static", group="FireProtection")
 

@@ -4,12 +4,10 @@ import math
 from dataclasses import dataclass
 
 from garage2usd.assets.faces import box_faces, lathe_faces, moved, upright_lathe_faces
-from garage2usd.assets.lamp_colour import USUAL_TEMPERATURE_K, lamp_colour
+from garage2usd.assets.light import USUAL_TEMPERATURE_K, lamp_colour
 from garage2usd.assets.mesh import AreaLight, Asset, Collider, Face, Part, make_part
 from garage2usd.config.look import LampKind
 from garage2usd.objects.kind import Kind, Spec, VariantSet
-
-__all__ = ["KIND", "LampSpec"]
 
 KIND = Kind("light", number=8, label="light", cityscapes="static", group="Ramps", follows=VariantSet.LIGHTS)
 

@@ -9,8 +9,6 @@ from garage2usd.assets.faces import box_faces, disc_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.objects.kind import Kind, Spec, VariantSet
 
-__all__ = ["KIND", "LaneSignSpec", "LaneSignText"]
-
 KIND = Kind("lane_sign", number=48, label="lane_sign", cityscapes="traffic sign", follows=VariantSet.CEILING)
 
 _DEPTH_M = 0.03

@@ -12,8 +12,6 @@ from garage2usd.objects.kind import Spec
 from garage2usd.objects.signage import SIGNAGE
 from garage2usd.objects.zone_plate import ZonePlateSpec
 
-__all__ = ["LEVEL_PLATE_WIDTH_M", "LevelPlateSpec"]
-
 LEVEL_PLATE_WIDTH_M, _HEIGHT_M = 0.46, 0.36
 _LIFT_M, _INK_M = 0.004, 0.007
 """Distances from the wall to the plate's front, and to its lettering."""

@@ -10,14 +10,11 @@ from shapely import affinity
 from garage2usd.assets.countries import Country
 from garage2usd.assets.faces import box_faces
 from garage2usd.assets.flat import upright_triangles
-from garage2usd.assets.glyphs import text_length, text_shape
-from garage2usd.assets.han_glyphs import is_han
+from garage2usd.assets.glyphs import is_han, text_length, text_shape
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.lane_sign import LaneSignSpec
 from garage2usd.objects.signage import SIGNAGE
-
-__all__ = ["Heading", "LevelSignSpec"]
 
 _DEPTH_M, _ROD_M, _ON_FACE_M = 0.03, 0.008, 0.002
 _MARGIN, _GAP = 0.28, 0.24

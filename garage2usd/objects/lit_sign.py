@@ -7,12 +7,9 @@ from shapely import affinity
 from garage2usd.assets.countries import Country
 from garage2usd.assets.faces import box_faces, moved
 from garage2usd.assets.flat import upright_triangles
-from garage2usd.assets.glyphs import text_length, text_shape
-from garage2usd.assets.han_glyphs import is_han
+from garage2usd.assets.glyphs import is_han, text_length, text_shape
 from garage2usd.assets.mesh import Part, make_part
 from garage2usd.objects.signage import SIGNAGE, Way
-
-__all__ = ["LEAST_SIGN_M", "lit_sign"]
 
 _MOST_HEIGHT_M = 0.5
 LEAST_SIGN_M = 0.06

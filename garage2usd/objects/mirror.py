@@ -8,8 +8,6 @@ from garage2usd.assets.faces import box_faces, level_lathe_faces
 from garage2usd.assets.mesh import Asset, Collider, make_part
 from garage2usd.objects.kind import Kind, Spec
 
-__all__ = ["KIND", "MirrorSpec"]
-
 KIND = Kind("mirror", number=25, label="mirror", cityscapes="static")
 
 

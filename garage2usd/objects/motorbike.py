@@ -5,10 +5,7 @@ from dataclasses import dataclass
 from garage2usd.assets.faces import box_faces, limb_faces, loft_faces, moved, rectangle_ring
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
 from garage2usd.objects.bicycle import wheel_faces
-from garage2usd.objects.kind import Kind, Spec, TilePart
-from garage2usd.objects.outline import Polygon, rectangle
-
-__all__ = ["KIND", "MOTORBIKE_COLOURS", "MotorbikeSpec"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, TilePart, rectangle
 
 KIND = Kind("motorbike", number=41, label="motorbike", cityscapes="motorcycle", group="Clutter", part=TilePart.PARKING)
 

@@ -6,10 +6,7 @@ import numpy as np
 
 from garage2usd.assets.faces import disc_faces, upright_lathe_faces
 from garage2usd.assets.mesh import Asset, Collider, make_part
-from garage2usd.objects.kind import Kind, Spec, TilePart
-from garage2usd.objects.outline import Polygon, rectangle
-
-__all__ = ["KIND", "SIGN_FOOT_M", "NoParkingSignSpec"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, TilePart, rectangle
 
 KIND = Kind("no_parking_sign", number=14, label="traffic_sign", cityscapes="traffic sign", part=TilePart.PARKING)
 

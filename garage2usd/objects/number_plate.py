@@ -11,8 +11,6 @@ from garage2usd.config.vehicles import CarBody, body_named
 from garage2usd.objects.car import CarSpec, OpenCarSpec, OwnCarSpec
 from garage2usd.objects.kind import Kind, Spec, TilePart, VariantSet
 
-__all__ = ["KIND", "NumberPlateSpec", "OpenPlateSpec", "OwnPlateSpec", "plates_on"]
-
 KIND = Kind(
     "number_plate",
     number=35,

@@ -7,12 +7,9 @@ import shapely
 
 from garage2usd.assets.faces import box_faces, frame_faces
 from garage2usd.assets.mesh import Asset, Collider, Part, make_part
-from garage2usd.assets.pictograms import running_man
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.outline import Polygon, rectangle
+from garage2usd.objects.kind import Kind, Polygon, Spec, rectangle
+from garage2usd.objects.signage import running_man
 from garage2usd.objects.wall import dado_part
-
-__all__ = ["KIND", "ObstacleSpec"]
 
 KIND = Kind("obstacle", number=6, label="obstacle", cityscapes="building", group="Obstacles")
 

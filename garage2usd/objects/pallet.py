@@ -6,10 +6,7 @@ import numpy as np
 
 from garage2usd.assets.faces import box_faces, moved
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.outline import Polygon, rectangle
-
-__all__ = ["KIND", "PALLET_HEIGHT_M", "PalletSpec"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, rectangle
 
 KIND = Kind("pallet", number=39, label="pallet", cityscapes="dynamic", group="Clutter")
 

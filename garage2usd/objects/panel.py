@@ -10,10 +10,7 @@ import shapely
 
 from garage2usd.assets.flat import GRID_M, flat_part, level_triangles
 from garage2usd.assets.mesh import MIN_AREA_M2, WELD_DECIMALS, Asset, pascal_case
-from garage2usd.objects.kind import Spec
-from garage2usd.objects.outline import Polygon
-
-__all__ = ["Marking", "Paint", "PanelSpec", "Surface"]
+from garage2usd.objects.kind import Polygon, Spec
 
 
 class Surface(StrEnum):

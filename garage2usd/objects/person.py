@@ -7,10 +7,7 @@ import numpy as np
 
 from garage2usd.assets.figures import POSES, Figure, Outfit, figure_asset
 from garage2usd.assets.mesh import Asset
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.outline import Polygon, rectangle
-
-__all__ = ["KIND", "PEOPLE", "PersonSpec"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, rectangle
 
 KIND = Kind("person", number=45, label="person", cityscapes="person", group="Clutter")
 

@@ -9,12 +9,9 @@ from garage2usd.assets.countries import Country
 from garage2usd.assets.faces import box_faces, frame_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
 from garage2usd.config.site import DOOR_FRAME_M
-from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.kind import Kind, Polygon, Spec, rectangle
 from garage2usd.objects.lit_sign import lit_sign
-from garage2usd.objects.outline import Polygon, rectangle
 from garage2usd.objects.signage import Way
-
-__all__ = ["KIND", "PortalSpec"]
 
 KIND = Kind("portal", number=5, label="vehicle_door", cityscapes="wall", group="Walls")
 

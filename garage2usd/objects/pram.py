@@ -7,10 +7,7 @@ import numpy as np
 from garage2usd.assets.faces import limb_faces, loft_faces, moved, rectangle_ring
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
 from garage2usd.objects.bicycle import wheel_faces
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.outline import Polygon, rectangle
-
-__all__ = ["KIND", "PRAM_COLOURS", "PramSpec"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, rectangle
 
 KIND = Kind("pram", number=43, label="pram", cityscapes="dynamic", group="Clutter")
 

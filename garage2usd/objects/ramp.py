@@ -9,11 +9,8 @@ from numpy.typing import NDArray
 
 from garage2usd.assets.faces import box_faces, moved
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.outline import Point, Polygon, rectangle
+from garage2usd.objects.kind import Kind, Point, Polygon, Spec, rectangle
 from garage2usd.objects.wall import DADO_M, DADO_STRIPE_M
-
-__all__ = ["KIND", "RampSpec", "grooved", "kerb", "strip"]
 
 KIND = Kind("ramp", number=17, label="ramp", cityscapes="road", group="Ramps")
 

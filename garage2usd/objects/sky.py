@@ -8,8 +8,6 @@ from garage2usd.assets.faces import box_faces
 from garage2usd.assets.mesh import Asset, make_part
 from garage2usd.objects.kind import Kind, Spec
 
-__all__ = ["KIND", "SkySpec"]
-
 KIND = Kind("sky", number=18, label="sky", cityscapes="sky", is_solid=False, group="Ramps")
 
 

@@ -6,8 +6,6 @@ from garage2usd.assets.faces import box_faces, level_lathe_faces, moved
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
 from garage2usd.objects.kind import Kind, Spec, VariantSet
 
-__all__ = ["KIND", "SprinklerSpec"]
-
 KIND = Kind("sprinkler", number=23, label="sprinkler", cityscapes="static", follows=VariantSet.CEILING)
 
 _CLAMP_M = 0.008

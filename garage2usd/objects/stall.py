@@ -8,8 +8,6 @@ import shapely.affinity
 from garage2usd.objects.kind import Kind, TilePart
 from garage2usd.objects.panel import PanelSpec
 
-__all__ = ["KIND", "StallSpec"]
-
 KIND = Kind("stall", number=2, label="parking_stall", cityscapes="parking", is_solid=False, part=TilePart.PARKING)
 
 

@@ -9,8 +9,6 @@ from garage2usd.assets.glyphs import text_shape
 from garage2usd.assets.mesh import Asset, make_part
 from garage2usd.objects.kind import Kind, Spec
 
-__all__ = ["KIND", "PAINT_LIFT_M", "NumberFrameSpec", "NumberSpec", "WallNumberSpec"]
-
 KIND = Kind(
     "stall_number", number=20, label="stall_number", cityscapes="parking", is_solid=False, scattered="StallNumbers"
 )

@@ -6,10 +6,7 @@ import numpy as np
 
 from garage2usd.assets.faces import box_faces, lathe_faces, limb_faces, moved
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.outline import Polygon, rectangle
-
-__all__ = ["KIND", "TrolleySpec"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, rectangle
 
 KIND = Kind("trolley", number=42, label="shopping_trolley", cityscapes="dynamic", group="Clutter")
 

@@ -8,10 +8,7 @@ from numpy.typing import NDArray
 
 from garage2usd.assets.faces import box_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, along_main_axis, make_part
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.outline import Polygon, rectangle, square
-
-__all__ = ["DADO_M", "DADO_STRIPE_M", "KIND", "WallPostSpec", "WallSpec", "dado_part"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, rectangle, square
 
 KIND = Kind("wall", number=4, label="wall", cityscapes="wall", group="Walls")
 

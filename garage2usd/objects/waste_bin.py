@@ -4,10 +4,7 @@ from dataclasses import dataclass
 
 from garage2usd.assets.faces import box_faces, lathe_faces, loft_faces, moved, rectangle_ring, tube_faces
 from garage2usd.assets.mesh import Asset, Collider, make_part
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.outline import Polygon, rectangle
-
-__all__ = ["BIN_COLOURS", "KIND", "BinSpec"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, rectangle
 
 KIND = Kind("waste_bin", number=37, label="waste_bin", cityscapes="dynamic", group="Clutter")
 

@@ -3,11 +3,8 @@
 from dataclasses import dataclass, replace
 
 from garage2usd.assets.mesh import Asset
-from garage2usd.objects.kind import Kind, Spec, TilePart
-from garage2usd.objects.outline import Polygon, rectangle
-from garage2usd.objects.striped import striped
-
-__all__ = ["KIND", "WHEEL_STOP_HEIGHT_M", "WHEEL_STOP_WIDTH_M", "WheelStopSpec"]
+from garage2usd.objects.kind import Kind, Polygon, Spec, TilePart, rectangle
+from garage2usd.objects.speed_bump import striped
 
 KIND = Kind("wheel_stop", number=13, label="wheel_stop", cityscapes="static", part=TilePart.PARKING)
 

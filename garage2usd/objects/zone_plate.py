@@ -16,10 +16,7 @@ from garage2usd.assets.flat import upright_triangles
 from garage2usd.assets.glyphs import GLYPH_PITCH, GLYPH_WIDTH, text_shape
 from garage2usd.assets.mesh import Asset, Face, make_part, pascal_case
 from garage2usd.objects.column import ROUND_SEGMENTS
-from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.outline import Point
-
-__all__ = ["KIND", "ZONE_PLATE_HEIGHT_M", "ColumnPlatesSpec", "Plate", "ZonePlateSpec"]
+from garage2usd.objects.kind import Kind, Point, Spec
 
 KIND = Kind(
     "zone_plate",

@@ -1,15 +1,12 @@
 """Lanes on a site: the score, Sarsa, and the archive of the best plans."""
 
 from garage2usd.planning.circulation import MeasuredCirculation, measured_circulation, neither_share
-from garage2usd.planning.completion import completed
 from garage2usd.planning.dimensions import area_per_stall_m2, dimension, dimensioned
 from garage2usd.planning.optimum import Optimum, counting_bound, find_optimum
-from garage2usd.planning.orientation import DrivenLengths, driven_lengths, with_directions
-from garage2usd.planning.plan import ArchivedPlan, Plan, given_plan
+from garage2usd.planning.orientation import DrivenLengths, completed, driven_lengths, with_directions
 from garage2usd.planning.plan_tape import is_of_lanes_alone, plan_tape_of, play_plan, read_tail, tail_of
-from garage2usd.planning.planner import plan_lanes
-from garage2usd.planning.principles import Principles, principles
-from garage2usd.planning.score import Score, evaluate, is_feasible
+from garage2usd.planning.planner import ArchivedPlan, Plan, given_plan, plan_lanes
+from garage2usd.planning.score import Principles, Score, evaluate, is_feasible, principles
 from garage2usd.planning.stall_kinds import runs_of_settings, settings_of_runs, with_stall_kinds
 from garage2usd.planning.tape import play, rank_of, tape_at, tape_of
 

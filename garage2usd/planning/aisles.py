@@ -7,11 +7,7 @@ import numpy as np
 
 from garage2usd.config.plan import SarsaParameters
 from garage2usd.native import Float64s, Int8s, Int64Cube, Int64s, UInt64s, in_c
-from garage2usd.planning.archive import Archive
-from garage2usd.planning.board import Board
-from garage2usd.planning.ground import Ground
-
-__all__ = ["OPTIONS", "Runs", "learn_aisles", "new_values", "runs_of"]
+from garage2usd.planning.board import Archive, Board, Ground
 
 OPTIONS = 4
 """Skip the run, an aisle along all of it, one that stops a square short of its ends, one along its even part."""

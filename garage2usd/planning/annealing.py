@@ -8,19 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from garage2usd.native import Float64s, Int8s, Int32s, Int64s, Int64Table, UInt64s, in_c
-from garage2usd.planning.board import Board
+from garage2usd.planning.board import Board, Ground
 from garage2usd.planning.dimensions import Sizes
-from garage2usd.planning.ground import Ground
-
-__all__ = [
-    "TrialMove",
-    "Workspace",
-    "anneal_flips",
-    "anneal_labels",
-    "improve",
-    "new_trial_move",
-    "new_workspace",
-]
 
 _MOVED = 400
 """Most squares of one move."""

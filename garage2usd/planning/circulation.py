@@ -15,25 +15,10 @@ from numpy.typing import NDArray
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
 from garage2usd.native import Int8s, Int32s, Int64s, in_c
-from garage2usd.structure.border import bordered
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Mask, Structure
 from garage2usd.structure.lane_graph import Square
-from garage2usd.structure.pieces import pieces_of
+from garage2usd.structure.squares import bordered, pieces_of
 from garage2usd.structure.stalls import square_capacity
-
-__all__ = [
-    "STRETCH",
-    "Circulation",
-    "CirculationRules",
-    "MeasuredCirculation",
-    "Run",
-    "Survey",
-    "circulation",
-    "measured_circulation",
-    "neither_share",
-    "rules_of",
-    "survey",
-]
 
 _MM_PER_M = 1000
 _MM2_PER_M2 = 1_000_000

@@ -17,22 +17,6 @@ from garage2usd.config.plan import SarsaParameters
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, CellArray, Structure
 from garage2usd.structure.stalls import CapacityTable, capacity_table, served_capacity
 
-__all__ = [
-    "Action",
-    "DecisionProcess",
-    "Ending",
-    "Observation",
-    "State",
-    "actions",
-    "initial",
-    "observe",
-    "reward",
-    "stalls",
-    "structure_of",
-    "terminal",
-    "transition",
-]
-
 Square = tuple[int, int]
 """(row, col)."""
 

@@ -14,24 +14,10 @@ from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig
 from garage2usd.native import Bools, Float64s, Float64Table, Int32Cube, Int64s, Int64Table
-from garage2usd.planning.ground import Ground, capacity_by_edges
-from garage2usd.structure.border import bordered
-from garage2usd.structure.doors import door_edges
+from garage2usd.planning.board import Ground, capacity_by_edges
 from garage2usd.structure.grid import Cell, CellArray, Mask, Structure
-from garage2usd.structure.stalls import Edge, capacity_table, square_capacity
-
-__all__ = [
-    "Sizes",
-    "aisle_side_mm",
-    "area_per_stall_m2",
-    "dimension",
-    "dimensioned",
-    "driven_squares",
-    "free_sides_mm",
-    "lines_with_aisles",
-    "lines_with_doors",
-    "sizes_of",
-]
+from garage2usd.structure.squares import bordered
+from garage2usd.structure.stalls import Edge, capacity_table, door_edges, square_capacity
 
 _MM_PER_M = 1000
 _MM2_PER_M2 = _MM_PER_M**2

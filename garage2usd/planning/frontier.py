@@ -8,23 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from garage2usd.native import Bools, Float64s, Float64Table, Int8s, Int64s, Int64Table, in_c
-from garage2usd.planning.board import Board
-from garage2usd.planning.ground import Ground
-
-__all__ = [
-    "FORBIDDEN",
-    "Enumeration",
-    "SquareTable",
-    "advance",
-    "are_complete",
-    "choices_of",
-    "column_bits",
-    "enumerate_layouts",
-    "first_frontier",
-    "new_enumeration",
-    "new_room",
-    "suffix_values",
-]
+from garage2usd.planning.board import Board, Ground
 
 FORBIDDEN = -1.0e18
 

@@ -11,13 +11,9 @@ from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import Agent, CirculationMode, DeadEnds, SarsaParameters
 from garage2usd.native import elementary
 from garage2usd.planning import aisles
-from garage2usd.planning.archive import new_archive, next_random, ranked_lanes
-from garage2usd.planning.board import Board, new_board
-from garage2usd.planning.ground import Ground, Lanes, ground_of
+from garage2usd.planning.board import Board, Ground, Lanes, ground_of, new_archive, new_board, next_random, ranked_lanes
 from garage2usd.planning.sarsa import grown, learn, new_memory, new_room
 from garage2usd.structure.grid import Cell, Structure
-
-__all__ = ["Learnt", "learn_aisles", "learn_squares", "uses_aisles"]
 
 _AISLE_SQUARES = 120
 """Free squares above which the agent decides over aisles: tabular Sarsa over squares does not serve large sites."""

@@ -16,14 +16,11 @@ from garage2usd.planning.annealing import (
     new_trial_move,
     new_workspace,
 )
-from garage2usd.planning.board import Board, faults_of, lanes_on, put_lanes
+from garage2usd.planning.board import Board, Ground, Lanes, cells_of, faults_of, lanes_on, put_lanes
 from garage2usd.planning.circulation import circulation
 from garage2usd.planning.dimensions import Sizes, area_per_stall_m2, dimensioned, sizes_of
-from garage2usd.planning.ground import Ground, Lanes, cells_of
 from garage2usd.planning.learner import uses_aisles
 from garage2usd.structure.grid import Structure
-
-__all__ = ["LocalSearch", "Ranked", "keeping_rules_first", "least_floor_first", "local_search", "ranked_plans"]
 
 Ranked = tuple[float, Lanes]
 """A plan with its value."""

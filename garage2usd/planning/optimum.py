@@ -10,7 +10,7 @@ from garage2usd.common.errors import ConfigError, GenerationError
 from garage2usd.common.progress import Progress, silent
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
-from garage2usd.planning.board import NO_VALUE, new_board
+from garage2usd.planning.board import NO_VALUE, PADDING, Ground, cells_of, ground_of, new_board
 from garage2usd.planning.circulation import circulation
 from garage2usd.planning.frontier import (
     FORBIDDEN,
@@ -23,11 +23,8 @@ from garage2usd.planning.frontier import (
     new_enumeration,
     suffix_values,
 )
-from garage2usd.planning.ground import PADDING, Ground, cells_of, ground_of
 from garage2usd.planning.score import Score, evaluate, is_feasible
 from garage2usd.structure.grid import Cell, CellArray, Structure
-
-__all__ = ["Optimum", "counting_bound", "find_optimum"]
 
 _MAX_FRONTIERS = 30_000_000
 """Frontiers kept at most: the 25 million of 9 x 9 squares with dead ends of two take 1.1 GB and 40 s."""

@@ -11,19 +11,12 @@ from garage2usd.common.errors import GenerationError
 from garage2usd.common.randomness import Step, generator
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import Aisles
-from garage2usd.planning.plan import Plan
-from garage2usd.structure.directions import (
-    BOTH_WAYS,
-    LaneDirections,
-    given_directions,
-    lane_squares_graph,
-    stretches_of,
-)
+from garage2usd.planning.planner import Plan
+from garage2usd.planning.stall_kinds import with_stall_kinds
 from garage2usd.structure.grid import Cell, Structure, squares_beside
+from garage2usd.structure.lanes import BOTH_WAYS, LaneDirections, given_directions, lane_squares_graph, stretches_of
 from garage2usd.structure.stall_runs import capacity_of_runs
 from garage2usd.structure.stalls import square_capacity
-
-__all__ = ["DrivenLengths", "driven_lengths", "with_directions"]
 
 Square = tuple[int, int]
 _TRIALS_PER_STRETCH = 12
@@ -271,3 +264,21 @@ def _length_m(structure: Structure, start: Square, end: Square) -> float:
     axis = int(start[0] == end[0])
     sides = (structure.row_depths_mm, structure.column_widths_mm)[axis]
     return float(sides[start[axis]] + sides[end[axis]]) / (2 * _MM_PER_M)
+
+
+def completed(plan: Plan, config: GarageConfig) -> Plan:
+    """Give a plan of lanes its directions and stalls.
+
+    Parameters
+    ----------
+    plan
+        Lanes.
+    config
+        Which directions and kinds are asked for.
+
+    Raises
+    ------
+    ConfigError, GenerationError
+        As `with_directions` and `with_stall_kinds`.
+    """
+    return with_stall_kinds(with_directions(plan, config), config)

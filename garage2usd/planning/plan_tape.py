@@ -28,15 +28,13 @@ from garage2usd.config import GarageConfig
 from garage2usd.config.stalls import GivenRun, SizeClass
 from garage2usd.garage import StallKind
 from garage2usd.planning.orientation import driven_lengths
-from garage2usd.planning.plan import Plan, given_plan
+from garage2usd.planning.planner import Plan, given_plan
 from garage2usd.planning.stall_kinds import runs_of_settings, settings_of_runs, with_runs
 from garage2usd.planning.tape import ACTIONS, play, tape_of
-from garage2usd.structure.directions import BOTH_WAYS, LaneDirections, stretches_of
 from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.lanes import BOTH_WAYS, LaneDirections, stretches_of
 from garage2usd.structure.stall_runs import StallRun
 from garage2usd.structure.stalls import Edge
-
-__all__ = ["is_of_lanes_alone", "plan_tape_of", "play_plan", "read_tail", "tail_of"]
 
 _VERSION = 1
 _END, _DIGITS = ACTIONS[4], ACTIONS[:4]

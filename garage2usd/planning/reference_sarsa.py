@@ -31,10 +31,8 @@ from garage2usd.planning.decision import (
     transition,
 )
 from garage2usd.planning.score import evaluate, is_feasible
-from garage2usd.structure.dead_ends import dead_ends
 from garage2usd.structure.grid import Cell, Structure
-
-__all__ = ["ArchivedEpisode", "ReferenceSarsa", "SplitMix64"]
+from garage2usd.structure.lanes import dead_ends
 
 _WORD = (1 << 64) - 1
 

@@ -9,11 +9,7 @@ import numpy as np
 
 from garage2usd.config.plan import SarsaParameters
 from garage2usd.native import Bools, Float32Table, Float64s, Int8s, Int64s, UInt64s, in_c
-from garage2usd.planning.archive import Archive
-from garage2usd.planning.board import Board
-from garage2usd.planning.ground import Ground
-
-__all__ = ["ACTIONS", "STAY", "Memory", "Room", "grown", "learn", "new_memory", "new_room", "observe"]
+from garage2usd.planning.board import Archive, Board, Ground
 
 STAY = 4
 ACTIONS = 5

@@ -15,17 +15,20 @@ from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.config.stalls import GivenRun, SizeClass
 from garage2usd.garage import StallKind
 from garage2usd.planning.dimensions import lines_with_aisles, lines_with_doors
-from garage2usd.planning.motorcycle_runs import split_for_motorcycles
-from garage2usd.planning.plan import Plan
+from garage2usd.planning.planner import Plan
 from garage2usd.planning.score import evaluate
 from garage2usd.profiles import Length
-from garage2usd.structure.directions import BOTH_WAYS, LaneDirections
 from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.stall_runs import StallRun, depth_needed_m, lean_of_traffic, rows_of_runs, runs_of_rows
-from garage2usd.structure.stall_shapes import PARALLEL_DEG, PERPENDICULAR_DEG, StallShape
-from garage2usd.structure.stalls import Edge, stall_rows
-
-__all__ = ["runs_of_settings", "settings_of_runs", "with_runs", "with_stall_kinds"]
+from garage2usd.structure.lanes import BOTH_WAYS, LaneDirections
+from garage2usd.structure.stall_runs import (
+    StallRun,
+    depth_needed_m,
+    lean_of_traffic,
+    rows_of_runs,
+    runs_of_rows,
+    split_for_motorcycles,
+)
+from garage2usd.structure.stalls import PARALLEL_DEG, PERPENDICULAR_DEG, Edge, StallShape, stall_rows
 
 Sides = NDArray[np.int64]
 

@@ -13,8 +13,6 @@ import numpy as np
 from garage2usd.common.errors import ConfigError
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 
-__all__ = ["ACTIONS", "play", "rank_of", "tape_at", "tape_of"]
-
 ACTIONS = "UDLRS"
 """One letter for each of up, down, left, right, stay: the digits 0 to 4."""
 

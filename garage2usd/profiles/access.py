@@ -6,8 +6,6 @@ from typing import NamedTuple
 
 from garage2usd.profiles.profile import Profile
 
-__all__ = ["AccessWidths", "access_widths", "least_stall_width_m", "van_stalls"]
-
 _ROUNDING_M = 1e-6
 
 

@@ -9,21 +9,6 @@ from pydantic import Field, model_validator
 
 from garage2usd.common.settings import Settings
 
-__all__ = [
-    "Amount",
-    "Area",
-    "Clause",
-    "Confidence",
-    "Count",
-    "Illuminance",
-    "Length",
-    "LengthRange",
-    "LengthsByAngle",
-    "Ratio",
-    "Severity",
-    "Steps",
-]
-
 _METRES = {"m": 1.0, "mm": 0.001, "cm": 0.01, "ft": 0.3048, "in": 0.0254}
 LengthUnit = Literal["m", "mm", "cm", "ft", "in"]
 

@@ -21,8 +21,6 @@ from garage2usd.profiles.clauses import (
     Steps,
 )
 
-__all__ = ["PROFILE_NAMES", "USUAL_CAR_LENGTH_M", "USUAL_CAR_WIDTH_M", "Profile", "nearest_profile", "shipped_settings"]
-
 PROFILE_NAMES = ("cn-jgj100", "de-garvo", "uk-istructe", "us-ada")
 """Names of the shipped profiles."""
 

@@ -12,8 +12,6 @@ from pxr import UsdUtils
 
 from garage2usd.common.errors import StageError
 
-__all__ = ["stage_digest"]
-
 _DIGEST_IN_NAME = re.compile(r"_[0-9a-f]{16}(?=\.usdc)")
 
 

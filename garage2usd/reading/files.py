@@ -14,8 +14,6 @@ from garage2usd.common.limits import allow_seconds
 from garage2usd.common.output import can_say
 from garage2usd.common.usd_messages import collect_usd_messages
 
-__all__ = ["STAGE_SUFFIXES", "open_stage", "usd_reason", "usd_text"]
-
 STAGE_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 _MAX_FILE_BYTES = 2 * 1024**3
 _MAX_PACKAGE_FILES = 100_000

@@ -10,8 +10,6 @@ from garage2usd.common.documents import is_file, read_text
 from garage2usd.common.errors import StageError
 from garage2usd.common.settings import Record, first_fault
 
-__all__ = ["LARGEST_CLASS_ID", "LARGEST_ID", "LabelTable", "LabelledObject", "SemanticClass", "read_label_table"]
-
 LARGEST_ID = 2**24 - 1
 """Greatest instance id: instance pictures have 24 bits."""
 LARGEST_CLASS_ID = 255

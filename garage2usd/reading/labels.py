@@ -15,8 +15,6 @@ from garage2usd.reading.label_table import LARGEST_CLASS_ID, LARGEST_ID, Semanti
 from garage2usd.reading.number_plates import CAR_OF_PLATE, PLATE_TEXT
 from garage2usd.scenes.walk import placed_objects
 
-__all__ = ["CITYSCAPES", "Labels", "NumberPlates", "owner_of", "read_labels"]
-
 _Id = TypeVar("_Id", bound=np.integer[Any])
 
 CITYSCAPES: dict[str, str] = {entry.label: entry.cityscapes for entry in CLASSES}

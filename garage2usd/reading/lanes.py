@@ -12,8 +12,6 @@ from garage2usd.garage import Fault, LaneEdge, LaneGraph, LaneKind, LaneNode, Po
 from garage2usd.reading.whole_garage import GRAPH, garage_root
 from garage2usd.scenes.values import READ_AT, metres_y_up, numbers_of
 
-__all__ = ["GUIDE_LIFT_M", "Lanes", "moved_stalls", "read_lanes"]
-
 GUIDE_LIFT_M = 0.05
 """Height of the guide curves above the floor in metres."""
 _CORNERS = 4

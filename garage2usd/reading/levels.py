@@ -7,12 +7,10 @@ from numpy.typing import NDArray
 from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
 from garage2usd.common.errors import StageError
-from garage2usd.garage.level_place import LEVELS_NAME, ONLY_LEVEL, LevelPlace
+from garage2usd.garage.levels import LEVELS_NAME, ONLY_LEVEL, LevelPlace
 from garage2usd.objects.ramp import KIND as RAMP
 from garage2usd.reading.whole_garage import garage_root, in_own_frame
 from garage2usd.scenes.values import READ_AT, metres_y_up
-
-__all__ = ["level_stage", "levels_of", "paths_from_above", "placed_level"]
 
 _COPIED = ("upAxis", "metersPerUnit", "kilogramsPerUnit", "timeCodesPerSecond", "startTimeCode", "endTimeCode")
 _KEPT = ("LaneGraph", "PhysicsScene")

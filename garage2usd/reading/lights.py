@@ -7,10 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdLux
 
-from garage2usd.scenes.objects import Matrix
+from garage2usd.scenes.prims import Matrix
 from garage2usd.scenes.values import READ_AT, number_of, vector_of
-
-__all__ = ["DOMES", "LIGHT_TYPES", "LightSource", "light_of", "luminance_of", "unsaid_of"]
 
 DOMES = frozenset({"DomeLight", "DomeLight_1"})
 """Types of lights that represent the surroundings."""

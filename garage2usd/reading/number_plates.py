@@ -1,7 +1,5 @@
 """Names of the USD properties that hold the text and the car of number plates."""
 
-__all__ = ["CAR_OF_PLATE", "PLATE_TEXT"]
-
 PLATE_TEXT = "garage:numberPlate:text"
 """Attribute of the prim of a car's number plates: the text on both plates."""
 CAR_OF_PLATE = "garage:numberPlate:car"

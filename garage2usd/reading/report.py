@@ -20,26 +20,9 @@ from garage2usd.common.settings import Record, first_fault
 from garage2usd.config import GarageConfig, LookConfig, config_from_mapping
 from garage2usd.config.stalls import GivenRun, SizeClass
 from garage2usd.garage import StallKind
-from garage2usd.garage.level_place import level_name
+from garage2usd.garage.levels import level_name
 from garage2usd.layout.ceiling.lighting import LightLevels
 from garage2usd.planning import Principles, Score
-
-__all__ = [
-    "CirculationFigures",
-    "DirectionFigures",
-    "FireCompartment",
-    "LearningFigures",
-    "LevelReport",
-    "PlanFigures",
-    "Report",
-    "ReportedLink",
-    "ReportedStall",
-    "StairCore",
-    "SurveyFigures",
-    "UnmetClause",
-    "read_report",
-    "report_of",
-]
 
 
 class PlanFigures(Record):

@@ -8,11 +8,9 @@ from numpy.typing import NDArray
 from pxr import Gf, Usd, UsdGeom
 
 from garage2usd.common.errors import StageError
-from garage2usd.garage.level_place import LEVELS_NAME
+from garage2usd.garage.levels import LEVELS_NAME
 from garage2usd.reading.files import open_stage
 from garage2usd.scenes.values import READ_AT, Z_UP_TO_Y_UP, metres_y_up, numbers_of
-
-__all__ = ["GRAPH", "garage_root", "in_own_frame", "open_garage"]
 
 GRAPH = "LaneGraph"
 """Name of the prim below the root that holds the lane graph."""

@@ -7,32 +7,28 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.extras import RAYS, require
 from garage2usd.common.output import check_file, check_writable, publish, unfinished_folder
+from garage2usd.common.package import RAYS, require
 from garage2usd.common.progress import Announce, Progress, silent, unheard
-from garage2usd.config.maps import DriveConfig
+from garage2usd.config.outputs import DriveConfig
 from garage2usd.reading.labels import read_labels
 from garage2usd.reading.whole_garage import open_garage
-from garage2usd.recordings.birds_eye import check_birds_eye
+from garage2usd.recordings.birds_eye import check_birds_eye, ego_mask
 from garage2usd.recordings.scene import EGO_FOLDER, POINTS_FOLDER, Scene
 from garage2usd.recordings.sequences import Sequence, check_sequences, write_sequence
 from garage2usd.recordings.way import Way
 from garage2usd.render import Picture, SlotFormat
 from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
-from garage2usd.render.devices import CPU, Device, find_device
-from garage2usd.render.effort import default_samples
-from garage2usd.render.frames_file import write_frames
+from garage2usd.render.devices import CPU, Device, default_samples, find_device
 from garage2usd.render.pictures import with_needed, write_mask
-from garage2usd.render.slot_labels import NEEDED, SlotLabels, check_slots
-from garage2usd.sensors.formats.calibration import write_calibration
-from garage2usd.sensors.formats.point_cloud_files import CloudFormat
-from garage2usd.sensors.formats.recording import Recording
+from garage2usd.render.tables import NEEDED, SlotLabels, check_slots, write_frames
+from garage2usd.sensors.formats.recording import Recording, write_calibration
 from garage2usd.sensors.rays.birds_eye import BirdsEye
+from garage2usd.sensors.rays.point_cloud import CloudFormat
 from garage2usd.sensors.rays.ray_caster import SLOWLY
 from garage2usd.sensors.rig.around_view_camera import AroundViewCamera
-from garage2usd.sensors.rig.camera import Camera
-from garage2usd.sensors.rig.ego_mask import ego_mask
 from garage2usd.sensors.rig.rig import Rig, read_rig
+from garage2usd.sensors.rig.sensors import Camera
 from garage2usd.sensors.slots import read_slots
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from pxr import Ar, Usd, UsdUtils
 
-from garage2usd.common.version import VERSION
+from garage2usd.common.package import VERSION
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import Labels
 from garage2usd.recordings.birds_eye import BirdsEyeViews
@@ -22,12 +22,10 @@ from garage2usd.render.drawing import MOTION_NEEDS, Drawing
 from garage2usd.sensors.formats.recording import Recording, Shot
 from garage2usd.sensors.rays.birds_eye import BirdsEye
 from garage2usd.sensors.rig.around_view_camera import AroundViewCamera
-from garage2usd.sensors.rig.camera import Camera
 from garage2usd.sensors.rig.poses import VehiclePose
 from garage2usd.sensors.rig.rig import Rig
+from garage2usd.sensors.rig.sensors import Camera
 from garage2usd.stage.ego_car import EGO_PATH, write_stage_with_car
-
-__all__ = ["EGO_FOLDER", "POINTS_FOLDER", "Scene"]
 
 EGO_FOLDER = "ego"
 """Folder of the ego masks of car-mounted cameras."""

@@ -10,17 +10,15 @@ import numpy as np
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.render.pictures import Picture
-from garage2usd.sensors.formats.point_cloud_files import CloudFormat
 from garage2usd.sensors.formats.recording import Recording
+from garage2usd.sensors.rays.point_cloud import CloudFormat
 from garage2usd.sensors.rig.around_view_camera import AroundViewCamera
-from garage2usd.sensors.rig.camera import PinholeCamera
 from garage2usd.sensors.rig.poses import MAP_TO_Y_UP, y_up_to_stage
 from garage2usd.sensors.rig.rig import Rig
+from garage2usd.sensors.rig.sensors import PinholeCamera
 
 if TYPE_CHECKING:
     from garage2usd.recordings.sweeps import Sweeps
-
-__all__ = ["Sequence", "check_sequences", "write_sequence"]
 
 
 class Sequence(StrEnum):

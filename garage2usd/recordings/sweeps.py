@@ -14,18 +14,14 @@ from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import Labels
 from garage2usd.recordings.scene import POINTS_FOLDER
 from garage2usd.recordings.way import Way
-from garage2usd.sensors.formats.point_cloud_files import CloudFormat, write_cloud
 from garage2usd.sensors.formats.recording import Shot
-from garage2usd.sensors.rays.lidar import measure
-from garage2usd.sensors.rays.moved_scene import MovedScene, joined
-from garage2usd.sensors.rays.point_cloud import PointCloud
+from garage2usd.sensors.rays.lidar import MovedScene, joined, measure
+from garage2usd.sensors.rays.point_cloud import CloudFormat, PointCloud, write_cloud
 from garage2usd.sensors.rays.ray_scene import RayScene, read_ray_scene
-from garage2usd.sensors.rig.lidar_settings import Lidar
 from garage2usd.sensors.rig.poses import VehiclePose
 from garage2usd.sensors.rig.rig import Rig
+from garage2usd.sensors.rig.sensors import Lidar
 from garage2usd.stage.ego_car import EGO_PATH, write_stage_with_car
-
-__all__ = ["Sweeps"]
 
 
 class Sweeps:

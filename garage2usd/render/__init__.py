@@ -8,21 +8,18 @@ import numpy as np
 from pxr import Usd, UsdGeom
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.extras import require
 from garage2usd.common.output import check_file, check_writable, publish, staging_folder
+from garage2usd.common.package import require
 from garage2usd.common.progress import Announce, Progress, silent, unheard
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import Labels, read_labels
-from garage2usd.render.birds_eye_views import OVERHEAD
 from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
 from garage2usd.render.cameras import View, find_views
-from garage2usd.render.devices import Device, find_device
+from garage2usd.render.devices import Device, default_samples, find_device
 from garage2usd.render.drawing import Drawing
-from garage2usd.render.effort import default_samples
-from garage2usd.render.frames_file import write_frames
-from garage2usd.render.free_camera import free_view
+from garage2usd.render.free_views import OVERHEAD, free_view
 from garage2usd.render.pictures import Picture, with_needed
-from garage2usd.render.slot_labels import NEEDED, SlotFormat, SlotLabels, check_slots
+from garage2usd.render.tables import NEEDED, SlotFormat, SlotLabels, check_slots, write_frames
 from garage2usd.scenes.values import metres_per_unit
 from garage2usd.sensors.rays.birds_eye import Orthographic
 from garage2usd.sensors.slots import read_slots
@@ -85,7 +82,7 @@ def render_stage(
     cameras, frames
         As for `garage2usd.render.cameras.find_views`; without both only the cameras that stand still, if there are any.
     at_m, look_at_m
-        Position and target of an additional camera, as for `garage2usd.render.free_camera.free_view`; both or none. If
+        Position and target of an additional camera, as for `garage2usd.render.free_views.free_view`; both or none. If
         `cameras` is empty, it replaces all cameras of the stage.
     size_px
         Width and height; the width takes the cameras' horizontal aperture.

@@ -13,10 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from garage2usd.common.errors import ConfigError, RenderError
-from garage2usd.common.extras import BLENDER, PICTURES, is_there
+from garage2usd.common.package import BLENDER, PICTURES, is_there
 from garage2usd.common.system import blender_places, temporary_in
-
-__all__ = ["BLENDER_MODULE", "WITHOUT_MODULE", "Blender", "find_blender", "modules_of", "run_blender"]
 
 _SCRIPT = Path(__file__).with_name("blender.py")
 _PATIENCE_S = 5.0

@@ -17,9 +17,7 @@ from garage2usd.sensors.rays.birds_eye import Orthographic
 from garage2usd.sensors.rays.lenses import Fisheye, Pinhole
 from garage2usd.sensors.rays.lenses import Lens as SensorLens
 from garage2usd.sensors.rig.camera_effects import CameraEffects
-from garage2usd.sensors.rig.twist import Twist
-
-__all__ = ["Lens", "View", "find_views"]
+from garage2usd.sensors.rig.poses import Twist
 
 _EVERY = 48
 _MOST_FRAMES = 100_000

@@ -15,17 +15,22 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
+from garage2usd.assets.light import EXPOSURE_EV, VIEW_TRANSFORM
 from garage2usd.common.limits import lift
 from garage2usd.common.progress import Announce, Progress, time_in_words, unheard
 from garage2usd.common.system import cores
-from garage2usd.common.view_transform import EXPOSURE_EV, VIEW_TRANSFORM
 from garage2usd.reading.labels import Labels
 from garage2usd.render.blender_process import run_blender
 from garage2usd.render.cameras import View
-from garage2usd.render.devices import CPU, ComputeDevice
-from garage2usd.render.drawn_prims import SHAPE_PROPERTY, DrawnPrims, read_drawn_prims, write_shapes
-from garage2usd.render.effort import drawing_s
-from garage2usd.render.overhead import Overhead, find_overhead
+from garage2usd.render.devices import CPU, ComputeDevice, drawing_s
+from garage2usd.render.drawn_prims import (
+    SHAPE_PROPERTY,
+    DrawnPrims,
+    Overhead,
+    find_overhead,
+    read_drawn_prims,
+    write_shapes,
+)
 from garage2usd.render.pictures import (
     INDEX_LIMIT,
     Picture,
@@ -43,8 +48,6 @@ from garage2usd.sensors.developing import develop
 from garage2usd.sensors.motion_blur import exposed_in_motion
 from garage2usd.sensors.rays.birds_eye import Orthographic
 from garage2usd.sensors.rays.lenses import Pinhole
-
-__all__ = ["MOTION_NEEDS", "Drawing"]
 
 _BLENDER_FROM = {
     UsdGeom.Tokens.y: np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),

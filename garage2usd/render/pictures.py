@@ -13,25 +13,6 @@ from PIL import Image
 
 from garage2usd.reading.labels import Labels
 
-__all__ = [
-    "Picture",
-    "Surfaces",
-    "VisibleInstance",
-    "class_colour",
-    "classes_of",
-    "read_depth",
-    "read_ids",
-    "read_light",
-    "read_surfaces",
-    "visible_instances",
-    "with_needed",
-    "write_colour",
-    "write_ids",
-    "write_mask",
-    "write_picture",
-    "write_pixels",
-]
-
 INDEX_LIMIT = 32768
 """Limit of Blender's object indices; larger ids are rendered as several digits."""
 _FARTHEST_M = 1e9

@@ -7,8 +7,6 @@ from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.surfaces import Rgb, SurfaceLook
 from garage2usd.scenes.textures import Texture
 
-__all__ = ["BaseColour", "base_colour_of", "normal_bands_of"]
-
 _DIRECTIONS = (2.0, 2.0, 2.0), (-1.0, -1.0, -1.0)
 """Scale and bias from a picture's values to a normal, where 8 bits store (n + 1) / 2."""
 

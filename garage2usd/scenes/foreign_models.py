@@ -29,8 +29,6 @@ from garage2usd.scenes.textures import LEFT_OUT, MISSING_PICTURE, Layout
 from garage2usd.scenes.values import READ_AT, metres_per_unit, metres_y_up, numbers_of
 from garage2usd.scenes.walk import placed_objects
 
-__all__ = ["ForeignModel", "ForeignPart", "model_digest", "read_model"]
-
 _MOST_BYTES = 256 * 1024 * 1024
 _MOST_TRIANGLES = 400_000
 _MOST_COLOURS = 32

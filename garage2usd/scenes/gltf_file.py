@@ -15,10 +15,8 @@ from numpy.typing import NDArray
 
 from garage2usd.common.documents import is_file, read_bytes
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.extras import of_extra
+from garage2usd.common.package import of_extra
 from garage2usd.scenes.remarks import Remarks
-
-__all__ = ["GLTF_SUFFIXES", "GltfFile", "title_of"]
 
 GLTF_SUFFIXES = (".glb", ".gltf")
 """Extensions of files of glTF."""

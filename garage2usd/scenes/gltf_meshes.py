@@ -9,12 +9,10 @@ from numpy.typing import NDArray
 
 from garage2usd.scenes.gltf_file import GltfFile, title_of
 from garage2usd.scenes.meshes import Triangles
-from garage2usd.scenes.objects import Matrix
+from garage2usd.scenes.prims import Matrix
 from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.surfaces import SurfaceLook
 from garage2usd.scenes.textures import Coordinates
-
-__all__ = ["GltfMesh", "GltfMeshes", "set_named"]
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _MOST_COPIES = 100_000

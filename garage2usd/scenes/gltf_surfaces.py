@@ -13,8 +13,6 @@ from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.surfaces import Rgb, SurfaceLook, within
 from garage2usd.scenes.textures import LEFT_OUT, Coordinates, Layout, Texture
 
-__all__ = ["GltfSurfaces"]
-
 _WRAPS = {33071: "clamp", 33648: "mirror", 10497: "repeat"}
 _NEAREST = 9728
 _MOST_IOR = 1e3

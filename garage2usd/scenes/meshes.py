@@ -9,12 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
-from garage2usd.scenes.polygons import triangulated
-from garage2usd.scenes.solid_shapes import solid_faces
 from garage2usd.scenes.textures import USUAL_COORDINATES, Coordinates
+from garage2usd.scenes.triangles import solid_faces, triangulated
 from garage2usd.scenes.values import READ_AT, numbers_of
-
-__all__ = ["DRAWN_TYPES", "Triangles", "cross", "triangles_of"]
 
 DRAWN_TYPES = frozenset({"Mesh", "Cube", "Sphere", "Cylinder", "Cone", "Capsule", "Plane"})
 """Types of prims with triangles."""
@@ -107,7 +104,7 @@ def triangles_of(
 
     Notes
     -----
-    Faces that are holes are omitted, and polygons are cut by `garage2usd.scenes.polygons.triangulated`. Without
+    Faces that are holes are omitted, and polygons are cut by `garage2usd.scenes.triangles.triangulated`. Without
     authored normals, a mesh is faceted, or smooth if it has a subdivision scheme; it is not subdivided. Faces that
     refer to missing points are omitted, as in a renderer.
     """

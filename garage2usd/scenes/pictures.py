@@ -12,9 +12,7 @@ from numpy.typing import NDArray
 from PIL import Image
 from pxr import Ar
 
-from garage2usd.common.extras import installation_of
-
-__all__ = ["ALPHA", "Band", "Bands", "Picture", "Pictures", "factored", "has_sixteen_bits", "resized", "sampled"]
+from garage2usd.common.package import installation_of
 
 _PLAIN_KINDS = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
 """Picture formats of browsers and glTF, by their first bytes."""

@@ -14,8 +14,6 @@ from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.surfaces import Rgb, SurfaceLook, within
 from garage2usd.scenes.textures import Layout, Texture
 
-__all__ = ["PlainPicture", "PlainSurface", "plain_surface_of"]
-
 _LARGEST_PX, _MUCH_PX = 1024, 4096
 _KEPT_MODES, _KEPT_SUFFIXES = frozenset({"L", "RGB", "RGBA"}), {"PNG": ".png", "JPEG": ".jpg"}
 _WORD_TO_BYTE = 257

@@ -1,7 +1,5 @@
 """Remarks on properties of a stage that a reader omits or changes, grouped by reason."""
 
-__all__ = ["Remarks"]
-
 _MOST_PLACES = 5
 
 

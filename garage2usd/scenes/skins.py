@@ -5,8 +5,6 @@ from pxr import Usd, UsdGeom, UsdSkel, Vt
 
 from garage2usd.scenes.values import READ_AT
 
-__all__ = ["pose_skins"]
-
 
 def pose_skins(stage: Usd.Stage) -> None:
     """Author the points of skinned meshes, in the rest pose of their skeletons, in the stage's session layer.

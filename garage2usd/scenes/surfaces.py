@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdGeom, UsdShade
 
 from garage2usd.scenes.pictures import ALPHA, Pictures
+from garage2usd.scenes.prims import finish_of
 from garage2usd.scenes.remarks import Remarks
-from garage2usd.scenes.taxonomy import finish_of
 from garage2usd.scenes.textures import (
     PRIMVAR_READER,
     USUAL_COORDINATES,
@@ -24,8 +24,6 @@ from garage2usd.scenes.textures import (
     source_of,
 )
 from garage2usd.scenes.values import READ_AT, vector_of
-
-__all__ = ["Rgb", "SurfaceLook", "SurfaceReader", "stands_alone", "within"]
 
 Rgb = tuple[float, float, float]
 _PREVIEW = "UsdPreviewSurface"

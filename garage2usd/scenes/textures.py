@@ -1,5 +1,4 @@
 """Textures read from the nodes UsdUVTexture, UsdTransform2d and UsdPrimvarReader_float2."""
-# Over 300 lines: a texture, its pictures, coordinates and their transforms are read together.
 
 import math
 from collections.abc import Sequence
@@ -12,20 +11,6 @@ from pxr import Sdf, Usd, UsdShade
 from garage2usd.scenes.pictures import Band, Pictures
 from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.values import READ_AT, numbers_of, vector_of
-
-__all__ = [
-    "LEFT_OUT",
-    "MISSING_PICTURE",
-    "PRIMVAR_READER",
-    "USUAL_COORDINATES",
-    "UV_TEXTURE",
-    "Coordinates",
-    "Layout",
-    "Source",
-    "Texture",
-    "TextureReader",
-    "source_of",
-]
 
 PRIMVAR_READER = "UsdPrimvarReader_"
 UV_TEXTURE, _TRANSFORM = "UsdUVTexture", "UsdTransform2d"

@@ -8,18 +8,6 @@ from pxr import Usd, UsdGeom
 
 from garage2usd.common.errors import StageError
 
-__all__ = [
-    "READ_AT",
-    "Z_UP_TO_Y_UP",
-    "lacks",
-    "metres_per_unit",
-    "metres_y_up",
-    "number_of",
-    "numbers_of",
-    "opinions_of",
-    "vector_of",
-]
-
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 READ_AT = Usd.TimeCode.EarliestTime()
 """Time code at which stages are read: the earliest, so the first time sample of animated attributes."""

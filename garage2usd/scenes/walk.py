@@ -8,13 +8,24 @@ from typing import NamedTuple
 import numpy as np
 from pxr import Kind, Usd, UsdGeom
 
-from garage2usd.scenes.inheritance import NOTHING, Inherited, handed_down
-from garage2usd.scenes.objects import DrawnPart, Matrix, PlacedObject
-from garage2usd.scenes.prim_types import PrimType, PrimTypes, is_imageable, is_visible, purpose_of
-from garage2usd.scenes.taxonomy import OBJECT_TAXONOMY, SQUARE_TAXONOMY, label_of, labels_name
+from garage2usd.scenes.prims import (
+    NOTHING,
+    OBJECT_TAXONOMY,
+    SQUARE_TAXONOMY,
+    DrawnPart,
+    Inherited,
+    Matrix,
+    PlacedObject,
+    PrimType,
+    PrimTypes,
+    handed_down,
+    is_imageable,
+    is_visible,
+    label_of,
+    labels_name,
+    purpose_of,
+)
 from garage2usd.scenes.values import READ_AT, numbers_of
-
-__all__ = ["placed_objects"]
 
 _DRAWN_PURPOSES = frozenset({UsdGeom.Tokens.default_, UsdGeom.Tokens.render})
 _POINT_PROTOTYPES = Usd.PrimIsActive & Usd.PrimIsLoaded

@@ -14,8 +14,6 @@ from garage2usd.sensors.rays.around_view import AroundView
 from garage2usd.sensors.rays.lenses import Lens
 from garage2usd.sensors.rig.camera_effects import CameraEffects
 
-__all__ = ["Developed", "develop", "exposure_scale", "sensed"]
-
 Floats = NDArray[np.float64]
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 _KNEE = 0.5

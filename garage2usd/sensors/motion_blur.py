@@ -5,9 +5,7 @@ from numpy.typing import NDArray
 
 from garage2usd.sensors.rays.lenses import Lens, Pinhole
 from garage2usd.sensors.rig.camera_effects import CameraEffects
-from garage2usd.sensors.rig.twist import Twist
-
-__all__ = ["exposed_in_motion"]
+from garage2usd.sensors.rig.poses import Twist
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]

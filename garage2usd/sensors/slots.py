@@ -16,9 +16,7 @@ from garage2usd.garage import LaneNode, Stall
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.levels import levels_of
 from garage2usd.scenes.values import metres_y_up
-from garage2usd.sensors.rays.outline import outline_in_picture, polygons_of
-
-__all__ = ["CORNERS", "PLACES_PX", "Slot", "SlotFrame", "SlotRecord", "Slots", "Visibility", "read_slots"]
+from garage2usd.sensors.rays.sight import outline_in_picture, polygons_of
 
 CORNERS = ("entry_left", "entry_right", "rear_right", "rear_left")
 """Corners of a slot in order; left and right as seen by a driver who enters forwards."""

@@ -4,11 +4,15 @@ import numpy as np
 
 from garage2usd.common.errors import ConfigError, GenerationError
 from garage2usd.config import BayConfig, FittingsConfig, SiteConfig
-from garage2usd.site.contour import draw_contour
-from garage2usd.site.given import check_structure, given_contour, place_obstacles, place_portals
-from garage2usd.site.obstacles import draw_obstacles
-from garage2usd.site.portals import draw_portals
-from garage2usd.site.ramps import check_ramps, ramp_squares
+from garage2usd.site.contour import (
+    check_structure,
+    draw_contour,
+    draw_obstacles,
+    given_contour,
+    place_obstacles,
+    place_portals,
+)
+from garage2usd.site.portals import check_ramps, draw_portals, ramp_squares
 from garage2usd.structure.grid import Cell, CellArray, Structure, cells_from_text, sides_mm
 
 __all__ = ["make_site", "with_sides"]

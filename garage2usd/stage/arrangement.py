@@ -8,13 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.garage.level_place import GARAGE_NAME
+from garage2usd.garage.levels import GARAGE_NAME
 from garage2usd.layout import Layout
 from garage2usd.layout.table import compact
 from garage2usd.objects import KINDS, TilePart
 from garage2usd.structure.grid import Cell, Structure
-
-__all__ = ["Arrangement", "arrange", "row_name", "tile_name"]
 
 _FIRST_NAMES = {
     "column": "Column",

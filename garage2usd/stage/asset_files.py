@@ -1,21 +1,34 @@
-"""Asset layers with content-based file names: authored once per process and equal in every garage."""
+"""Asset layers with content-based file names, and a layer of the assets that only a garage with its own look has.
+
+In one layer each asset takes a third of the bytes of a separate file, as all refer to the same materials.
+"""
 
 import secrets
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
+from pxr import Sdf
+
 from garage2usd.assets import Finish, pascal_case
 from garage2usd.common.output import HIDDEN_PREFIX
-from garage2usd.config.stage import TextureQuality
+from garage2usd.config.outputs import TextureQuality
 from garage2usd.objects import Spec
-from garage2usd.stage.prototype_layer import write_prototype
+from garage2usd.stage.authoring import define, new_layer
+from garage2usd.stage.looks import NamedFile, content_name, textures_of
+from garage2usd.stage.prototype_layer import define_prototype, write_prototype
 from garage2usd.stage.prototypes import asset_of
-from garage2usd.stage.texture_files import NamedFile, content_name, textures_of
 
-__all__ = ["AssetFile", "asset_file"]
+OWN_ASSETS = "Grounds.usdc"
+"""Suffix of the layer's name, after the common prefix of a garage's layers."""
+_OWN_MATERIALS = ("floor_", "stall_", "paint_", "column_", "wall_")
+"""Key prefixes of materials whose finishes are rarely equal in two garages."""
+_OWN_KINDS = ("light",)
+"""Kinds whose shapes are rarely equal in two garages with drawn looks, although their materials are standard."""
+_LOOKS = Sdf.Path("/Looks")
+"""Class of the materials of all assets of the layer."""
 
 
 class AssetFile(NamedTuple):
@@ -70,3 +83,47 @@ def _asset_file(shape: Spec, quality: TextureQuality, own: tuple[tuple[str, Fini
         NamedFile(content_name(pascal_case(shape.kind.name), data, ".usdc"), data),
         textures_of(asset.materials, finishes, quality),
     )
+
+
+def own_shapes(shapes: Collection[Spec], finishes: Mapping[str, Finish]) -> list[Spec]:
+    """Select the shapes with finishes of this garage; if there are any, also those of `_OWN_KINDS`."""
+    keys = {key for key in finishes if key.startswith(_OWN_MATERIALS)}
+    own = {shape for shape in shapes if keys & asset_of(shape).materials} if keys else set()
+    return [shape for shape in shapes if shape in own or (own and shape.kind.name in _OWN_KINDS)]
+
+
+def write_own_assets(
+    path: Path,
+    shapes: Mapping[str, Spec],
+    finishes: Mapping[str, Finish],
+    *,
+    quality: TextureQuality,
+    textures: str,
+) -> None:
+    """Write the layer, with a root prim for each shape under its name.
+
+    Parameters
+    ----------
+    path
+        The file.
+    shapes
+        Shapes by the names of their prims.
+    finishes
+        Finishes that replace materials, by the materials' keys.
+    quality, textures
+        Quality of the textures, and their folder relative to the layer.
+    """
+    with new_layer(path, default_prim=next(iter(shapes))) as layer:
+        define(layer, _LOOKS, "Scope").specifier = Sdf.SpecifierClass
+        for name, shape in shapes.items():
+            define_prototype(
+                layer,
+                name,
+                asset_of(shape),
+                kind=shape.kind,
+                quality=quality,
+                finishes=finishes,
+                textures=textures,
+                shared=_LOOKS,
+                mass_kg=shape.mass_kg,
+            )

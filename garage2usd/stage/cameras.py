@@ -13,19 +13,7 @@ from garage2usd.garage import LaneGraph, LaneKind
 from garage2usd.layout import Layout
 from garage2usd.native import elementary
 from garage2usd.stage.authoring import attribute, define, new_layer, operation, order_operations
-from garage2usd.stage.bounds import world_bounds_m
-
-__all__ = [
-    "APERTURE_MM",
-    "DRIVE_NAME",
-    "EYE_M",
-    "FOCAL_MM",
-    "FRAMES_PER_SECOND",
-    "author_cameras",
-    "bends",
-    "set_frames",
-    "write_drive",
-]
+from garage2usd.stage.labels import world_bounds_m
 
 FRAMES_PER_SECOND = 24.0
 EYE_M = 1.5

@@ -12,8 +12,8 @@ from pxr import Gf, Kind, Sdf
 
 from garage2usd.assets import MATERIALS, NON_VISUAL, Asset, Part, finished, pascal_case
 from garage2usd.assets.number_plates import painted_plates
+from garage2usd.config.outputs import TextureQuality
 from garage2usd.config.own_cars import OwnCar
-from garage2usd.config.stage import TextureQuality
 from garage2usd.config.vehicles import DRIVEN_BODIES, DRIVEN_PAINT, DRIVEN_PLATE, CarBody
 from garage2usd.driving import DesignCar
 from garage2usd.driving.timing import Motion
@@ -21,12 +21,9 @@ from garage2usd.driving.trajectory import Trajectory
 from garage2usd.objects.car import car_spec
 from garage2usd.stage.authoring import attribute, define, new_layer, operation, order_operations
 from garage2usd.stage.cameras import FRAMES_PER_SECOND, bends, set_frames
-from garage2usd.stage.looks import TEXTURE_FOLDER, define_material
+from garage2usd.stage.looks import TEXTURE_FOLDER, define_material, named_textures, textures_of
 from garage2usd.stage.prototype_layer import define_mesh
 from garage2usd.stage.prototypes import asset_of
-from garage2usd.stage.texture_files import named_textures, textures_of
-
-__all__ = ["CAR_NAME", "body_within", "define_car_looks", "driven_asset", "write_car_textures", "write_driving_car"]
 
 CAR_NAME = "DrivingCar"
 """Name of the car below ``/Garage``."""

@@ -1,22 +1,113 @@
-"""A stage with an additional ego car at the origin, which the renderer moves."""
+"""A stage with an additional ego car at the origin, which the renderer moves, and the lights of its lamps."""
 
+import math
 from pathlib import Path
+from typing import NamedTuple
 
-from pxr import Gf, Sdf, Usd, UsdGeom
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdLux
 
-from garage2usd.assets import finished
-from garage2usd.assets.cars import lit
+from garage2usd.assets import Asset, Rgb, finished
+from garage2usd.assets.cars import lamps_of, lit
+from garage2usd.assets.light import USUAL_LAMP_RGB
+from garage2usd.common.errors import ConfigError
 from garage2usd.config.vehicles import CarBody
+from garage2usd.reading.lights import luminance_of
 from garage2usd.scenes.values import metres_per_unit, metres_y_up
-from garage2usd.stage.authoring import define, operation, order_operations, save_file
+from garage2usd.stage.authoring import apply_schemas, attribute, define, operation, order_operations, save_file
 from garage2usd.stage.driving_car import CAR_NAME, define_car_looks, driven_asset, write_car_textures
-from garage2usd.stage.lamp_lights import define_lamp_lights
-from garage2usd.stage.prototype_layer import define_mesh
+from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY, define_mesh
 
-__all__ = ["EGO_PATH", "write_stage_with_car"]
-
+_TYPES = Sdf.ValueTypeNames
+_AHEAD_M = 0.03
+"""Distance of a light in front of its lens."""
+_HEAD_LM = 700.0
+"""Luminous flux of one head lamp's low beam."""
+_CONE_DEG, _CUT_OFF_DEG, _SOFTNESS = 35.0, 0.6, 0.15
+"""Half of the beam's angle, dip of its upper edge (1 %, ECE R48), and the share of the beam that fades. Assumptions
+except for the dip: a real beam is flatter and wider."""
+_TAIL_RGB: Rgb = (1.0, 0.02, 0.01)
+_TAIL_CD, _TAIL_DOWN_DEG = 12.0, 20.0
+"""Luminous intensity of a tail lamp, for which ECE R7 allows 4 to 17 candela, and its downward angle."""
 EGO_PATH = "/EgoCar"
 """Path of the car's prim."""
+
+
+class _Lamp(NamedTuple):
+    """Light of a lamp: its part, the part in words, light type, radius, intensity on its axis, colour and dip."""
+
+    part: str
+    words: str
+    type_name: str
+    radius_m: float
+    candela: float
+    colour_rgb: Rgb
+    down_deg: float
+
+
+_LAMPS = {
+    "Head": _Lamp(
+        "lamp_front",
+        "head lamps",
+        "SphereLight",
+        0.04,
+        _HEAD_LM / (math.tau * (1 - math.cos(math.radians(_CONE_DEG)))),
+        USUAL_LAMP_RGB,
+        _CONE_DEG + _CUT_OFF_DEG,
+    ),
+    "Tail": _Lamp("lamp_rear", "tail lamps", "DiskLight", 0.06, _TAIL_CD, _TAIL_RGB, _TAIL_DOWN_DEG),
+}
+
+
+def lamp_places(asset: Asset) -> dict[str, NDArray[np.float64]]:
+    """Return the light positions of a car's lamps, in front of the centre of the lenses on each side.
+
+    Returns
+    -------
+    dict
+        Positions in metres in the axes of the asset, shape (3,), by ``HeadLeft``, ``HeadRight``, ``TailLeft`` and
+        ``TailRight``.
+
+    Raises
+    ------
+    ConfigError
+        If the car has no head lamps or no tail lamps, which can occur with a model of the user.
+    """
+    places = {}
+    for end, lamp in _LAMPS.items():
+        parts = lamps_of(asset, lamp.part)
+        if not parts:
+            raise ConfigError("lamps", "on", f"a car with parts or materials named as {lamp.words} are")
+        points = np.concatenate([part.points for part in parts]).astype(np.float64)
+        for name, side in (("Left", -1.0), ("Right", 1.0)):
+            own = points[points[:, 0] * side > 0]
+            x, y = own[:, :2].mean(axis=0)
+            z = own[:, 2].max() + _AHEAD_M if end == "Tail" else own[:, 2].min() - _AHEAD_M
+            places[f"{end}{name}"] = np.array((x, y, z))
+    return places
+
+
+def define_lamp_lights(layer: Sdf.Layer, car: Sdf.Path, asset: Asset) -> None:
+    """Define a spot light for each head lamp and a red disc light for each pair of tail lenses, below a car's body."""
+    for name, place in lamp_places(asset).items():
+        lamp = _LAMPS[name[:4]]
+        light = define(layer, car.AppendChild(f"{name}Light"), lamp.type_name)
+        nit = lamp.candela / (math.pi * lamp.radius_m**2)
+        brighter = luminance_of(USUAL_LAMP_RGB) / luminance_of(lamp.colour_rgb)
+        attribute(light, "inputs:radius", _TYPES.Float, lamp.radius_m)
+        attribute(light, "inputs:color", _TYPES.Color3f, Gf.Vec3f(*lamp.colour_rgb))
+        attribute(light, "inputs:intensity", _TYPES.Float, nit / NITS_PER_INTENSITY * brighter)
+        attribute(light, "inputs:normalize", _TYPES.Bool, value=False)
+        if lamp.type_name == "SphereLight":
+            apply_schemas(light, "ShapingAPI")
+            attribute(light, UsdLux.Tokens.inputsShapingConeAngle, _TYPES.Float, _CONE_DEG)
+            attribute(light, UsdLux.Tokens.inputsShapingConeSoftness, _TYPES.Float, _SOFTNESS)
+        # lights shine along -Z, the forward axis of cars
+        operation(light, "translate", _TYPES.Float3, Gf.Vec3f(*place.tolist()))
+        operation(light, "rotateY", _TYPES.Float, 180.0 if lamp.part == "lamp_rear" else 0.0)
+        operation(light, "rotateX", _TYPES.Float, -lamp.down_deg)
+        order_operations(light, ["translate", "rotateY", "rotateX"])
 
 
 def write_stage_with_car(path: Path, stage: Usd.Stage, car: CarBody, *, is_lit: bool = False) -> None:

@@ -3,48 +3,106 @@
 The many instances are written as text, which USD parses faster than Python can author them; the frame around them is
 authored as Sdf specs in one change block. No stage is open, so that nothing is composed while writing.
 """
+# Over 300 lines: all that stands below the root is authored in one change block, point instancers too.
 
+import math
 import posixpath
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 from pathlib import Path
 
 import numpy as np
-from pxr import Sdf, Vt
+from numpy.typing import NDArray
+from pxr import Gf, Kind, Sdf, Vt
 
 from garage2usd.common.processes import without_collector
-from garage2usd.garage.level_place import GARAGE_NAME
-from garage2usd.layout import Layout
-from garage2usd.objects import Spec
+from garage2usd.garage.levels import GARAGE_NAME
+from garage2usd.layout import Layout, ObjectTable
+from garage2usd.objects import KINDS, Spec
 from garage2usd.stage.arrangement import Arrangement, row_name, tile_name
-from garage2usd.stage.authoring import define, save, set_units
-from garage2usd.stage.cameras import author_cameras, set_frames
-from garage2usd.stage.instances import InstanceWriter
-from garage2usd.stage.lane_curves import LANE_GRAPH_FILE, STALL_OUTLINES, write_lane_graph
-from garage2usd.stage.own_assets import OWN_ASSETS
-from garage2usd.stage.prim_text import (
+from garage2usd.stage.asset_files import OWN_ASSETS
+from garage2usd.stage.authoring import (
     anchored,
+    attribute,
+    define,
     group_pieces,
     group_text,
     inherits_text,
     moved_text,
+    new_layer,
+    numbers,
     place_text,
     reference_text,
+    relationship,
     rounded_m,
+    save,
+    set_units,
 )
+from garage2usd.stage.cameras import author_cameras, set_frames
+from garage2usd.stage.curves import LANE_GRAPH_FILE, STALL_OUTLINES, write_lane_graph
+from garage2usd.stage.instances import InstanceWriter, TilePrototypes, share_tiles
+from garage2usd.stage.labels import world_bounds_m
 from garage2usd.stage.prototypes import Prototype
-from garage2usd.stage.scatter import write_instancer
-from garage2usd.stage.tile_prototypes import TilePrototypes, share_tiles
 from garage2usd.stage.variants import OCCUPIED_STALL, SWITCHES, variant_texts
 
-__all__ = ["write_garage_layer"]
-
+_TYPES = Sdf.ValueTypeNames
 _CLASSES = "Classes"
 """Scope of the classes from which objects of a variant set inherit."""
 _TILE_CLASSES = "TilePrototypes"
 """Scope of the classes from which equal tiles, and equal parts of tiles, inherit."""
 _PHYSICS = "PhysicsScene"
 """Type and name of the prim that follows the garage's content."""
+
+
+def write_instancer(
+    path: Path,
+    objects: ObjectTable,
+    rows: NDArray[np.intp],
+    prototypes: Mapping[Spec, Prototype],
+    *,
+    name: str,
+    asset_folder: str,
+    own_assets: str,
+) -> None:
+    """Write a layer with a point instancer `name`, with a point for each object in `rows`, all of one kind.
+
+    The paths `asset_folder` and `own_assets` of its assets are relative to the layer.
+
+    Notes
+    -----
+    Objects with colliders are excluded, since physics engines ignore colliders of point instancers. Some browser
+    viewers draw only one copy.
+    """
+    shapes, indices = np.unique(objects.spec[rows], return_inverse=True)
+    specs = [objects.specs[shape] for shape in shapes]
+    root = Sdf.Path.absoluteRootPath.AppendChild(name)
+    with new_layer(path, default_prim=name) as layer:
+        prim = define(layer, root, "PointInstancer", kind=Kind.Tokens.group, label=KINDS[objects.kind[rows[0]]].label)
+        _author_prototypes(prim, [prototypes[spec] for spec in specs], (asset_folder, own_assets))
+        _author_points(prim, objects, rows, indices)
+
+
+def _author_prototypes(instancer: Sdf.PrimSpec, prototypes: Sequence[Prototype], assets: tuple[str, str]) -> None:
+    folder = define(instancer.layer, instancer.path.AppendChild("Prototypes"), "Scope", kind=Kind.Tokens.group)
+    targets = []
+    for prototype in prototypes:
+        child = define(instancer.layer, folder.path.AppendChild(prototype.name), "Xform")
+        layer, root = prototype.place(*assets)
+        reference = Sdf.Reference(layer, f"/{root}" if root else Sdf.Path.emptyPath)
+        child.SetInfo("references", Sdf.ReferenceListOp.Create(prependedItems=[reference]))
+        targets.append(child.path)
+    relationship(instancer, "prototypes", targets)
+
+
+def _author_points(prim: Sdf.PrimSpec, objects: ObjectTable, rows: NDArray[np.intp], indices: NDArray[np.intp]) -> None:
+    positions, yaws_rad = objects.position_m[rows], objects.yaw_rad[rows]
+    numbers(prim, "protoIndices", indices)
+    attribute(prim, "positions", _TYPES.Point3fArray, Vt.Vec3fArray.FromNumpy(positions.astype(np.float32)))
+    turns = {yaw: Gf.Quath(math.cos(yaw / 2), 0.0, math.sin(yaw / 2), 0.0) for yaw in set(yaws_rad.tolist())}
+    attribute(prim, "orientations", _TYPES.QuathArray, Vt.QuathArray([turns[yaw] for yaw in yaws_rad.tolist()]))
+    least, greatest = world_bounds_m(objects, rows)
+    extent = np.stack([least.min(axis=0), greatest.max(axis=0)]).astype(np.float32)
+    attribute(prim, "extent", _TYPES.Float3Array, Vt.Vec3fArray.FromNumpy(extent))
 
 
 @without_collector()

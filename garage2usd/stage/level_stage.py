@@ -13,23 +13,18 @@ from garage2usd.assets import Finish
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.output import store
 from garage2usd.common.progress import Progress, silent
-from garage2usd.config.stage import AssetPlace, StageConfig, StageForm
+from garage2usd.config.outputs import AssetPlace, StageConfig, StageForm
 from garage2usd.layout import Layout
 from garage2usd.look import finishes_of
 from garage2usd.objects import Spec
 from garage2usd.stage.arrangement import Arrangement, arrange
-from garage2usd.stage.asset_files import AssetFile, asset_file
+from garage2usd.stage.asset_files import OWN_ASSETS, AssetFile, asset_file, own_shapes, write_own_assets
 from garage2usd.stage.cameras import DRIVE_NAME, write_drive
-from garage2usd.stage.flat import flatten_stage
+from garage2usd.stage.forms import flatten_stage, write_usdz
 from garage2usd.stage.garage_layer import write_garage_layer
-from garage2usd.stage.looks import TEXTURE_FOLDER
-from garage2usd.stage.own_assets import OWN_ASSETS, own_shapes, write_own_assets
+from garage2usd.stage.looks import TEXTURE_FOLDER, NamedFile, textures_of
 from garage2usd.stage.prototypes import asset_of, name_prototypes
-from garage2usd.stage.texture_files import NamedFile, textures_of
-from garage2usd.stage.usdz import write_usdz
 from garage2usd.structure.grid import Cell
-
-__all__ = ["StageFiles", "StageFormat", "arrangement_of", "asset_folder_name", "shared_folder", "write_level_stage"]
 
 
 class StageFormat(StrEnum):

@@ -1,12 +1,36 @@
-"""Materials as UsdPreviewSurface networks."""
+"""Looks of assets: materials as UsdPreviewSurface networks, display colours, and texture files named by content."""
 
+import hashlib
+import posixpath
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
 from pxr import Gf, Sdf
 
-from garage2usd.assets import Material, NonVisual, Texture, pascal_case
-from garage2usd.scenes.taxonomy import FINISH, LABELS_SCHEMA, labels_name
+from garage2usd.assets import (
+    Asset,
+    Finish,
+    Material,
+    NonVisual,
+    OwnTexture,
+    PaintedTexture,
+    Part,
+    Rgb,
+    StoredTexture,
+    Texture,
+    finished,
+    pascal_case,
+)
+from garage2usd.assets.colours import material_colour
+from garage2usd.assets.own_textures import own_file
+from garage2usd.assets.textures import texture_folder
+from garage2usd.assets.textures.paints import painted
+from garage2usd.config.outputs import TextureQuality
+from garage2usd.scenes.prims import FINISH, LABELS_SCHEMA, labels_name
 from garage2usd.stage.authoring import apply_schemas, attribute, connect, define, words
-
-__all__ = ["PACKED_CHANNELS", "TEXTURE_FOLDER", "define_material", "label_material", "set_glow", "set_varying"]
 
 TEXTURE_FOLDER = "textures"
 """Folder of the textures beside the assets that use them."""
@@ -18,6 +42,8 @@ _NON_VISUAL = "omni:simready:nonvisual"
 """Namespace of SimReady's attributes for LiDAR, radar and ultrasonic sensors."""
 _UNTINTED = (1.0, 1.0, 1.0)
 _TYPES = Sdf.ValueTypeNames
+_DIGITS = 16
+"""Hexadecimal digits of SHA-256 in a name; the chance of a collision among a million files is 3e-8."""
 
 
 def define_material(
@@ -150,3 +176,82 @@ def _shader(layer: Sdf.Layer, path: Sdf.Path, identifier: str) -> Sdf.PrimSpec:
     shader = define(layer, path, "Shader")
     attribute(shader, "info:id", _TYPES.Token, identifier, uniform=True)
     return shader
+
+
+def display_colour(asset: Asset, finishes: Mapping[str, Finish]) -> Rgb:
+    """Linear colour of the material that covers most of an asset's surface."""
+    areas_m2 = dict.fromkeys((part.material for part in asset.parts), 0.0)
+    if len(areas_m2) > 1:
+        for part in asset.parts:
+            areas_m2[part.material] += _area_m2(part)
+    most = max(areas_m2, key=areas_m2.__getitem__)
+    return material_colour(finished(most, finishes).material)
+
+
+def _area_m2(part: Part) -> float:
+    """Total area in square metres of a part's faces, each a fan of triangles around its first corner."""
+    counts = part.face_counts
+    corners = part.points[part.face_indices].astype(np.float64)
+    starts = np.cumsum(counts) - counts
+    first = np.repeat(corners[starts], counts, axis=0)
+    crosses = np.cross(corners[:-1] - first[:-1], corners[1:] - first[1:])
+    follows = np.repeat(np.arange(len(counts)), counts)
+    inner = follows[:-1] == follows[1:]
+    sums = np.zeros((len(counts), 3))
+    np.add.at(sums, follows[:-1][inner], crosses[inner])
+    return float(np.linalg.norm(sums, axis=1).sum() / 2)
+
+
+class NamedFile(NamedTuple):
+    """A file named by its content."""
+
+    name: str
+    data: bytes
+
+
+def content_name(stem: str, data: bytes, suffix: str) -> str:
+    """Name a file by its content: `stem`, the beginning of its SHA-256, and `suffix`."""
+    return f"{stem}_{hashlib.sha256(data).hexdigest()[:_DIGITS]}{suffix}"
+
+
+@lru_cache(maxsize=256)
+def texture_file(texture: Texture, quality: TextureQuality) -> NamedFile:
+    """Load a texture of the package or of the user in a quality, or derive it from one; cached per process.
+
+    Raises
+    ------
+    ConfigError
+        If a texture of the user is invalid.
+    """
+    if isinstance(texture, OwnTexture):
+        data, suffix = own_file(texture, quality)
+        return NamedFile(content_name(f"own_{texture.role}_{texture.use}", data, suffix), data)
+    if isinstance(texture, StoredTexture):
+        return NamedFile(content_name(texture.stem, texture.data, texture.suffix), texture.data)
+    path = texture_folder(quality) / (texture.mask if isinstance(texture, PaintedTexture) else texture)
+    data = path.read_bytes()
+    if isinstance(texture, PaintedTexture):
+        data = painted(data, texture.paint_rgb, texture.ground_rgb)
+    return NamedFile(content_name(path.stem, data, path.suffix), data)
+
+
+def textures_of(
+    materials: Iterable[str], finishes: Mapping[str, Finish], quality: TextureQuality
+) -> tuple[NamedFile, ...]:
+    """List the textures of materials, by the materials' keys, with the given finishes; each once, sorted by name."""
+    used = {texture for key in materials for texture in finished(key, finishes).material.textures()}
+    return tuple(sorted({texture_file(texture, quality) for texture in used}))
+
+
+def named_textures(material: Material, quality: TextureQuality, *, folder: str = "") -> Material:
+    """Replace the textures of a material by their names from `texture_file`, or by paths if a folder is given."""
+
+    def name(texture: Texture | None) -> str | None:
+        return None if texture is None else posixpath.join(folder, texture_file(texture, quality).name)
+
+    return replace(
+        material,
+        colour_texture=name(material.colour_texture),
+        packed_texture=name(material.packed_texture),
+        normal_texture=name(material.normal_texture),
+    )

@@ -25,11 +25,11 @@ from garage2usd.assets import (
     pascal_case,
 )
 from garage2usd.assets.colours import material_colour
-from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
-from garage2usd.config.stage import TextureQuality
+from garage2usd.assets.light import USUAL_LAMP_RGB
+from garage2usd.config.outputs import TextureQuality
 from garage2usd.objects import Kind
 from garage2usd.objects.car import PAINT_SET
-from garage2usd.objects.pieces import piece_name, pieces_of
+from garage2usd.objects.kind import piece_name, pieces_of
 from garage2usd.reading.lights import luminance_of
 from garage2usd.stage.authoring import (
     apply_schemas,
@@ -41,12 +41,16 @@ from garage2usd.stage.authoring import (
     order_operations,
     relationship,
 )
-from garage2usd.stage.display_colours import display_colour
-from garage2usd.stage.looks import TEXTURE_FOLDER, define_material, label_material, set_glow, set_varying
-from garage2usd.stage.texture_files import named_textures
+from garage2usd.stage.looks import (
+    TEXTURE_FOLDER,
+    define_material,
+    display_colour,
+    label_material,
+    named_textures,
+    set_glow,
+    set_varying,
+)
 from garage2usd.stage.variants import POWER_SET
-
-__all__ = ["NITS_PER_INTENSITY", "define_mesh", "define_prototype", "write_prototype"]
 
 NITS_PER_INTENSITY = 27.0
 """Luminance in cd/m2 of a UsdLux intensity of 1, so that a garage lit to 50 lx renders well at an exposure of 0."""

@@ -6,18 +6,6 @@ from typing import NamedTuple
 from garage2usd.objects import KINDS
 from garage2usd.objects.kind import VariantSet
 
-__all__ = [
-    "BLOCKED_BY",
-    "OCCUPIED",
-    "OCCUPIED_STALL",
-    "POWER_SET",
-    "SWITCHES",
-    "Switch",
-    "VariantTexts",
-    "occupied_text",
-    "variant_texts",
-]
-
 POWER_SET = "power"
 """Variant set of every light's asset: ``on`` or ``off``."""
 OCCUPIED = "garage:stall:occupied"

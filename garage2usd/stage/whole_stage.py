@@ -7,22 +7,19 @@ from pathlib import Path
 
 from pxr import Sdf
 
-from garage2usd.common.json_text import json_text
+from garage2usd.common.documents import json_text
 from garage2usd.common.progress import Progress, silent
-from garage2usd.config.stage import AssetPlace, StageConfig, StageForm
-from garage2usd.garage.level_place import GARAGE_NAME, LEVELS_NAME
+from garage2usd.config.outputs import AssetPlace, StageConfig, StageForm
+from garage2usd.garage.levels import GARAGE_NAME, LEVELS_NAME
 from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.objects.kind import VariantSet
 from garage2usd.reading.label_table import LabelledObject, LabelTable
-from garage2usd.stage.flat import flatten_stage
+from garage2usd.stage.authoring import anchored
+from garage2usd.stage.curves import LANE_GRAPH_FILE, STALL_OUTLINES, Drivable, write_lane_graph
+from garage2usd.stage.forms import flatten_stage, write_usdz
 from garage2usd.stage.labels import label_table
-from garage2usd.stage.lane_curves import LANE_GRAPH_FILE, STALL_OUTLINES, Drivable, write_lane_graph
 from garage2usd.stage.level_stage import StageFiles, StageFormat, arrangement_of, asset_folder_name, write_level_stage
-from garage2usd.stage.prim_text import anchored
-from garage2usd.stage.usdz import write_usdz
 from garage2usd.stage.variants import BLOCKED_BY, OCCUPIED, SWITCHES
-
-__all__ = ["stages_of_levels", "write_labels", "write_stage"]
 
 _PHYSICS = "PhysicsScene"
 _ALL = "all"

@@ -14,12 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.config.building import LinkKind
-from garage2usd.garage.level_place import LevelPlace, level_places
+from garage2usd.config.site import LinkKind
+from garage2usd.garage.levels import LevelPlace, level_places
 from garage2usd.structure.grid import Cell, CellArray, Structure
 from garage2usd.structure.stalls import Edge
-
-__all__ = ["Building", "Flight", "Link", "LinkKind", "Ramps", "Square", "level_cells"]
 
 Square = tuple[int, int]
 
@@ -66,7 +64,7 @@ class Ramps(ABC):
     @property
     @abstractmethod
     def place(self) -> tuple[Square, Edge, Edge, int]:
-        """Square, way and direction aside by which `garage2usd.config.building.RampsPlace` gives them, and count."""
+        """Square, way and direction aside by which `garage2usd.config.site.RampsPlace` gives them, and count."""
 
     @property
     @abstractmethod

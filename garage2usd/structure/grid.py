@@ -13,22 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.structure.border import bordered
-from garage2usd.structure.pieces import pieces_of
-
-__all__ = [
-    "NEIGHBOUR_STEPS",
-    "Cell",
-    "CellArray",
-    "Mask",
-    "Structure",
-    "cells_from_text",
-    "cells_to_text",
-    "edge_neighbour_count",
-    "outside_squares",
-    "sides_mm",
-    "squares_beside",
-]
+from garage2usd.structure.squares import bordered, pieces_of
 
 CellArray = NDArray[np.int8]
 Mask = NDArray[np.bool_]

@@ -4,13 +4,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from garage2usd.config.building import LinkKind
-from garage2usd.garage.coil_line import CoilLine
+from garage2usd.config.site import LinkKind
+from garage2usd.garage.ramp_lines import CoilLine
 from garage2usd.structure.building import Link, Ramps, Square
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.stalls import Edge
-
-__all__ = ["LANE_M", "WALL_M", "CoilBlock", "Helix"]
 
 LANE_M = 4.2
 """Width of a helix between its walls; 3.84 m between kerbs."""

@@ -12,13 +12,11 @@ import numpy as np
 from garage2usd.common.errors import UnreachableStallError
 from garage2usd.config import BayConfig
 from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, LaneNode
-from garage2usd.structure.border import bordered
-from garage2usd.structure.directions import BOTH_WAYS, LaneDirections
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.structure.lanes import BOTH_WAYS, LaneDirections
+from garage2usd.structure.squares import bordered
 from garage2usd.structure.stall_runs import StallRun, rows_of_runs
 from garage2usd.structure.stalls import StallRow, stall_rows
-
-__all__ = ["LaneSquares", "Square", "StallType", "build_lane_graph", "unproven_lane_graph"]
 
 Square = tuple[int, int]
 

@@ -1,8 +1,8 @@
 """Runs of stalls: consecutive squares along a lane whose stalls have one shape, laid out between the columns."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import groupby
 
@@ -11,20 +11,9 @@ from numpy.typing import NDArray
 
 from garage2usd.config.site import BayConfig
 from garage2usd.garage import StallKind
-from garage2usd.structure.directions import BOTH_WAYS, LaneDirections
 from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.stall_shapes import StallShape
-from garage2usd.structure.stalls import Edge, StallRow
-
-__all__ = [
-    "StallRun",
-    "capacity_of_runs",
-    "depth_needed_m",
-    "lean_of_traffic",
-    "rows_of_runs",
-    "runs_of_rows",
-    "turn_of",
-]
+from garage2usd.structure.lanes import BOTH_WAYS, LaneDirections
+from garage2usd.structure.stalls import Edge, StallRow, StallShape
 
 Square = tuple[int, int]
 _MM_PER_M = 1000
@@ -231,3 +220,69 @@ def _beyond(place: int, taken: Sequence[tuple[int, int]]) -> int:
         if low < place < high:
             place = high
     return place
+
+
+def split_for_motorcycles(
+    runs: Sequence[StallRun],
+    shape: StallShape,
+    share: float,
+    rng: np.random.Generator,
+    *,
+    count: Callable[[StallRun], int],
+    is_whole: Callable[[StallRun], bool],
+) -> tuple[list[StallRun], list[StallRun]]:
+    """Take squares from runs for motorcycles, from the beginning of one random run after the other.
+
+    Parameters
+    ----------
+    runs
+        Runs of stalls for cars.
+    shape
+        Shape of the stalls for motorcycles.
+    share
+        Wanted share of the stalls, from 0 to 1.
+    rng
+        Decides which runs.
+    count
+        Number of stalls of a run.
+    is_whole
+        True for a run that is taken as a whole or not at all.
+
+    Returns
+    -------
+    tuple
+        The runs that are left for cars, and those for motorcycles, whose share is as near as whole squares allow.
+    """
+    cars, motorcycles = sum(map(count, runs)), 0
+    left, taken = list(runs), list[StallRun]()
+
+    def error(more: int, fewer: int) -> float:
+        stalls = cars + motorcycles + more - fewer
+        return abs((motorcycles + more) / stalls - share) if stalls else share
+
+    for index in rng.permutation(len(runs)).tolist():
+        run = runs[index]
+        best = error(0, 0), 0, 0, 0
+        for length in (len(run.squares),) if is_whole(run) else range(1, len(run.squares) + 1):
+            first, _ = _parts(run, length)
+            more, fewer = count(replace(first, shape=shape)), count(first)
+            best = min(best, (error(more, fewer), length, more, fewer))
+        _, length, more, fewer = best
+        if not length:
+            if taken:
+                break
+            continue
+        first, rest = _parts(run, length)
+        taken.append(replace(first, shape=shape))
+        left[left.index(run) : left.index(run) + 1] = rest
+        cars, motorcycles = cars - fewer, motorcycles + more
+        if rest:
+            break
+    return left, taken
+
+
+def _parts(run: StallRun, length: int) -> tuple[StallRun, list[StallRun]]:
+    """Return the first squares of a run and, if there are more, the run of the others."""
+    squares = run.squares
+    rest = [replace(run, first=squares[length])] if length < len(squares) else []
+    return replace(run, last=squares[length - 1]), rest

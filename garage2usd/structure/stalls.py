@@ -1,25 +1,103 @@
-"""Stall capacity of squares, shared by the score of a structure and its layout.
+"""Stalls on squares: their shapes, the capacity of squares for score and layout, and the edges of doors.
 
 A free square is served through an edge that it shares with a lane. Stalls are side by side along that edge, between
 the columns on its two ends, with their length across the square. `garage2usd.structure.stall_runs` has the stalls of
 other shapes, which are laid out along several squares.
 """
 
+import math
 from dataclasses import dataclass
 from enum import IntEnum
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config.site import BayConfig
-from garage2usd.structure.border import bordered
-from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, CellArray, Mask, Structure
-from garage2usd.structure.stall_shapes import StallShape
+from garage2usd.garage.kinds import StallKind
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, CellArray, Mask, Structure, outside_squares
+from garage2usd.structure.squares import bordered
 
-__all__ = ["CapacityTable", "Edge", "StallRow", "capacity_table", "served_capacity", "square_capacity", "stall_rows"]
-
+PERPENDICULAR_DEG, PARALLEL_DEG = 90.0, 0.0
 _MM_PER_M = 1000
+
+
+@dataclass(frozen=True)
+class StallShape:
+    """The size of a stall and its angle to the aisle.
+
+    Attributes
+    ----------
+    width_m, length_m
+        Sides of the rectangle for the car.
+    angle_deg
+        Angle between the stall's long sides and the aisle: 90 for perpendicular stalls, 0 for parallel ones.
+    size
+        Name of the size class.
+
+    Notes
+    -----
+    With width w, length l and angle a, angled stalls are parallelograms of pitch w / sin a and depth
+    l sin a + w cos a. Both are rounded up to the millimetre.
+    """
+
+    width_m: float
+    length_m: float
+    angle_deg: float = PERPENDICULAR_DEG
+    size: str = "standard"
+
+    @cached_property
+    def kind(self) -> StallKind:
+        """Orientation of the stall relative to its lane."""
+        return kind_of_angle(self.angle_deg)
+
+    @cached_property
+    def pitch_m(self) -> float:
+        """Length of the mouth, along the aisle."""
+        if self.kind is StallKind.PARALLEL:
+            return self.length_m
+        return self.width_m if self.kind is StallKind.PERPENDICULAR else _rounded_up(self.width_m / self._sin)
+
+    @cached_property
+    def depth_m(self) -> float:
+        """Extent across the aisle, from the mouth to the rear."""
+        if self.kind is StallKind.PARALLEL:
+            return self.width_m
+        if self.kind is StallKind.PERPENDICULAR:
+            return self.length_m
+        return _rounded_up(self.length_m * self._sin + self.width_m * self._cos)
+
+    @cached_property
+    def slope(self) -> float:
+        """Offset of the sides along the aisle per metre of depth: cot a for angled stalls, else 0."""
+        return slope_of_angle(self.angle_deg)
+
+    @property
+    def _sin(self) -> float:
+        return math.sin(math.radians(self.angle_deg))
+
+    @property
+    def _cos(self) -> float:
+        return math.cos(math.radians(self.angle_deg))
+
+
+def kind_of_angle(angle_deg: float) -> StallKind:
+    """Return the kind of stall with an angle to the lane."""
+    if angle_deg == PARALLEL_DEG:
+        return StallKind.PARALLEL
+    return StallKind.PERPENDICULAR if angle_deg == PERPENDICULAR_DEG else StallKind.ANGLED
+
+
+@lru_cache(maxsize=64)
+def slope_of_angle(angle_deg: float) -> float:
+    """Return the cotangent of the angle of angled stalls, and 0 for others."""
+    if kind_of_angle(angle_deg) is not StallKind.ANGLED:
+        return 0.0
+    return round(1 / math.tan(math.radians(angle_deg)), 9)
+
+
+def _rounded_up(length_m: float) -> float:
+    return math.ceil(round(length_m * _MM_PER_M, 6)) / _MM_PER_M
 
 
 class Edge(IntEnum):
@@ -183,3 +261,24 @@ def _held(
 ) -> NDArray[np.int64]:
     """Count stalls on free squares with one or both of two opposite edges open."""
     return np.where(free, np.where(one & other, double, np.where(one | other, single, 0)), 0)
+
+
+def door_edges(cells: CellArray) -> dict[tuple[int, int], Edge]:
+    """Return the edge with the door of each portal (row, col) that has an edge on the outside.
+
+    Of several such edges, the one opposite a lane is used, so that cars drive straight in; else the first.
+    """
+    outside = bordered(outside_squares(cells), value=True)
+    lane = bordered(cells == Cell.LANE)
+
+    def beyond(row: int, col: int, edge: Edge) -> tuple[int, int]:
+        dr, dc = NEIGHBOUR_STEPS[edge]
+        return row + 1 + dr, col + 1 + dc
+
+    doors = {}
+    for row, col in np.argwhere(cells >= Cell.ENTRANCE).tolist():
+        outer = [edge for edge in Edge if outside[beyond(row, col, edge)]]
+        opposite = [edge for edge in outer if lane[beyond(row, col, edge.opposite)]]
+        if outer:
+            doors[row, col] = (opposite or outer)[0]
+    return doors

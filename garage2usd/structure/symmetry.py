@@ -7,8 +7,6 @@ import numpy as np
 
 from garage2usd.structure.grid import Cell, CellArray
 
-__all__ = ["canonical_cells", "cropped_cells", "eight_symmetries", "levels_digest", "plan_digest"]
-
 
 def cropped_cells(cells: CellArray) -> CellArray:
     """Crop the border rows and columns that are entirely outside the contour.

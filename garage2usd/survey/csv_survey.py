@@ -14,9 +14,7 @@ from garage2usd.garage import Point, StallUse
 from garage2usd.native import elementary
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import Survey
-from garage2usd.survey.words import number_of, positive_of, refuse
-
-__all__ = ["read_csv_survey"]
+from garage2usd.survey.text import number_of, positive_of, refuse
 
 _RECTANGLE = ("x", "y", "width_m", "length_m", "heading_deg")
 _CORNERS = tuple(f"{axis}{corner}" for corner in range(1, 5) for axis in "xy")

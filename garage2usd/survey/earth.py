@@ -4,12 +4,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.extras import of_extra
+from garage2usd.common.package import of_extra
 
 with of_extra("a survey in degrees"):
     from pyproj import Transformer
-
-__all__ = ["ground_of"]
 
 Floats = NDArray[np.float64]
 

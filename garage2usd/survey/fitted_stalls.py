@@ -14,8 +14,6 @@ from garage2usd.garage import Arc, LaneGraph, Point
 from garage2usd.survey.stall_shapes import PARALLEL_DEG, FittedShape, snapped_yaw_rad, stall_shape, with_parallel_rear
 from garage2usd.survey.survey import Survey, SurveyedStall, Unplaced
 
-__all__ = ["FittedStall", "fitted_stalls"]
-
 Floats = NDArray[np.float64]
 _SIDES = 4
 _REACH_M = 9.0

@@ -10,9 +10,7 @@ from numpy.typing import NDArray
 from garage2usd.common.documents import MAX_REPORT_BYTES, read_json
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import PortalKind, Survey, Unplaced
-from garage2usd.survey.words import length_of, number_of, portal_kind_of, refuse, size_of, unread_length, use_of
-
-__all__ = ["read_geojson_survey"]
+from garage2usd.survey.text import length_of, number_of, portal_kind_of, refuse, size_of, unread_length, use_of
 
 Floats = NDArray[np.float64]
 

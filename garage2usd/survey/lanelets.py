@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from garage2usd.survey.osm_elements import OsmElements, OsmRelation
 from garage2usd.survey.survey import Unplaced
 
-__all__ = ["CentreLine", "Lanelet", "lanes_of_lanelets"]
-
 Floats = NDArray[np.float64]
 
 _NOT_FOR_CARS = {

@@ -10,9 +10,7 @@ import shapely
 from numpy.typing import NDArray
 
 from garage2usd.survey.opendrive_lines import Cubics, RoadLine, cubics_of
-from garage2usd.survey.words import number_of, refuse
-
-__all__ = ["RoadLane", "lanes_of_road"]
+from garage2usd.survey.text import number_of, refuse
 
 Floats = NDArray[np.float64]
 

@@ -10,9 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fresnel
 
-from garage2usd.survey.words import number_of, refuse
-
-__all__ = ["Cubics", "RoadLine", "cubics_of", "road_line"]
+from garage2usd.survey.text import number_of, refuse
 
 Floats = NDArray[np.float64]
 Curve = Callable[[Floats], tuple[Floats, Floats, Floats]]

@@ -17,10 +17,7 @@ from garage2usd.survey.opendrive_lanes import lanes_of_road
 from garage2usd.survey.opendrive_lines import RoadLine, road_line
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import Survey, Unplaced
-from garage2usd.survey.words import number_of, positive_of, refuse, use_of
-from garage2usd.survey.xml_file import read_xml
-
-__all__ = ["read_opendrive_survey"]
+from garage2usd.survey.text import number_of, positive_of, read_xml, refuse, use_of
 
 Floats = NDArray[np.float64]
 

@@ -7,10 +7,7 @@ from typing import NamedTuple
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.garage import Point
-from garage2usd.survey.words import number_of, refuse
-from garage2usd.survey.xml_file import read_xml
-
-__all__ = ["OsmElements", "OsmMember", "OsmNode", "OsmRelation", "OsmWay", "read_osm", "ring_of"]
+from garage2usd.survey.text import number_of, read_xml, refuse
 
 
 class OsmNode(NamedTuple):

@@ -11,9 +11,7 @@ from garage2usd.survey.lanelets import lanes_of_lanelets
 from garage2usd.survey.osm_elements import OsmElements, OsmWay, read_osm, ring_of
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import PortalKind, Survey, Unplaced
-from garage2usd.survey.words import length_of, levels_of, size_of, unread_length, use_of
-
-__all__ = ["read_osm_survey"]
+from garage2usd.survey.text import length_of, levels_of, size_of, unread_length, use_of
 
 _MOST_IN_A_ROW = 1000
 _STALL_AMENITIES = {"parking_space"}

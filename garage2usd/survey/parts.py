@@ -23,8 +23,6 @@ from garage2usd.survey.survey import (
     Unplaced,
 )
 
-__all__ = ["STRAIGHT_M", "SurveyParts", "corners_of", "side_at"]
-
 Floats = NDArray[np.float64]
 
 STRAIGHT_M = 0.15

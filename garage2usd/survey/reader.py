@@ -11,8 +11,6 @@ from garage2usd.survey.osm_survey import read_osm_survey
 from garage2usd.survey.survey import Survey
 from garage2usd.survey.toml_survey import read_toml_survey
 
-__all__ = ["SURVEY_SUFFIXES", "read_survey"]
-
 _READERS: dict[str, Callable[[Path], Survey]] = {
     ".toml": read_toml_survey,
     ".csv": read_csv_survey,

@@ -8,8 +8,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from garage2usd.garage import Point
 
-__all__ = ["PARALLEL_DEG", "FittedShape", "snapped_yaw_rad", "stall_shape", "with_parallel_rear"]
-
 Floats = NDArray[np.float64]
 _SQUARE_DEG, _LEAST_ANGLE_DEG, _PARALLEL_SIDES_DEG = 1.0, 25.0, 3.0
 _PERPENDICULAR_DEG, PARALLEL_DEG = 90.0, 0.0

@@ -15,18 +15,7 @@ from garage2usd.garage import Point, StallKind, StallUse
 from garage2usd.native import elementary
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import PortalKind, Survey
-from garage2usd.survey.words import MOST_M
-
-__all__ = [
-    "DrawnColumn",
-    "DrawnGarage",
-    "DrawnLane",
-    "DrawnPortal",
-    "DrawnRun",
-    "DrawnSolid",
-    "DrawnStall",
-    "read_toml_survey",
-]
+from garage2usd.survey.text import MOST_M
 
 Metres = Annotated[float, Field(ge=-MOST_M, le=MOST_M)]
 Place = tuple[Metres, Metres]

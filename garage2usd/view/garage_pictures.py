@@ -4,11 +4,9 @@ from PIL import Image
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.garage_model import Garage, GarageLevel
-from garage2usd.view.learning_picture import draw_learning_curve, draw_structures
+from garage2usd.view.drawing import to_image
 from garage2usd.view.plan_picture import draw_plan
-from garage2usd.view.raster import to_image
-
-__all__ = ["draw_pictures"]
+from garage2usd.view.thumbnails import draw_learning_curve, draw_structures
 
 
 def draw_pictures(

@@ -8,8 +8,6 @@ from garage2usd.layout import Layout
 from garage2usd.structure.grid import Structure
 from garage2usd.view.drawing import Colour, Disc, Line, Point, Region, Text, text_width
 
-__all__ = ["ARROW_END_M", "GREY", "INK", "MARK_COLOUR", "PAPER", "Mark", "Sheet"]
-
 INK: Colour = (32, 34, 38)
 GREY: Colour = (132, 132, 128)
 PAPER: Colour = (250, 249, 246)

@@ -19,8 +19,6 @@ from garage2usd.stage.prototypes import asset_of
 from garage2usd.view.drawing import Colour, Drawing, Line, Point, Region, Text, text_width
 from garage2usd.view.plan_sheet import GREY, INK, PAPER
 
-__all__ = ["draw_section"]
-
 _CUT: Colour = (96, 90, 86)
 _CAR = "car"
 _BEHIND: dict[str, Colour] = {"wall": (240, 238, 232), "column": (222, 220, 214), _CAR: (196, 208, 224)}

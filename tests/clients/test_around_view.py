@@ -18,7 +18,7 @@ from support.sensor_axes import blender_world
 from garage2usd.recordings import record
 from garage2usd.render.cameras import View
 from garage2usd.render.pictures import Picture
-from garage2usd.render.slot_labels import SlotFormat
+from garage2usd.render.tables import SlotFormat
 from garage2usd.sensors.rig.rig import read_rig
 
 pytestmark = [

@@ -18,14 +18,14 @@ from support.slot_corners import judge_corners
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.progress import silent
 from garage2usd.config.vehicles import CAR_BODIES
-from garage2usd.objects.pieces import PAINT_CLASSES
+from garage2usd.objects.kind import PAINT_CLASSES
 from garage2usd.reading.labels import read_labels
 from garage2usd.recordings import record
-from garage2usd.render.birds_eye_views import birds_eye_view, looked_through
 from garage2usd.render.cameras import View
 from garage2usd.render.drawing import Drawing
+from garage2usd.render.free_views import birds_eye_view, looked_through
 from garage2usd.render.pictures import Picture
-from garage2usd.render.slot_labels import SlotFormat, SlotLabels, check_slots
+from garage2usd.render.tables import SlotFormat, SlotLabels, check_slots
 from garage2usd.sensors.rays.birds_eye import FREE_CLASSES, BirdsEye
 from garage2usd.sensors.rig.rig import read_rig, rig_from_mapping
 

@@ -19,7 +19,7 @@ from support.small_garage import SETTINGS
 from support.stage_textures import texture_names
 
 import garage2usd
-from garage2usd.config.maps import Leg
+from garage2usd.config.outputs import Leg
 from garage2usd.garage_sources import read_built
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.stage.driving_car import CAR_NAME, write_driving_car

@@ -20,12 +20,11 @@ from garage2usd.objects import KINDS
 from garage2usd.objects.car import OpenCarSpec
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
-from garage2usd.render.birds_eye_views import birds_eye_view, looked_through
 from garage2usd.render.drawing import Drawing
-from garage2usd.render.free_camera import free_view
+from garage2usd.render.free_views import birds_eye_view, free_view, looked_through
 from garage2usd.render.pictures import Picture, read_ids
 from garage2usd.sensors.formats.coco import coco_panoptic, panoptic_segments
-from garage2usd.sensors.formats.nuscenes_classes import BOXED, CATEGORIES, categories_of_classes
+from garage2usd.sensors.formats.nuscenes_tables import BOXED, CATEGORIES, categories_of_classes
 from garage2usd.sensors.rays.birds_eye import FREE_CLASSES, BirdsEye
 from garage2usd.sensors.rays.lidar import scan, spinning_beams
 from garage2usd.sensors.rays.ray_scene import read_ray_scene

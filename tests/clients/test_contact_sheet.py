@@ -12,7 +12,7 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
 from garage2usd.contact_sheet import SheetGarage, draw_contact_sheet
 from garage2usd.garage import StallUse
-from garage2usd.render.free_camera import free_view
+from garage2usd.render.free_views import free_view
 
 pytestmark = [
     pytest.mark.client,

@@ -14,7 +14,7 @@ from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
 from garage2usd.cli import main
-from garage2usd.common import extras, system
+from garage2usd.common import package, system
 from garage2usd.common.errors import ConfigError, MissingExtraError
 from garage2usd.render import Picture, blender_process, drawing, render_stage
 from garage2usd.render.blender_process import BLENDER_MODULE, Blender, find_blender
@@ -49,7 +49,7 @@ def program(place, version="5.0.1", text=PROGRAM):
 @pytest.fixture
 def without_module(monkeypatch):
     """No module `bpy`, and no Blender on the path or elsewhere."""
-    monkeypatch.setattr(extras, "find_spec", lambda name: None if name == "bpy" else name)
+    monkeypatch.setattr(package, "find_spec", lambda name: None if name == "bpy" else name)
     monkeypatch.setattr(blender_process, "blender_places", lambda _environment: [])
     monkeypatch.setenv("PATH", "")
 
@@ -101,7 +101,7 @@ def test_a_path_that_is_no_blender_is_an_error_in_one_line(made, tmp_path):
 @pytest.mark.usefixtures("without_module")
 def test_one_on_the_path_and_then_the_newest_elsewhere_is_found(tmp_path, monkeypatch):
     with pytest.raises(MissingExtraError, match=r"or a Blender 5\.0 or later that is installed: --blender names"):
-        extras.require("render", blender_process.modules_of(find_blender()), without=blender_process.WITHOUT_MODULE)
+        package.require("render", blender_process.modules_of(find_blender()), without=blender_process.WITHOUT_MODULE)
     old, new = program(tmp_path / "blender-4.2" / "blender", "4.2.0"), program(tmp_path / "b" / "blender", "5.1.0")
     monkeypatch.setattr(blender_process, "blender_places", lambda _environment: [old, new])
     assert find_blender() == Blender(new)
@@ -112,7 +112,7 @@ def test_one_on_the_path_and_then_the_newest_elsewhere_is_found(tmp_path, monkey
 
 
 def test_the_module_comes_before_programs(tmp_path, monkeypatch):
-    monkeypatch.setattr(extras, "find_spec", lambda name: name)
+    monkeypatch.setattr(package, "find_spec", lambda name: name)
     monkeypatch.setenv("PATH", str(program(tmp_path / "blender").parent))
     assert find_blender() == BLENDER_MODULE
     with pytest.raises(ConfigError, match="no such file"):

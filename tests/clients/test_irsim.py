@@ -12,7 +12,7 @@ from support.map_judges import JUDGES, has
 from support.sample_files import REPOSITORY, SMALL_SAMPLES
 from support.soak import soak_but
 
-from garage2usd.config.maps import GridConfig
+from garage2usd.config.outputs import GridConfig
 from garage2usd.garage_sources import read_built
 from garage2usd.maps.frame import map_points
 from garage2usd.maps.occupancy import write_grid

@@ -10,7 +10,7 @@ from support.soak import soak_but
 from support.stage_lanes import read_stage
 
 import garage2usd
-from garage2usd.config.maps import MapsConfig
+from garage2usd.config.outputs import MapsConfig
 from garage2usd.garage_sources import read_built
 from garage2usd.maps.lanelet2 import write_lanelet2
 
@@ -92,10 +92,10 @@ FAULTS = [
     Fault("occupied stalls free", "lanelet2_parking", '"yes" if is_taken else "no"', '"no" if is_taken else "yes"'),
     Fault("a gap before the lane", "lanelet2_parking", "point.x, point.y, 0.0", "point.x + 0.05, point.y + 0.05, 0.0"),
     Fault("lots without lanes", "lanelet2_parking", "[shapely.union_all(_valid(level)), stalls]", "[stalls, stalls]"),
-    Fault("lines behind what they are before", "lanelet2_stops", "_BEFORE_M = 1.0", "_BEFORE_M = -1.0"),
+    Fault("lines behind what they are before", "lanelet2", "_BEFORE_M = 1.0", "_BEFORE_M = -1.0"),
     Fault(
         "lines across the lane that comes towards",
-        "lanelet2_stops",
+        "lanelet2",
         "lanes.left_m if is_left",
         "lanes.left_m if not is_left",
     ),

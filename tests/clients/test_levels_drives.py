@@ -23,7 +23,7 @@ from support.small_levels import FLOORS_M, LIDAR, SMALL_LEVELS
 import garage2usd
 from garage2usd.as_built.garage import garage_of_file
 from garage2usd.common.errors import ConfigError
-from garage2usd.config.maps import Leg
+from garage2usd.config.outputs import Leg
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.openscenario import EGO
 from garage2usd.recordings import CloudFormat, record

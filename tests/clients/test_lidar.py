@@ -18,8 +18,8 @@ from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.render import Picture, render_stage
-from garage2usd.sensors.formats.point_cloud_files import CloudFormat, write_cloud
 from garage2usd.sensors.rays.lidar import rosette_beams, scan, spinning_beams
+from garage2usd.sensors.rays.point_cloud import CloudFormat, write_cloud
 from garage2usd.sensors.rays.ray_scene import read_ray_scene
 
 pytestmark = pytest.mark.client

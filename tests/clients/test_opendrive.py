@@ -8,7 +8,7 @@ from support.sample_files import REPOSITORY, SAMPLES, each_sample
 from support.soak import soak_but
 
 import garage2usd
-from garage2usd.config.maps import MapsConfig
+from garage2usd.config.outputs import MapsConfig
 from garage2usd.garage_sources import read_built
 from garage2usd.maps.opendrive import write_opendrive
 
@@ -93,11 +93,11 @@ FAULTS = [
     Fault("ways of portals turned round", "road_builder", "if is_turned or path", "if not is_turned or path"),
     Fault(
         "headings off by pi",
-        "reference_line",
+        "road_nodes",
         "elementary.arctan2(end[1] - start[1]",
         "math.pi + elementary.arctan2(end[1] - start[1]",
     ),
-    Fault("stalls on the other side of the road", "reference_line", "dy * cos - dx * sin", "dx * sin - dy * cos"),
+    Fault("stalls on the other side of the road", "road_nodes", "dy * cos - dx * sin", "dx * sin - dy * cos"),
     Fault("heading of objects in the map", "opendrive_objects", "heading - road.line.at(s_m)[2]", "heading"),
     Fault(
         "every stall for cars of all kinds",

@@ -23,7 +23,7 @@ from support.small_garage import SETTINGS
 from support.soak import soak_but
 
 from garage2usd import GarageConfig, build
-from garage2usd.objects.pieces import PAINT_CLASSES
+from garage2usd.objects.kind import PAINT_CLASSES
 from garage2usd.render import Picture, render_stage
 
 pytestmark = [

@@ -11,7 +11,7 @@ from support.soak import soak_but
 from support.stage_lanes import judged_stage
 
 import garage2usd
-from garage2usd.config.maps import MapsConfig
+from garage2usd.config.outputs import MapsConfig
 
 pytestmark = [
     pytest.mark.client,

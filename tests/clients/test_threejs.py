@@ -19,9 +19,8 @@ from support.stage_textures import texture_names
 from garage2usd.assets import MATERIALS
 from garage2usd.look import finishes_of
 from garage2usd.stage.arrangement import arrange
-from garage2usd.stage.looks import PACKED_CHANNELS
+from garage2usd.stage.looks import PACKED_CHANNELS, named_textures
 from garage2usd.stage.prototypes import asset_of
-from garage2usd.stage.texture_files import named_textures
 
 pytestmark = [
     pytest.mark.client,

@@ -12,7 +12,7 @@ from support.sign_judge import signs_are_right
 from garage2usd import GarageConfig
 from garage2usd.as_built.contents import read_contents
 from garage2usd.as_built.driven_floor import DrivenFloor
-from garage2usd.config.building import BuildingConfig
+from garage2usd.config.site import BuildingConfig
 from garage2usd.pipeline import generate
 from garage2usd.profiles import PROFILE_NAMES
 from garage2usd.reading.labels import read_labels

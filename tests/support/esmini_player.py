@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 import garage2usd
-from garage2usd.config.maps import Leg, ScenarioConfig
+from garage2usd.config.outputs import Leg, ScenarioConfig
 from garage2usd.garage_sources import read_built
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.openscenario import EGO

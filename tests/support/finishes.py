@@ -10,13 +10,13 @@ from typing import NamedTuple
 import numpy as np
 
 from garage2usd.assets import MATERIALS, VARYING, pascal_case
-from garage2usd.assets.lamp_colour import lamp_colour
+from garage2usd.assets.light import lamp_colour
 from garage2usd.config.look import LampKind
 from garage2usd.look import finishes_of
-from garage2usd.objects.pieces import piece_name
+from garage2usd.objects.kind import piece_name
 from garage2usd.stage.arrangement import arrange
+from garage2usd.stage.looks import texture_file
 from garage2usd.stage.prototypes import asset_of
-from garage2usd.stage.texture_files import texture_file
 
 NITS_PER_INTENSITY = 27
 USUAL_LAMP_RGB = (1.0, 0.97, 0.92)

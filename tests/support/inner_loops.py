@@ -1,9 +1,8 @@
 """Functions in C that only C calls, within reach of tests."""
 
 from garage2usd.native import Int8s, Int32s, Int64s, in_c
-from garage2usd.planning.board import Board
+from garage2usd.planning.board import Board, Ground
 from garage2usd.planning.dimensions import Sizes
-from garage2usd.planning.ground import Ground
 
 REFUSED, FLIPPED, TALLIED = 0, 1, 2
 """What became of a flip."""

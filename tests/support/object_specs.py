@@ -7,7 +7,7 @@ from functools import cache
 from garage2usd.assets.figures import POSES
 from garage2usd.config.look import ColumnSection, Dirt, Guard
 from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_BODIES, PAINTS, VehicleClass
-from garage2usd.garage.coil_line import CoilLine
+from garage2usd.garage.ramp_lines import CoilLine
 from garage2usd.objects.bag import BagSort, BagSpec
 from garage2usd.objects.barrier import BarrierSpec
 from garage2usd.objects.beam import BeamNodeSpec, BeamSpec

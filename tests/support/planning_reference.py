@@ -6,8 +6,7 @@ import pytest
 from garage2usd.common.errors import GenerationError
 from garage2usd.config import BayConfig, SiteConfig
 from garage2usd.config.site import DEFAULT_SIDE_M
-from garage2usd.planning.board import new_board
-from garage2usd.planning.ground import ground_of
+from garage2usd.planning.board import ground_of, new_board
 from garage2usd.site import make_site
 from garage2usd.structure.grid import Structure, cells_from_text
 

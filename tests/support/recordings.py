@@ -6,11 +6,11 @@ from PIL import Image
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
 from garage2usd.reading.lanes import read_lanes
-from garage2usd.sensors.formats.point_cloud_files import CloudFormat, write_cloud
 from garage2usd.sensors.formats.recording import Recording, Shot
 from garage2usd.sensors.rays.lidar import measure
+from garage2usd.sensors.rays.point_cloud import CloudFormat, write_cloud
 from garage2usd.sensors.rays.ray_scene import read_ray_scene
-from garage2usd.sensors.rig.rig import Lidar
+from garage2usd.sensors.rig.sensors import Lidar
 
 AHEAD_IS_X = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
 """From the axes of a vehicle that drives along +X to those of a stage with Y up."""

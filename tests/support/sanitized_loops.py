@@ -10,9 +10,9 @@ import numpy as np
 
 from garage2usd.config import BayConfig, PlanConfig, SiteConfig
 from garage2usd.driving.car import Pose
-from garage2usd.driving.search import Task, reeds_shepp_words, search
-from garage2usd.driving.sweep import Scene
+from garage2usd.driving.obstacles import Scene
 from garage2usd.driving.turns import Steering, joining_pieces
+from garage2usd.driving.way_search import Task, reeds_shepp_words, search
 from garage2usd.native import elementary, using
 from garage2usd.planning import find_optimum, plan_lanes
 from garage2usd.site import make_site

@@ -2,9 +2,9 @@
 
 from garage2usd.config import GarageConfig
 from garage2usd.layout.surveyed import lay_out_survey
-from garage2usd.survey.alignment import aligned
-from garage2usd.survey.medial_lanes import with_medial_lanes
+from garage2usd.survey.clear_ground import with_medial_lanes
 from garage2usd.survey.reader import read_survey
+from garage2usd.survey.survey import aligned
 
 SURVEY = """
 outline = [[0, 0], [40, 0], [40, 18.2], [0, 18.2]]

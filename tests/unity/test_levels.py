@@ -12,7 +12,7 @@ from support.small_levels import FLOORS_M, SMALL_LEVELS
 from support.unity.layer import from_usd, place_of, world_vertices
 
 import garage2usd
-from garage2usd.config.stage import StageConfig, StageForm
+from garage2usd.config.outputs import StageConfig, StageForm
 
 HEIGHT_M = 0.05
 """Of the curves of the lane graph over the floor."""

@@ -11,7 +11,7 @@ from support.sample_files import REPOSITORY
 from support.unity.reader import PACKAGE
 
 import garage2usd
-from garage2usd.common.version import VERSION
+from garage2usd.common.package import VERSION
 
 LARGEST_SAMPLE_BYTES = 1_500_000
 ASSEMBLIES = {path.stem: json.loads(path.read_text()) for path in PACKAGE.rglob("*.asmdef")}

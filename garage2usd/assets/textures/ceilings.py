@@ -1,13 +1,10 @@
-"""Textures of ceilings."""
+"""Textures of ceilings, and of the bare steel of the services below them."""
 
 import numpy as np
 
-from garage2usd.assets.fields import Field, clouds, grain, noise, ramp, spots
-from garage2usd.assets.patterns import joint
-from garage2usd.assets.textures.pixels import Bakers, Pixels, distance_to, normal_map, shaded
+from garage2usd.assets.fields import Field, clouds, grain, joint, noise, ramp, spots
+from garage2usd.assets.textures.pixels import Bakers, Pixels, distance_to, normal_map, packed, shaded
 from garage2usd.assets.textures.walls import sheet_tones
-
-__all__ = ["CEILINGS", "CEILING_FINISHES"]
 
 _SHEETS_ACROSS, _SHEETS_ALONG = 3, 6
 """Number of formwork sheets, 2.7 m by 1.35 m, in a repeat of 8.1 m."""
@@ -82,7 +79,28 @@ CEILINGS: Bakers = {
     "ceiling_colour.jpg": _ceiling_colour,
     "ceiling_normal.png": _ceiling_normal,
 }
+
 CEILING_FINISHES: Bakers = {
     "ceiling_painted_colour.jpg": _ceiling_painted,
     "insulation_colour.jpg": _insulation,
+}
+
+
+def _steel_colour(rng: np.random.Generator) -> Pixels:
+    shape = 256, 256
+    value = 178.0 + 26.0 * (clouds(rng, shape, (10, 10), 3) - 0.5) + 10.0 * (noise(rng, shape, (64, 64)) - 0.5)
+    return shaded(value, (0.98, 0.99, 1.0))
+
+
+def _steel_packed(rng: np.random.Generator) -> Pixels:
+    """Surface of spangled zinc, dull at white corrosion."""
+    shape = 128, 128
+    dull = ramp(clouds(rng, shape, (6, 6), 4), 0.5, 0.75)
+    rough = 0.36 + 0.16 * (noise(rng, shape, (28, 28)) - 0.5) + 0.26 * dull
+    return packed(1.0, rough, 0.92 - 0.35 * dull)
+
+
+STEELS: Bakers = {
+    "steel_colour.jpg": _steel_colour,
+    "steel_packed.png": _steel_packed,
 }

@@ -1,16 +1,27 @@
-"""Textures of worn paint in which paint and ground are combined."""
+"""Textures of worn paint: masks of wear, images of an index with a palette, and paint and ground in one picture."""
 
-from collections.abc import Callable
+import struct
+import zlib
+from bisect import bisect_right
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from garage2usd.assets.fields import clouds, grain, ramp, spots
-from garage2usd.assets.textures.pixels import Bakers, Pixels, mixed_over, shaded
-
-__all__ = ["GUARDS", "PAINTS"]
+from garage2usd.assets.fields import Field, clouds, grain, noise, ramp, spots
+from garage2usd.assets.textures.pixels import Bakers, Pixels, levels, mixed_over, shaded
+from garage2usd.common.errors import ConfigError
 
 _Colour = tuple[int, int, int]
 """sRGB values."""
+Rgb = tuple[float, float, float]
+WEAR_STEPS = 16
+"""Number of indices: 0 is fresh paint, the last the bare ground."""
+_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+_LENGTH = struct.Struct(">I")
+_PALETTE = b"PLTE"
+_SHORTEST = 12
+"""Bytes of a PNG chunk without data: length, type and checksum."""
+_SHAPE = 512, 512
 
 
 def _worn_paint(tint: tuple[float, float, float]) -> Callable[[np.random.Generator], Pixels]:
@@ -43,12 +54,148 @@ def _stripes(light: _Colour, dark: _Colour, *, level: bool = False) -> Callable[
 
 
 _YELLOW = 222, 168, 24
+
 PAINTS: Bakers = {
     "paint_white.jpg": _worn_paint((1.0, 1.0, 0.985)),
     "paint_yellow.jpg": _worn_paint((0.98, 0.74, 0.16)),
     "hazard.jpg": _stripes(_YELLOW, (28, 28, 30)),
 }
+
 GUARDS: Bakers = {
     "guard_red_white.jpg": _stripes((214, 212, 206), (172, 34, 30), level=True),
     "guard_blue_yellow.jpg": _stripes(_YELLOW, (34, 74, 150)),
+}
+
+
+def wear_palette(paint_rgb: Rgb, ground_rgb: Rgb) -> bytes:
+    """Palette of a wear image in sRGB, mixed in linear light; 3 bytes per index.
+
+    Parameters
+    ----------
+    paint_rgb, ground_rgb
+        Linear colours of the paint and its ground, 0 to 1.
+    """
+    bare = [index / (WEAR_STEPS - 1) for index in range(WEAR_STEPS)]
+    return bytes(
+        _srgb_byte(paint * (1 - share) + ground * share)
+        for share in bare
+        for paint, ground in zip(paint_rgb, ground_rgb, strict=True)
+    )
+
+
+def painted(png: bytes, paint_rgb: Rgb, ground_rgb: Rgb) -> bytes:
+    """Recolour an image of wear by its palette; pixels are not decoded, so all machines give the same bytes.
+
+    Parameters
+    ----------
+    png
+        An indexed PNG of at most `WEAR_STEPS` colours, such as the shipped ``wear_*.png``.
+    paint_rgb, ground_rgb
+        Linear colours of the paint and its ground, 0 to 1.
+
+    Raises
+    ------
+    ConfigError
+        If `png` is not an indexed PNG with at most `WEAR_STEPS` colours.
+    """
+    palette = wear_palette(paint_rgb, ground_rgb)
+    pieces, replaced = [_SIGNATURE], 0
+    for kind, data in _chunks(png):
+        if kind == _PALETTE:
+            if len(data) > len(palette):
+                raise _unfit(f"one of {len(data) // 3} colours")
+            replaced += 1
+        held = palette[: len(data)] if kind == _PALETTE else data
+        pieces += [_LENGTH.pack(len(held)), kind, held, _LENGTH.pack(zlib.crc32(kind + held))]
+    if replaced != 1:
+        raise _unfit("one without a palette")
+    return b"".join(pieces)
+
+
+def _chunks(png: bytes) -> Iterator[tuple[bytes, bytes]]:
+    """Yield type and data of each chunk of a PNG."""
+    if not png.startswith(_SIGNATURE):
+        raise _unfit("no PNG")
+    place = len(_SIGNATURE)
+    while place < len(png):
+        rest = len(png) - place
+        length = _LENGTH.unpack_from(png, place)[0] if rest >= _SHORTEST else rest
+        end = place + _SHORTEST + length
+        if end > len(png):
+            raise _unfit("one that ends within a chunk")
+        yield png[place + 4 : place + 8], png[place + 8 : end - 4]
+        place = end
+
+
+def _unfit(what: str) -> ConfigError:
+    return ConfigError("picture of wear", what, f"an indexed PNG of at most {WEAR_STEPS} colours")
+
+
+def _srgb_byte(linear: float) -> int:
+    """Convert a linear value to 8-bit sRGB, by IEC 61966-2-1.
+
+    A power of 1 / 2.4 differs in its last bit between CPUs, so fifth powers are compared with twelfth ones.
+    """
+    value = min(max(linear, 0.0), 1.0)
+    if value <= _LINEAR_BELOW:
+        return round(255 * 12.92 * value)
+    return bisect_right(_BORDERS, value * value * value * value * value)
+
+
+def _twelfth_power(value: float) -> float:
+    fourth = value * value * value * value
+    return fourth * fourth * fourth
+
+
+_LINEAR_BELOW = 0.0031308
+
+_BORDERS = [_twelfth_power(((byte - 0.5) / 255 + 0.055) / 1.055) for byte in range(1, 256)]
+"""Thresholds of the 8-bit sRGB values, as fifth powers of linear values."""
+
+
+def _chips(rng: np.random.Generator, count: int) -> Field:
+    """Chips where paint has come off the aggregate."""
+    return ramp(spots(rng, _SHAPE, count, (1.0, 4.5)), 0.25, 0.5)
+
+
+def _fresh(rng: np.random.Generator) -> Field:
+    """Fresh paint with a film of dirt and few chips."""
+    dirt = 0.2 * ramp(clouds(rng, _SHAPE, (4, 4), 4), 0.42, 0.72)
+    return np.maximum(dirt, 0.75 * _chips(rng, 60))
+
+
+def _worn(rng: np.random.Generator) -> Field:
+    """Worn paint: off the aggregate in wide patches, thin between them."""
+    where = clouds(rng, _SHAPE, (4, 4), 3)
+    grains = clouds(rng, _SHAPE, (40, 40), 3)
+    off = ramp(grains + 1.1 * (where - 0.5), 0.52, 0.68)
+    thin = 0.12 + 0.3 * ramp(where, 0.4, 0.7)
+    return np.maximum(np.maximum(off, thin), _chips(rng, 260))
+
+
+def _gone(rng: np.random.Generator) -> Field:
+    """Remains of paint in the hollows of the ground."""
+    where = clouds(rng, _SHAPE, (5, 5), 3)
+    grains = clouds(rng, _SHAPE, (36, 36), 4)
+    left = ramp(grains + 0.9 * (where - 0.5), 0.52, 0.68)
+    thin = 0.25 + 0.5 * noise(rng, _SHAPE, (9, 9))
+    return 1.0 - left * (1.0 - 0.6 * thin)
+
+
+def _ghost(rng: np.random.Generator) -> Field:
+    """Trace of a line that was ground off or painted over, with remains of the old film."""
+    trace = 0.8 + 0.3 * (clouds(rng, _SHAPE, (6, 6), 4) - 0.5)
+    film = ramp(clouds(rng, _SHAPE, (30, 30), 3), 0.66, 0.74)
+    return trace - 0.35 * film
+
+
+def _in_levels(wear: Callable[[np.random.Generator], Field]) -> Callable[[np.random.Generator], Pixels]:
+    return lambda rng: levels(255.0 * wear(rng))
+
+
+WEAR: Bakers = {
+    "wear_fresh.png": _in_levels(_fresh),
+    "wear_worn.png": _in_levels(_worn),
+    "wear_gone.png": _in_levels(_gone),
+    "wear_ghost.png": _in_levels(_ghost),
 }

@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from garage2usd.assets.fields import Field
 
-__all__ = ["Bakers", "Pixels", "distance_to", "levels", "mixed_over", "normal_map", "packed", "shaded"]
-
 Pixels = NDArray[np.uint8]
 """uint8, shape (rows, columns, 3), or 4 with alpha; (rows, columns) for wear masks."""
 Bakers = dict[str, Callable[[np.random.Generator], Pixels]]

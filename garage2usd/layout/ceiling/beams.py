@@ -11,20 +11,9 @@ import numpy as np
 from garage2usd.config import BayConfig, FittingsConfig
 from garage2usd.layout.placement import Placement, placed
 from garage2usd.objects.beam import BeamNodeSpec, BeamSpec
-from garage2usd.objects.outline import Box, Point
+from garage2usd.objects.kind import Box, Point
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import Square
-
-__all__ = [
-    "DUCT_HEIGHT_M",
-    "DUCT_WIDTH_M",
-    "PIPE_RADIUS_M",
-    "TRAY_HEIGHT_M",
-    "TRAY_WIDTH_M",
-    "CeilingLevels",
-    "beams",
-    "ceiling_levels",
-]
 
 _QUARTER_TURN = np.pi / 2
 _BEAM_STEP_M = 0.05

@@ -18,13 +18,10 @@ from garage2usd.layout.placement import Placement
 from garage2usd.layout.tiles import Tile, Tiles
 from garage2usd.objects.cable_tray import CableTraySpec
 from garage2usd.objects.duct import DuctSpec
-from garage2usd.objects.kind import Spec
-from garage2usd.objects.outline import Point
+from garage2usd.objects.kind import Point, Spec
 from garage2usd.objects.sprinkler import SprinklerSpec
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.stalls import Edge
-
-__all__ = ["LINES_REACH_M", "cable_trays", "ducts", "sprinklers"]
 
 _QUARTER_TURN = np.pi / 2
 _LEAST_SQUARE_M = 4.8

@@ -22,27 +22,12 @@ from garage2usd.layout.placement import (
     to_world,
 )
 from garage2usd.layout.tiles import Tile, Tiles
+from garage2usd.objects.kind import Box, Point
 from garage2usd.objects.obstacle import ObstacleSpec
-from garage2usd.objects.outline import Box, Point
 from garage2usd.profiles import Profile
 from garage2usd.structure.grid import Cell, Structure, outside_squares
 from garage2usd.structure.lane_graph import LaneSquares, Square
-from garage2usd.structure.stall_shapes import StallShape
-from garage2usd.structure.stalls import Edge, StallRow
-
-__all__ = [
-    "FROM_COLUMN_M",
-    "MOST_WIDTH_M",
-    "RECESS_M",
-    "Core",
-    "core_candidates",
-    "core_placements",
-    "crossings_to",
-    "gap_to_stalls_m",
-    "is_wide_enough",
-    "names_of_rows",
-    "obstacle_cores",
-]
+from garage2usd.structure.stalls import Edge, StallRow, StallShape
 
 RECESS_M = 0.5
 """Least setback of a core's door from the lane, so that nobody steps into traffic."""

@@ -8,13 +8,11 @@ import shapely
 from shapely import affinity
 
 from garage2usd.config.look import BandForm, MarkingsLook
-from garage2usd.layout.floor.pictograms import chevron, pictogram
+from garage2usd.layout.floor.markings import chevron, pictogram
 from garage2usd.layout.placement import edge_yaw_rad
-from garage2usd.objects.outline import Polygon
+from garage2usd.objects.kind import Polygon
 from garage2usd.objects.panel import Marking, Paint, Surface
 from garage2usd.structure.stalls import Edge
-
-__all__ = ["ClosedSides", "guide_strips", "strip_depth_m"]
 
 _BEYOND_M = 6.0
 """Extent of the ground of adjacent open squares, in metres."""

@@ -10,7 +10,6 @@ from garage2usd.config import BayConfig
 from garage2usd.config.look import BandForm, MarkingsLook, Wear
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress.cores import Core
-from garage2usd.layout.floor.ghost_lines import GHOST_ROWS, ghosts_on_lane
 from garage2usd.layout.floor.guide_strips import ClosedSides, guide_strips, strip_depth_m
 from garage2usd.layout.floor.markings import (
     LINE_WIDTH_M,
@@ -23,8 +22,7 @@ from garage2usd.layout.floor.markings import (
     two_way_arrows,
     zebra,
 )
-from garage2usd.layout.floor.row_ends import row_end_hatching
-from garage2usd.layout.floor.stall_lines import outer_spans
+from garage2usd.layout.floor.stall_lines import GHOST_ROWS, ghosts_on_lane, outer_spans, row_end_hatching
 from garage2usd.layout.placement import Placement
 from garage2usd.layout.tiles import (
     StallPlace,
@@ -34,13 +32,11 @@ from garage2usd.layout.tiles import (
     row_strip,
 )
 from garage2usd.objects.floor import FloorSpec
-from garage2usd.objects.outline import Polygon
+from garage2usd.objects.kind import Polygon
 from garage2usd.objects.panel import Marking, Paint, Surface
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import Square
 from garage2usd.structure.stalls import Edge
-
-__all__ = ["DrawnMarkings", "drawn_markings_of", "floor_panels"]
 
 _WORN = {Surface.PAINT_WHITE: Surface.PAINT_WHITE_WORN}
 _DRIVEN = {Cell.LANE, Cell.ENTRANCE, Cell.EXIT}

@@ -14,8 +14,6 @@ from garage2usd.objects.floor_stain import StainMark, StainSpec
 from garage2usd.objects.panel import PanelSpec
 from garage2usd.structure.lane_graph import Square
 
-__all__ = ["floor_repairs"]
-
 _LIFT_M = 0.0004
 """Height over the floor, below all stains."""
 _SLOTS = ((StainMark.REPAIR, 0.3), (StainMark.SEAM, 0.85), (StainMark.SEAM, 0.7), (StainMark.SEAM, 0.5))

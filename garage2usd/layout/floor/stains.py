@@ -15,18 +15,16 @@ from numpy.typing import NDArray
 from garage2usd.common.randomness import Step
 from garage2usd.config import FittingsConfig
 from garage2usd.config.look import Dirt
+from garage2usd.garage import StallUse
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.placement import PlacedStall, Placement, StallUse, edge_yaw_rad, of_spec, sum_of_yaws, to_world
+from garage2usd.layout.placement import PlacedStall, Placement, edge_yaw_rad, of_spec, sum_of_yaws, to_world
 from garage2usd.layout.tiles import Tile, Tiles
 from garage2usd.objects.drain import DrainSpec
 from garage2usd.objects.floor_stain import DirtSpec, StainMark, StainSpec, TyreMarkSpec
-from garage2usd.objects.kind import Spec
-from garage2usd.objects.outline import Point
+from garage2usd.objects.kind import Point, Spec
 from garage2usd.objects.panel import PanelSpec
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.stalls import Edge
-
-__all__ = ["drain_box_on", "drawn_yaw", "floor_stains", "overlap", "overlaps_paint", "stain_box"]
 
 _WEAR_LIFT_M = 0.0008
 _CONCRETE_LIFT_M = 0.0012

@@ -1,18 +1,21 @@
-"""Painted stall lines by pattern, in the coordinates of a stall (mouth at +Z)."""
+"""Painted lines of stalls by pattern, faded ones of an older layout, and hatching at the ends of rows."""
 
 import math
 from collections.abc import Iterator
 from functools import lru_cache
 
-from garage2usd.config.look import MarkingsLook, StallPattern, Wear
-from garage2usd.objects.outline import rectangle
-from garage2usd.objects.panel import Marking, Paint, Surface
+import shapely
 
-__all__ = ["outer_spans", "stall_lines"]
+from garage2usd.config.look import MarkingsLook, StallPattern, Wear
+from garage2usd.garage import StallKind
+from garage2usd.layout.placement import PlacedStall, box_inside
+from garage2usd.layout.tiles import StallPlace, Tile, row_rectangle
+from garage2usd.objects.kind import Box, Point, rectangle
+from garage2usd.objects.panel import Marking, Paint, Surface
+from garage2usd.structure.stalls import Edge
 
 Span = tuple[float, float]
 """Start and end along a stall, metres from its mouth."""
-
 _MARK_ALONG_M, _MARK_ACROSS_M = 0.9, 0.5
 """Lengths of corner marks along a stall and across it."""
 _BESIDE_M = 0.06
@@ -27,6 +30,17 @@ _WHEELS_M = 0.5, 1.0
 """Range of the wheel tracks across a mouth, metres from the middle of the stall."""
 _UNEVEN = {Wear.LIGHT, Wear.WORN}
 """Degrees of wear with more wear in wheel tracks; fresh paint and faded paint are uniform."""
+_ROWS = ((0.8, -0.45, True), (-0.6, -0.85, False), (1.25, -0.6, True))
+"""Each older row: offset of its lines along the newer row, depth of its mouths inside the newer ones, both in metres,
+and True if a line closed its stalls."""
+GHOST_ROWS = len(_ROWS)
+"""Number of older rows."""
+_LENGTHENED = 1.04
+"""Width of an older stall, relative to a newer stall."""
+_LEAST_M = 0.2
+"""Least width of hatched floor."""
+_STRIPE_M, _PERIOD_M = 0.14, 0.62
+_LEAST_M2 = 1e-4
 
 
 @lru_cache(maxsize=1024)
@@ -133,3 +147,102 @@ def _shared_line_boxes(
 def _ascending(one: float, other: float) -> tuple[float, float]:
     """Return two numbers in ascending order."""
     return (one, other) if one < other else (other, one)
+
+
+@lru_cache(maxsize=64)
+def _row_lines(number: int, half_m: float, stall_m: Point, line_m: float) -> tuple[Box, ...]:
+    """Return the lines of an older row as boxes along the row and into the stalls, metres from the mouths' middle."""
+    shift, depth, is_closed = _ROWS[number]
+    width, far = stall_m[0] * _LENGTHENED, stall_m[1] + depth
+    boxes = [(-half_m, depth, half_m, depth + line_m)] if is_closed else []
+    count = int(2 * half_m / width) + 1
+    for index in range(-1, count + 1):
+        middle = shift - half_m + index * width
+        if -half_m <= middle <= half_m:
+            boxes.append((middle - line_m / 2, depth, middle + line_m / 2, far))
+    return tuple(boxes)
+
+
+def ghosts_on_lane(
+    number: int, edge: Edge, half_m: Point, row_half_m: float, stall_m: Point, line_m: float
+) -> tuple[Marking, ...]:
+    """Return the ghost lines of an older row on the lane square in front of it.
+
+    Parameters
+    ----------
+    number
+        Number of the older row, less than `GHOST_ROWS`.
+    edge
+        Edge of the lane square towards the stalls.
+    half_m
+        Half the extent of the lane square along X and Z.
+    row_half_m, stall_m, line_m
+        Half the length of the newer row, width and length of its stalls, and width of the lines.
+    """
+    sign = _direction(edge.opposite)
+    shapes = []
+    for left, near, right, far in _row_lines(number, row_half_m, stall_m, line_m):
+        if near < 0:
+            along = (left, right) if sign > 0 else (-right, -left)
+            box = box_inside(edge, half_m, along, (max(-far, 0.0), -near))
+            shapes.append(rectangle(*(round(side, 6) for side in box)))
+    return tuple(Marking(shape, Surface.PAINT_GHOST, None) for shape in shapes)
+
+
+def ghosts_on_stall(
+    number: int, stall: PlacedStall, square_m: Point, row_half_m: float, line_m: float
+) -> tuple[Marking, ...]:
+    """Return the ghost lines of an older row on one stall, in the stall's coordinates.
+
+    `square_m` is the middle (x, z) of the stall's square.
+    """
+    along_x = stall.edge.along_x
+    offset = _direction(stall.edge) * (stall.centre_m[not along_x] - square_m[not along_x])
+    ground = shapely.box(-stall.width_m / 2, -stall.length_m / 2, stall.width_m / 2, stall.length_m / 2)
+    half = stall.length_m / 2
+    shapes = []
+    for left, near, right, far in _row_lines(number, row_half_m, (stall.width_m, stall.length_m), line_m):
+        shape = shapely.box(left - offset, half - far, right - offset, half - near).intersection(ground)
+        if shape.area > 0:
+            shapes.append(rectangle(*(round(side, 6) for side in shape.bounds)))
+    return tuple(Marking(shape, Surface.PAINT_GHOST, None) for shape in shapes)
+
+
+def _direction(edge: Edge) -> int:
+    """Return 1 if +X of the stalls that open onto an edge has the edge's direction, else -1."""
+    return 1 if edge in {Edge.DOWN, Edge.LEFT} else -1
+
+
+def row_end_hatching(tile: Tile, places: list[StallPlace], look: MarkingsLook) -> tuple[Marking, ...]:
+    """Hatch the floor between the outermost stalls of a square and its sides; adjacent hatchings form chevrons."""
+    markings: list[Marking] = []
+    line = look.line_width_m
+    for place in places:
+        row, edge, count = place.row, place.row.edge, place.row.count
+        if row.shape.kind is StallKind.ANGLED:
+            continue
+        half, length = tile.half_x_m if edge.along_x else tile.half_z_m, row.shape.depth_m
+        inner = -row.starts_m[0] + line / 2
+        if half - inner < _LEAST_M:
+            continue
+        ends = [-1] * (place.is_first and place.slot == 0) + [1] * (place.is_last and place.slot == count - 1)
+        for side in ends:
+            for polygon in _stripes(inner, half, length, line):
+                corners = [row_rectangle(tile, edge, side * x, side * x, (z, z))[0] for x, z in polygon]
+                markings.append(Marking(tuple(corners), Surface.PAINT_EDGE, Paint.HATCHING))
+    return tuple(markings)
+
+
+def _stripes(inner: float, outer: float, length: float, line: float) -> list[tuple[tuple[float, float], ...]]:
+    """Frame and stripes in coordinates along the row, from its centre, and inwards from the stalls' entries."""
+    field = shapely.box(inner, line, outer, length - line)
+    shapes = [rectangle(inner, 0.0, outer, line), rectangle(inner, length - line, outer, length)]
+    wide = outer - inner
+    for index in range(int((length + wide) / _PERIOD_M) + 1):
+        near = index * _PERIOD_M - wide
+        bar = shapely.Polygon(
+            [(inner, near), (outer, near + wide), (outer, near + wide + _STRIPE_M), (inner, near + _STRIPE_M)]
+        ).intersection(field)
+        if bar.geom_type == "Polygon" and bar.area > _LEAST_M2:
+            shapes.append(tuple(map(tuple, shapely.get_coordinates(bar.exterior)[:-1].tolist())))
+    return shapes

@@ -8,13 +8,10 @@ from garage2usd.config.look import BandForm, MarkingsLook, NumberForm, NumberPla
 from garage2usd.garage import StallKind
 from garage2usd.layout.placement import PlacedStall, Placement, placed
 from garage2usd.layout.tiles import TileGrid
-from garage2usd.objects.kind import Spec
-from garage2usd.objects.outline import Point
+from garage2usd.objects.kind import Point, Spec
 from garage2usd.objects.stall_number import NumberFrameSpec, NumberSpec, WallNumberSpec
 from garage2usd.objects.wheel_stop import WHEEL_STOP_WIDTH_M
 from garage2usd.structure.grid import outside_squares
-
-__all__ = ["stall_numbers"]
 
 _PIECE_CHARACTERS = 2
 _FROM_LINE_M = 0.225

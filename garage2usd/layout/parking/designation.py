@@ -9,17 +9,15 @@ import numpy as np
 import shapely
 
 from garage2usd.config import ParkingConfig
-from garage2usd.garage import StallKind
-from garage2usd.layout.nearness import Points
-from garage2usd.layout.placement import PlacedStall, Placement, StallUse, edge_yaw_rad, rounded
+from garage2usd.garage import StallKind, StallUse
+from garage2usd.layout.grounds import Points
+from garage2usd.layout.placement import PlacedStall, Placement, edge_yaw_rad, rounded
 from garage2usd.objects.charger import CHARGER_FRONT_M, ChargerSpec
-from garage2usd.objects.outline import Point
+from garage2usd.objects.kind import Point
 from garage2usd.objects.panel import Marking, Paint, Surface
 from garage2usd.profiles import Profile
 from garage2usd.profiles.access import AccessWidths, access_widths, van_stalls
 from garage2usd.structure.lane_graph import Square
-
-__all__ = ["chargers", "room_for_charger_m", "use_symbol", "with_designated_stalls"]
 
 _ACCESSIBLE_SHARE = 0.02
 _ACCESSIBLE_FROM_STALLS = 25

@@ -8,8 +8,6 @@ from garage2usd.config import ParkingConfig
 from garage2usd.config.markets import load_market, market_of
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody
 
-__all__ = ["Fleet"]
-
 
 class Fleet:
     """Market shares of car bodies and paints, overridden by the configuration, and the models of one garage.

@@ -16,18 +16,16 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.common.randomness import Step
 from garage2usd.config import GarageConfig, ParkingConfig
 from garage2usd.config.vehicles import CAR_BODIES, CarBody
-from garage2usd.garage import Stall, StallKind
+from garage2usd.garage import Stall, StallKind, StallUse
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.parking.designation import room_for_charger_m
 from garage2usd.layout.parking.fleet import Fleet
 from garage2usd.layout.parking.stalls import WHEEL_STOP_FROM_REAR_M
-from garage2usd.layout.placement import PlacedStall, Placement, StallUse
+from garage2usd.layout.placement import PlacedStall, Placement
 from garage2usd.native import elementary
 from garage2usd.objects.car import CarSpec
 from garage2usd.objects.wheel_stop import WHEEL_STOP_HEIGHT_M, WHEEL_STOP_WIDTH_M
 from garage2usd.structure.lane_graph import Square
-
-__all__ = ["ParkedCars", "fitting", "occupancy_of", "park_cars"]
 
 _END_CLEARANCE_M = 0.1
 """Distance between a car and the entry of its stall."""

@@ -1,39 +1,30 @@
-"""Stalls on the squares along lanes: placement, turning stalls, floor panels and wheel stops."""
+"""Stalls on the squares along lanes: placement, turning and tight stalls, floor panels and wheel stops."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
-from garage2usd.config import FittingsConfig
+from garage2usd.config import BayConfig, FittingsConfig
 from garage2usd.config.look import MarkingsLook
 from garage2usd.config.stalls import SizeClass
-from garage2usd.garage import StallKind
-from garage2usd.layout.floor.ghost_lines import ghosts_on_stall
+from garage2usd.garage import LaneGraph, Stall, StallKind, StallUse
 from garage2usd.layout.floor.markings import hatching
-from garage2usd.layout.floor.stall_lines import stall_lines
+from garage2usd.layout.floor.stall_lines import ghosts_on_stall, stall_lines
 from garage2usd.layout.parking.designation import use_symbol
-from garage2usd.layout.placement import PlacedStall, Placement, StallUse, turned_yaw_rad
+from garage2usd.layout.placement import PlacedStall, Placement, turned_yaw_rad
 from garage2usd.layout.tiles import Tile, TileGrid, Tiles, stall_outline
-from garage2usd.objects.outline import Point
+from garage2usd.objects.kind import Point
 from garage2usd.objects.panel import Marking, Surface
 from garage2usd.objects.stall import StallSpec
 from garage2usd.objects.wheel_stop import WHEEL_STOP_HEIGHT_M, WheelStopSpec
 from garage2usd.profiles import Profile
-from garage2usd.structure.dead_ends import DeadEnd
 from garage2usd.structure.lane_graph import LaneSquares, Square
+from garage2usd.structure.lanes import DeadEnd
 from garage2usd.structure.stall_runs import turn_of
-from garage2usd.structure.stall_shapes import kind_of_angle, slope_of_angle
-
-__all__ = [
-    "WHEEL_STOP_FROM_REAR_M",
-    "stall_panels",
-    "stalls_of",
-    "wheel_stops",
-    "with_turning_stalls",
-]
+from garage2usd.structure.stalls import kind_of_angle, slope_of_angle
 
 WHEEL_STOP_FROM_REAR_M = 0.55
 """Distance of a wheel stop's centre from the stall's rear: behind the front wheels of a car parked nose-in."""
@@ -52,6 +43,9 @@ _HATCHES = {
     StallUse.ACCESS_AISLE: Surface.PAINT_WHITE,
     StallUse.UNREACHABLE: Surface.PAINT_YELLOW,
 }
+_ROOMY_AISLE_M, _ROOMY_STALL_M = 5.5, 2.3
+"""Aisle and stall widths at which the design car enters perpendicular stalls with few gear changes."""
+_ROUNDING_M = 1e-6
 
 
 def stalls_of(grid: TileGrid, graph: LaneSquares) -> tuple[PlacedStall, ...]:
@@ -185,3 +179,70 @@ def wheel_stops(stalls: tuple[PlacedStall, ...], fittings: FittingsConfig, profi
 def _middle(tile: Tile, corners: tuple[tuple[float, float], ...]) -> tuple[float, float]:
     xs, zs = zip(*corners, strict=True)
     return round(tile.x_m + (min(xs) + max(xs)) / 2, 6), round(tile.z_m + (min(zs) + max(zs)) / 2, 6)
+
+
+def garage_stalls(
+    stalls: Sequence[PlacedStall],
+    lanes: LaneSquares,
+    blocked: Mapping[str, str] | None = None,
+    occupied: Iterable[bool] | None = None,
+) -> Iterator[Stall]:
+    """Return each stall as a quad that opens onto a lane node.
+
+    Parameters
+    ----------
+    stalls
+        Those of the layout.
+    lanes
+        The lane squares that they open onto.
+    blocked
+        For the name of a blocked stall, that of the stall of the misparked car that blocks it.
+    occupied
+        True for each stall with a car; None if unknown. The facts are those of a stage's stalls.
+    """
+    access = [lanes.number_of[stall.access_square] for stall in stalls]
+    return stall_quads(stalls, access, lanes.lanes, blocked, occupied)
+
+
+def stall_quads(
+    stalls: Sequence[PlacedStall],
+    access: Iterable[int],
+    lanes: LaneGraph,
+    blocked: Mapping[str, str] | None = None,
+    occupied: Iterable[bool] | None = None,
+) -> Iterator[Stall]:
+    """Yield each stall as a quad that opens onto a given lane node; parameters as for `garage_stalls`."""
+    told = [()] * len(stalls) if occupied is None else [(("occupied", int(is_taken)),) for is_taken in occupied]
+    for stall, node, occupancy in zip(stalls, access, told, strict=True):
+        left, right, rear_right, rear_left = stall.corners_m()
+        by = (blocked or {}).get(stall.name)
+        facts: tuple[tuple[str, str | int], ...] = (
+            *([("number", stall.number)] if stall.number else []),
+            ("type", stall.stall_type.value),
+            *([("size", stall.size)] if stall.size != SizeClass.STANDARD else []),
+            ("row", stall.square[0]),
+            ("column", stall.square[1]),
+            ("entryEdge", stall.edge.name.lower()),
+            *([("blocked_by", by)] if by else []),
+            *occupancy,
+        )
+        corners = (left, right, rear_right, rear_left)
+        yield Stall(stall.name, corners, stall.use, node, facts, lanes.nodes[node].level)
+
+
+def planned_stalls(lanes: LaneSquares, bay: BayConfig) -> tuple[Stall, ...]:
+    """Return the stalls of a plan that cannot be laid out."""
+    return tuple(garage_stalls(stalls_of(TileGrid(lanes.structure, lanes, bay), lanes), lanes))
+
+
+def tight_stalls(lanes: LaneGraph, stalls: Iterable[Stall]) -> tuple[Stall, ...]:
+    """Select the stalls that the design car may be unable to enter, in their order."""
+    return tuple(
+        stall
+        for stall in stalls
+        if stall.takes_cars
+        and (
+            lanes.clear_aisle_m(stall.access, stall.outwards) < _ROOMY_AISLE_M - _ROUNDING_M
+            or stall.width_m < _ROOMY_STALL_M - _ROUNDING_M
+        )
+    )

@@ -13,22 +13,19 @@ import numpy as np
 
 from garage2usd.config import FittingsConfig
 from garage2usd.config.look import WallsLook
-from garage2usd.garage.coil_line import CoilLine, heights_along
-from garage2usd.layout.ceiling.lamps import TUBE
+from garage2usd.garage.ramp_lines import CoilLine, heights_along
+from garage2usd.layout.ceiling.lighting import TUBE
 from garage2usd.layout.placement import Placement, edge_yaw_rad, placed, rounded, to_world
 from garage2usd.layout.shell.well import SLAB_M, Opening, Well, WellLane
 from garage2usd.layout.tiles import CEILING_THICKNESS_M
 from garage2usd.native import elementary
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.coil import CoilSpec, CrossingSpec
-from garage2usd.objects.kind import Spec
-from garage2usd.objects.outline import Point
+from garage2usd.objects.kind import Point, Spec
 from garage2usd.objects.wall import WallSpec
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.helix import WALL_M, CoilBlock, Helix
 from garage2usd.structure.stalls import Edge
-
-__all__ = ["CoilWell"]
 
 _LAMP_PITCH_M = 6.0
 _STEP_RAD = math.pi / 18

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from garage2usd.assets import pascal_case
 from garage2usd.config import GarageConfig
 from garage2usd.layout.egress.cores import Core
-from garage2usd.layout.grounds import Grounds, grounds_of
-from garage2usd.layout.nearness import Points
+from garage2usd.layout.grounds import Grounds, Points, grounds_of
 from garage2usd.layout.placement import (
     PlacedStall,
     Placement,
@@ -25,13 +24,11 @@ from garage2usd.layout.placement import (
 from garage2usd.layout.tiles import Tile, Tiles
 from garage2usd.objects import MOUNTED, Mounted
 from garage2usd.objects.column import ColumnSpec
+from garage2usd.objects.kind import Point, Polygon, rectangle
 from garage2usd.objects.obstacle import ObstacleSpec
-from garage2usd.objects.outline import Point, Polygon, rectangle
 from garage2usd.objects.wall import WallSpec
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
 from garage2usd.structure.stalls import Edge
-
-__all__ = ["carriageway", "core_and_landing", "mounted_objects"]
 
 _APPROACH_M = 0.6
 """Depth of the clear ground in front of equipment, for access by people."""

@@ -8,19 +8,17 @@ import shapely
 
 from garage2usd.config import FittingsConfig
 from garage2usd.config.look import WallsLook
+from garage2usd.config.site import DOOR_FRAME_M
 from garage2usd.garage import Point
-from garage2usd.layout.ceiling.lamps import TUBE
+from garage2usd.layout.ceiling.lighting import TUBE
 from garage2usd.layout.fittings import TUBE_DEPTH_M
 from garage2usd.layout.placement import Placement, of_spec, placed
-from garage2usd.layout.shell.building import DOOR_FRAME_M
 from garage2usd.objects.barrier import ARM_BEFORE_M, ARM_HALF_M, PIVOT_M, BarrierSpec
 from garage2usd.objects.beam import BeamSpec
 from garage2usd.objects.lit_sign import LEAST_SIGN_M
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.ramp import RampSpec
 from garage2usd.objects.sky import SkySpec
-
-__all__ = ["ramp_lights", "with_barriers", "with_ramps"]
 
 _PARAPET_M = 1.3
 _SKY_M = 3.0

@@ -1,23 +1,26 @@
-"""The well of the ramps between levels, as one level has its part of it."""
+"""The well of the ramps between levels, as one level has its part of it, and the fire shutters in its openings."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from garage2usd.config import FittingsConfig
-from garage2usd.config.building import BuildingConfig
 from garage2usd.config.look import WallsLook
-from garage2usd.garage.level_place import level_name
-from garage2usd.layout.placement import Placement
-from garage2usd.objects.outline import Point
+from garage2usd.config.site import BuildingConfig
+from garage2usd.garage.levels import level_name
+from garage2usd.layout.placement import Placement, edge_yaw_rad, placed
+from garage2usd.objects.fire_shutter import FireShutterSpec
+from garage2usd.objects.kind import Point
 from garage2usd.structure.building import Ramps
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["SLAB_M", "Departure", "Opening", "Well", "WellLane"]
-
 SLAB_M = 0.25
 """Thickness of a ramp's slab."""
+_LEAST_M, _MOST_M = 0.26, 0.42
+"""Height of a shutter that is rolled up."""
+_DEPTH_M = 0.3
+_OVER_CLEAR_M = 0.02
 
 
 class WellLane(NamedTuple):
@@ -203,3 +206,23 @@ class Well(ABC):
 def _vector(way: Edge) -> Point:
     down, right = way.beyond((0, 0))
     return float(right), float(down)
+
+
+def fire_shutters(well: Well, structure: Structure, fittings: FittingsConfig) -> list[Placement]:
+    """Place a fire shutter in each opening of a level to a ramp up from it.
+
+    They keep a fire from the levels above. There are none without space above the clear height.
+    """
+    ceiling_m = fittings.ceiling_height_m
+    height_m = round(min(_MOST_M, ceiling_m - fittings.clear_height_m - _OVER_CLEAR_M), 3)
+    if not fittings.fire_shutters or height_m < _LEAST_M:
+        return []
+    return [
+        placed(
+            f"FireShutter_{opening.name}",
+            FireShutterSpec(opening.width_m, ceiling_m, round(ceiling_m - height_m, 3), _DEPTH_M),
+            opening.middle_m,
+            yaw_rad=edge_yaw_rad(opening.faces),
+        )
+        for opening in well.openings(structure)
+    ]

@@ -9,7 +9,6 @@ import shapely
 from garage2usd.config import GarageConfig
 from garage2usd.config.look import NATURAL, WallsLook
 from garage2usd.layout.ceiling.beams import ceiling_levels
-from garage2usd.layout.egress.choice import Places, chosen_shafts
 from garage2usd.layout.egress.cores import (
     FROM_COLUMN_M,
     MOST_WIDTH_M,
@@ -20,15 +19,14 @@ from garage2usd.layout.egress.cores import (
     is_wide_enough,
 )
 from garage2usd.layout.egress.exits import exits_asked, price_off_straight_m, reach_to_exits_m
+from garage2usd.layout.egress.shafts import Places, chosen_shafts
 from garage2usd.layout.placement import PlacedStall, Placement, placed, rounded, sum_of_yaws
 from garage2usd.layout.surveyed.tiles import SurveyedTiles
 from garage2usd.layout.tiles import Tile
 from garage2usd.native import elementary
+from garage2usd.objects.kind import Polygon
 from garage2usd.objects.obstacle import ObstacleSpec
-from garage2usd.objects.outline import Polygon
 from garage2usd.structure.stalls import Edge
-
-__all__ = ["surveyed_blocks", "surveyed_cores"]
 
 _FROM_REAR_M = 0.2
 _BESIDE_M = 0.8

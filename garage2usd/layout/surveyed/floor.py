@@ -1,17 +1,28 @@
-"""Floor panels of a surveyed garage: those of its pieces, laid on the tiles that group its objects."""
+"""The floor panels, numbered stalls and ceiling beams of a surveyed garage, on the tiles that group its objects."""
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 
+import numpy as np
 import shapely
+from numpy.typing import NDArray
 
+from garage2usd.assets.glyphs import undrawn
+from garage2usd.config import BayConfig
+from garage2usd.layout.ceiling.beams import beams
 from garage2usd.layout.placement import PlacedStall, Placement, of_spec
-from garage2usd.layout.surveyed.ground import SurveyedGround
+from garage2usd.layout.surveyed.ground import OFF_LINE_M, SurveyedGround
 from garage2usd.objects.floor import FloorSpec
 from garage2usd.objects.panel import Marking, PanelSpec, Surface
-
-__all__ = ["surveyed_floor"]
+from garage2usd.structure.lane_graph import StallType
+from garage2usd.structure.stalls import Edge
+from garage2usd.survey.fitted_stalls import FittedStall
 
 _LEAST_FLOOR_M2 = 0.01
+_BEAMS = -3
+"""First number of the pairs by which beams are known until they are put on their tiles."""
+_OUTWARDS = {Edge.UP: (0.0, -1.0), Edge.DOWN: (0.0, 1.0), Edge.LEFT: (-1.0, 0.0), Edge.RIGHT: (1.0, 0.0)}
 
 
 def surveyed_floor(
@@ -55,3 +66,84 @@ def _paints(panels: Iterable[Placement]) -> Iterator[tuple[shapely.Geometry, Mar
             shape = shapely.Polygon([panel.to_world(corner) for corner in marking.polygon])
             yield shapely.difference(shape, over), marking
         before.append(outline)
+
+
+def surveyed_beams(
+    ground: SurveyedGround, bay: BayConfig, ceiling_m: float, depth_m: float, pillars: Sequence[Placement]
+) -> list[Placement]:
+    """Place beams along the rows of columns in both directions, from wall to wall, as under a plan's squares.
+
+    Parameters are those of `garage2usd.layout.ceiling.beams.beams`.
+    """
+    fields = ground.fields
+    if fields is None:
+        return []
+    lines = fields.column_edges_m, fields.row_edges_m
+    snapped = [_on_lines(place, lines) for place in pillars]
+    found = beams(fields, bay, ceiling_m, depth_m, snapped)
+    return [replace(place, square=(_BEAMS, number)) for number, place in enumerate(found)]
+
+
+def _on_lines(place: Placement, lines: tuple[NDArray[np.float64], NDArray[np.float64]]) -> Placement:
+    """Return a column moved onto the lines that it is nearest to, if they are near."""
+    x, y, z = place.position_m
+    at = [float(own[np.argmin(np.abs(own - value))]) for own, value in zip(lines, (x, z), strict=True)]
+    if abs(at[0] - x) > OFF_LINE_M or abs(at[1] - z) > OFF_LINE_M:
+        return place
+    return replace(place, position_m=(at[0], y, at[1]))
+
+
+def placed_stalls(
+    fitted: Iterable[FittedStall], ground: SurveyedGround
+) -> tuple[tuple[PlacedStall, ...], tuple[FittedStall, ...]]:
+    """Return the stalls by tile in reading order, each with a number that people read, and the fitted ones likewise."""
+    fitted = list(fitted)
+    square_of = [ground.square_at(stall.shape.centre) for stall in fitted]
+    numbers = _numbers(fitted)
+    order = sorted(range(len(fitted)), key=lambda index: (square_of[index], index))
+    ordinals: Counter[tuple[int, int]] = Counter()
+    stalls = []
+    for index in order:
+        stall, square = fitted[index], square_of[index]
+        shape = stall.shape
+        ordinals[square] += 1
+        out_x, out_z = shape.outwards
+        stalls.append(
+            PlacedStall(
+                square=square,
+                ordinal=ordinals[square],
+                edge=max(Edge, key=lambda edge: _OUTWARDS[edge][0] * out_x + _OUTWARDS[edge][1] * out_z),
+                stall_type=StallType.TYPE_3,
+                centre_m=shape.centre,
+                width_m=shape.width_m,
+                length_m=shape.length_m,
+                yaw_rad=shape.yaw_rad,
+                use=stall.source.use,
+                number=numbers[index] if stall.source.use.takes_cars else "",
+                angle_deg=shape.angle_deg,
+                turn=shape.turn,
+                size=stall.source.size.value,
+            )
+        )
+    return tuple(stalls), tuple(_noted(fitted[index], numbers[index]) for index in order)
+
+
+def _noted(stall: FittedStall, number: str) -> FittedStall:
+    """Return a stall with a note if its number cannot be painted."""
+    lacking = "".join(undrawn(number))
+    if not lacking:
+        return stall
+    note = f"its number '{number}' is not painted, as the lettering has no {lacking}"
+    return replace(stall, note=f"{stall.note}; {note}" if stall.note else note)
+
+
+def _numbers(fitted: Iterable[FittedStall]) -> list[str]:
+    """Return the number of each stall: that of the survey, or counted through where some lack one or share it.
+
+    Stalls in which nobody parks need none.
+    """
+    given = [stall.source.number for stall in fitted]
+    asked = [stall.source.number for stall in fitted if stall.source.use.is_parked_in]
+    if all(asked) and len(set(asked)) == len(asked):
+        return given
+    return [f"{number:02d}" for number in range(1, len(given) + 1)]

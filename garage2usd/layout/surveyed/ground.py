@@ -1,25 +1,35 @@
-"""The floor of a surveyed garage: its outline, divided into tiles that group the objects over them."""
+"""The floor of a surveyed garage: its outline, and the tiles into which lines of columns and walls divide it."""
 
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.layout.placement import Placement
-from garage2usd.layout.surveyed.lines import structural_lines
-from garage2usd.objects.outline import Point, Polygon
+from garage2usd.objects.kind import Point, Polygon
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import Square
 from garage2usd.survey.survey import SurveyedColumn
 
-__all__ = ["GroundTile", "SurveyedGround"]
-
+PIECE_M = 8.1
+"""Usual side of a piece of floor."""
+OFF_LINE_M = 0.15
+"""Greatest distance of a column from the line of its row."""
+_MOST_PIECES = 1.5
+"""Length of a stretch in usual pieces from which it is cut although no line crosses it."""
+_LEAST_SIDE_M = 1.5
+"""Least distance between two lines."""
+_LEAST_WALL_M = 3.0
+"""Least length of a wall that makes a line."""
+_AXIS_M = 1e-3
 _MOST_SPAN_M = 25.0
 """Greatest distance between two lines that beams span."""
 _FIELD = 0.9
@@ -27,6 +37,76 @@ _FIELD = 0.9
 _MOST_SIDE_M = 2000.0
 _LEAST_M2 = 1e-3
 _DIGITS = 6
+_FILLED = 0.85
+"""Least share of its rectangle that a ground fills to be taken for it."""
+_TOUCH_M = 0.05
+_MOST_LINES = 16
+"""Greatest number of corners along an axis between which rectangles are tried."""
+
+
+class StructuralLines(NamedTuple):
+    """Places of the lines across X and across Z, in metres from the origin, ascending; the first and last are walls."""
+
+    x_m: tuple[float, ...]
+    z_m: tuple[float, ...]
+
+    def cuts_m(self, start: Point, end: Point) -> list[float]:
+        """Return the distances along a stretch at which it is cut: at the lines across it, and between distant ones.
+
+        Parameters
+        ----------
+        start, end
+            (x, z) of its ends.
+
+        Returns
+        -------
+        list of float
+            Ascending from 0 to its length, which are included.
+        """
+        length_m = math.dist(start, end)
+        found = [0.0]
+        for axis, lines in enumerate(self):
+            if abs(end[1 - axis] - start[1 - axis]) > _AXIS_M:
+                continue
+            way = 1 if end[axis] > start[axis] else -1
+            found += sorted(run for line in lines if _LEAST_SIDE_M <= (run := way * (line - start[axis])) < length_m)
+        found = [run for run in found if length_m - run >= _LEAST_SIDE_M or not run]
+        cuts: list[float] = []
+        for low, high in pairwise([*found, length_m]):
+            parts = math.ceil((high - low) / PIECE_M - 1e-9) if high - low > _MOST_PIECES * PIECE_M else 1
+            cuts += [low + (high - low) * part / parts for part in range(parts)]
+        return [*cuts, length_m]
+
+
+def structural_lines(outline: shapely.Polygon, columns: Sequence[SurveyedColumn]) -> StructuralLines:
+    """Find the lines of walls along the axes, and of rows of two columns or more.
+
+    Parameters
+    ----------
+    outline
+        Inner faces of the outer walls; its least x and z are 0.
+    columns
+        The columns.
+    """
+    corners = shapely.get_coordinates(outline.exterior)
+    feet = np.array([column.centre for column in columns]).reshape(-1, 2)
+    return StructuralLines(*(_lines_m(feet[:, axis], corners, axis) for axis in (0, 1)))
+
+
+def _lines_m(feet_m: NDArray[np.float64], corners: NDArray[np.float64], axis: int) -> tuple[float, ...]:
+    starts, ends = corners[:-1], corners[1:]
+    is_across = np.abs(ends[:, axis] - starts[:, axis]) < _AXIS_M
+    is_long = np.linalg.norm(ends - starts, axis=1) >= _LEAST_WALL_M
+    last = math.ceil(round(float(corners[:, axis].max()) * 1000, 3)) / 1000
+    walls = sorted(starts[is_across & is_long, axis].round(3).tolist())
+    ordered = np.sort(feet_m)
+    rows = np.split(ordered, np.flatnonzero(np.diff(ordered) > OFF_LINE_M) + 1) if len(ordered) else []
+    columns = [round(float(row.mean()), 3) for row in rows if len(row) > 1]
+    found = [0.0, last]
+    for line in (*walls, *columns):
+        if all(abs(line - other) >= _LEAST_SIDE_M for other in found):
+            found.append(line)
+    return tuple(sorted(found))
 
 
 class GroundTile(NamedTuple):
@@ -141,3 +221,50 @@ class SurveyedGround:
         count = used[square, place.name]
         name = place.name if count == 1 else f"{place.name}_{count}x"
         return replace(place, square=square, name=name)
+
+
+def rectangles(ground: shapely.Polygon, least_m: float) -> Iterator[shapely.Polygon]:
+    """Yield rectangles of a least side that fill a ground: itself, or the largest one and those of what it leaves."""
+    rest = [ground]
+    while rest:
+        part = rest.pop()
+        box = shapely.box(*part.bounds)
+        if part.area < least_m**2:
+            continue
+        if part.area < _FILLED * box.area:
+            inner = _largest_rectangle(part, least_m)
+            if inner is None:
+                continue
+            rest += [piece for piece in shapely.get_parts(part.difference(inner)) if piece.geom_type == "Polygon"]
+            box = inner
+        left, top, right, bottom = box.bounds
+        if min(right - left, bottom - top) >= least_m:
+            yield box
+
+
+def _largest_rectangle(ground: shapely.Polygon, least_m: float) -> shapely.Polygon | None:
+    """Return the largest rectangle along the axes between the corners of a ground that lies on it.
+
+    Of a ground with many corners, some of them count.
+    """
+    corners = shapely.get_coordinates(ground).round(2)
+    (left, right), (top, bottom) = (_spans(corners[:, axis], least_m) for axis in (0, 1))
+    boxes = shapely.box(left, top[:, None], right, bottom[:, None]).ravel()
+    areas = shapely.area(boxes).round(3)
+    wide = ground.buffer(_TOUCH_M, join_style="mitre")
+    shapely.prepare(wide)
+    # the corners of a box are far sooner known to lie outside than the box is known to lie inside
+    x0, z0, x1, z1 = shapely.bounds(boxes).T
+    is_possible = np.all([shapely.contains_xy(wide, x, z) for x, z in ((x0, z0), (x1, z0), (x1, z1), (x0, z1))], axis=0)
+    order = np.argsort(-areas, kind="stable")
+    return next((boxes[index] for index in order[is_possible[order]].tolist() if wide.covers(boxes[index])), None)
+
+
+def _spans(places_m: NDArray[np.float64], least_m: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the starts and ends of all spans of a least length between places, of at most `_MOST_LINES` places."""
+    lines = np.unique(places_m)
+    if len(lines) > _MOST_LINES:
+        lines = lines[np.linspace(0, len(lines) - 1, _MOST_LINES).round().astype(int)]
+    start, end = np.triu_indices(len(lines), k=1)
+    is_long = lines[end] - lines[start] >= least_m
+    return lines[start[is_long]], lines[end[is_long]]

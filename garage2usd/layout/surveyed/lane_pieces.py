@@ -10,14 +10,12 @@ import shapely
 from numpy.typing import NDArray
 
 from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, Point
-from garage2usd.layout.surveyed.lines import StructuralLines
+from garage2usd.layout.surveyed.ground import StructuralLines
 from garage2usd.layout.tiles import Tile
 from garage2usd.native import elementary
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import Square
 from garage2usd.structure.stalls import Edge
-
-__all__ = ["AXIS_RAD", "LanePieces", "edge_towards"]
 
 Floats = NDArray[np.float64]
 _LEAST_PIECE_M = 0.5

@@ -15,17 +15,14 @@ import shapely
 from garage2usd.config import BayConfig
 from garage2usd.garage import LaneGraph, Point
 from garage2usd.layout.placement import PlacedStall, rounded
-from garage2usd.layout.surveyed.ground import SurveyedGround
+from garage2usd.layout.surveyed.ground import SurveyedGround, rectangles
 from garage2usd.layout.surveyed.lane_pieces import AXIS_RAD, LanePieces, edge_towards
-from garage2usd.layout.surveyed.rectangles import rectangles
 from garage2usd.layout.tiles import Tile, Tiles
 from garage2usd.native import elementary
-from garage2usd.objects.outline import Polygon, rectangle
+from garage2usd.objects.kind import Polygon, rectangle
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
 from garage2usd.structure.lane_graph import Square
 from garage2usd.structure.stalls import Edge
-
-__all__ = ["SurveyedTiles"]
 
 _MOST_MARGIN_M = 1.2
 """Greatest distance between a carriageway and the mouths of its stalls that counts as the lane's."""

@@ -15,13 +15,11 @@ from garage2usd.config.site import DOOR_FRAME_M, DOOR_JAMB_M
 from garage2usd.garage import LaneKind
 from garage2usd.layout.placement import Placement, placed
 from garage2usd.layout.surveyed.ground import SurveyedGround
-from garage2usd.objects.outline import Point
+from garage2usd.objects.kind import Point
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.survey.lane_network import Gate
 from garage2usd.survey.survey import PortalKind, SurveyedLane, SurveyedPortal
-
-__all__ = ["gates_of", "surveyed_walls"]
 
 _LEAST_DOOR_WALL_M = 4.2
 """Least length of the piece of wall around a door."""

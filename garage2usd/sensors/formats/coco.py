@@ -12,12 +12,10 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.common.version import VERSION
+from garage2usd.common.package import VERSION
 from garage2usd.garage import Stall, StallUse
 from garage2usd.reading.labels import Labels
 from garage2usd.sensors.slots import CORNERS, PLACES_PX, SlotRecord, Visibility
-
-__all__ = ["STUFF", "CocoImage", "coco_keypoints", "coco_panoptic", "panoptic_segments"]
 
 STUFF = frozenset(
     {

@@ -12,22 +12,21 @@ from pxr import Usd
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.reading.labels import Labels
-from garage2usd.sensors.boxes import object_boxes
-from garage2usd.sensors.formats.nuscenes_boxes import PARKED, VISIBILITY, add_boxes
-from garage2usd.sensors.formats.nuscenes_classes import BOXED, CATEGORIES, categories_of_classes
-from garage2usd.sensors.formats.nuscenes_locations import Location, locations_of
-from garage2usd.sensors.formats.nuscenes_map import GlobalFrame
-from garage2usd.sensors.formats.nuscenes_scenes import Stretch, stretches_of
-from garage2usd.sensors.formats.nuscenes_tables import Record, Tables, place_fields, token_of
-from garage2usd.sensors.formats.point_cloud_files import read_npz
+from garage2usd.sensors.formats.nuscenes_boxes import PARKED, VISIBILITY, add_boxes, object_boxes
+from garage2usd.sensors.formats.nuscenes_scenes import GlobalFrame, Location, Stretch, locations_of, stretches_of
+from garage2usd.sensors.formats.nuscenes_tables import (
+    BOXED,
+    CATEGORIES,
+    Record,
+    Tables,
+    categories_of_classes,
+    place_fields,
+    token_of,
+)
 from garage2usd.sensors.formats.recording import Recording, Shot
-from garage2usd.sensors.rays.point_cloud import PointCloud
+from garage2usd.sensors.rays.point_cloud import PointCloud, read_npz
 from garage2usd.sensors.rays.ray_scene import RayScene
-from garage2usd.sensors.rig.camera import PinholeCamera
-from garage2usd.sensors.rig.lidar_settings import Lidar
-from garage2usd.sensors.rig.mount import Sensor
-
-__all__ = ["NUSCENES_VERSION", "write_nuscenes"]
+from garage2usd.sensors.rig.sensors import Lidar, PinholeCamera, Sensor
 
 NUSCENES_VERSION = "v1.0-garage2usd"
 """Name of the folder of tables, which nuscenes-devkit calls the version."""

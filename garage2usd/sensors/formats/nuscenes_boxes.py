@@ -1,27 +1,138 @@
-"""Object boxes (annotations) of a recording in nuScenes' tables."""
+"""Boxes of objects: oriented bounding boxes, the share of an object in sight, and nuScenes' annotations."""
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd, UsdGeom
 
+from garage2usd.common.randomness import Step, generator
 from garage2usd.objects import CAR_LABELS
 from garage2usd.reading.labels import Labels
-from garage2usd.sensors.boxes import ObjectBox, share_in_sight
-from garage2usd.sensors.formats.nuscenes_classes import BOXED
-from garage2usd.sensors.formats.nuscenes_map import GlobalFrame
-from garage2usd.sensors.formats.nuscenes_scenes import Stretch
-from garage2usd.sensors.formats.nuscenes_tables import Record, Tables, place_fields, token_of
+from garage2usd.sensors.formats.nuscenes_scenes import GlobalFrame, Stretch
+from garage2usd.sensors.formats.nuscenes_tables import BOXED, Record, Tables, place_fields, token_of
 from garage2usd.sensors.rays.point_cloud import PointCloud
 from garage2usd.sensors.rays.ray_scene import RayScene
 
-__all__ = ["PARKED", "VISIBILITY", "add_boxes"]
-
+_FORWARD = {UsdGeom.Tokens.y: (0.0, 0.0, -1.0), UsdGeom.Tokens.z: (0.0, 1.0, 0.0)}
+"""Forward direction of objects in their own axes, by the up axis of their stage."""
+_UP = {UsdGeom.Tokens.y: (0.0, 1.0, 0.0), UsdGeom.Tokens.z: (0.0, 0.0, 1.0)}
+_SIGHT_RAYS = 256
 PARKED = "vehicle.parked"
 """nuScenes attribute of parked cars."""
 VISIBILITY = (("1", "v0-40", 0.0), ("2", "v40-60", 0.4), ("3", "v60-80", 0.6), ("4", "v80-100", 0.8))
 """Token, level and least share in sight of each nuScenes visibility."""
 _BOX_MARGIN_M = 0.01
+
+
+@dataclass(frozen=True, eq=False)
+class ObjectBox:
+    """An oriented bounding box of an object.
+
+    Attributes
+    ----------
+    id, class_id
+        Ids of the object and its class, as in the table of labels.
+    centre_m
+        Centre in the stage's axes; float64, shape (3,).
+    axes
+        Columns: the object's forward, left and up in the stage's axes; float64, shape (3, 3).
+    size_m
+        Extent along `axes`; float64, shape (3,).
+    surface_m
+        Points sampled evenly on the object's surface; float64, shape (n, 3).
+    """
+
+    id: int
+    class_id: int
+    centre_m: NDArray[np.float64]
+    axes: NDArray[np.float64]
+    size_m: NDArray[np.float64]
+    surface_m: NDArray[np.float64]
+
+
+def object_boxes(stage: Usd.Stage, scene: RayScene, class_ids: Collection[int]) -> list[ObjectBox]:
+    """Compute the oriented bounding boxes of all objects of some classes, ordered by object id.
+
+    Parameters
+    ----------
+    stage
+        The stage.
+    scene
+        Solid surfaces of the stage.
+    class_ids
+        Ids of the classes.
+
+    Notes
+    -----
+    Objects look to -Z of their own axes where Y is up, as those of garage2usd do, and to Y where Z is up.
+    """
+    up_axis = UsdGeom.GetStageUpAxis(stage)
+    wanted = np.isin(scene.class_id, list(class_ids))
+    numbers = np.flatnonzero(wanted & (scene.instance > 0))
+    order = numbers[np.argsort(scene.instance[numbers], kind="stable")]
+    ids, first = np.unique(scene.instance[order], return_index=True)
+    boxes = []
+    for instance, own in zip(ids.tolist(), np.split(order, first)[1:], strict=True):
+        matrix = scene.placed[instance].matrix[:3, :3]
+        axes = _axes(np.array(_FORWARD[up_axis]) @ matrix, np.array(_UP[up_axis]) @ matrix)
+        corners = scene.vertices_m[scene.triangles[own]]
+        turned = corners.reshape(-1, 3) @ axes
+        low, high = turned.min(axis=0), turned.max(axis=0)
+        boxes.append(
+            ObjectBox(
+                instance,
+                int(scene.class_id[own[0]]),
+                axes @ (low + high) / 2,
+                axes,
+                high - low,
+                _spread(corners, instance),
+            )
+        )
+    return boxes
+
+
+def share_in_sight(scene: RayScene, box: ObjectBox, eyes_m: NDArray[np.float64]) -> float:
+    """Estimate the share of an object in line of sight, from the sensor position that sees most of it.
+
+    Parameters
+    ----------
+    scene
+        Surfaces that may hide the object.
+    box
+        The object.
+    eyes_m
+        Sensor positions in the stage's axes; shape (n, 3).
+
+    Returns
+    -------
+    float
+        Share of the rays to points of the object's surface, the far side included, that hit the object first.
+    """
+    ways = (box.surface_m[None] - eyes_m[:, None]).reshape(-1, 3)
+    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+    hits = scene.cast(np.repeat(eyes_m, len(box.surface_m), axis=0), ways)
+    seen = (hits.triangle >= 0) & (scene.instance[hits.triangle] == box.id)
+    return float(seen.reshape(len(eyes_m), -1).mean(axis=1).max())
+
+
+def _axes(forward: NDArray[np.float64], up: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Compute an orthonormal frame of forward, left and up."""
+    up = up / np.linalg.norm(up)
+    forward = forward - up * (forward @ up)
+    forward /= np.linalg.norm(forward)
+    return np.stack([forward, np.cross(up, forward), up], axis=1)
+
+
+def _spread(corners: NDArray[np.float64], instance: int) -> NDArray[np.float64]:
+    draws = generator(instance, Step.LIDAR)
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    chosen = corners[draws.choice(len(corners), _SIGHT_RAYS, p=areas / areas.sum() if areas.any() else None)]
+    weights = draws.dirichlet((1.0, 1.0, 1.0), _SIGHT_RAYS)
+    points: NDArray[np.float64] = (chosen * weights[:, :, None]).sum(axis=1)
+    return points
 
 
 def add_boxes(

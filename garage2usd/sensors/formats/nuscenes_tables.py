@@ -1,4 +1,4 @@
-"""nuScenes tables under construction."""
+"""nuScenes tables under construction, and nuScenes' categories of semantic classes."""
 
 import hashlib
 from typing import Any
@@ -7,9 +7,70 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-__all__ = ["Record", "Tables", "place_fields", "token_of"]
+from garage2usd.objects import CLASSES
+from garage2usd.reading.labels import Labels
 
 Record = dict[str, Any]
+_NOISE, _DRIVEABLE, _MANMADE, _OTHER = "noise", "flat.driveable_surface", "static.manmade", "static.other"
+CATEGORIES = (
+    _NOISE,
+    "animal",
+    "human.pedestrian.adult",
+    "human.pedestrian.child",
+    "human.pedestrian.construction_worker",
+    "human.pedestrian.personal_mobility",
+    "human.pedestrian.police_officer",
+    "human.pedestrian.stroller",
+    "human.pedestrian.wheelchair",
+    "movable_object.barrier",
+    "movable_object.debris",
+    "movable_object.pushable_pullable",
+    "movable_object.trafficcone",
+    "static_object.bicycle_rack",
+    "vehicle.bicycle",
+    "vehicle.bus.bendy",
+    "vehicle.bus.rigid",
+    "vehicle.car",
+    "vehicle.construction",
+    "vehicle.emergency.ambulance",
+    "vehicle.emergency.police",
+    "vehicle.motorcycle",
+    "vehicle.trailer",
+    "vehicle.truck",
+    _DRIVEABLE,
+    "flat.other",
+    "flat.sidewalk",
+    "flat.terrain",
+    _MANMADE,
+    _OTHER,
+    "static.vegetation",
+    "vehicle.ego",
+)
+"""Categories of nuScenes-lidarseg; the index in the list is the value in its files."""
+BOXED = {
+    "car": "vehicle.car",
+    "van": "vehicle.car",
+    "truck": "vehicle.truck",
+    "traffic_cone": "movable_object.trafficcone",
+    "barrier": "movable_object.barrier",
+    "waste_bin": "movable_object.pushable_pullable",
+    "cardboard_box": "movable_object.debris",
+    "pallet": "movable_object.debris",
+    "bag": "movable_object.debris",
+    "shopping_trolley": "movable_object.pushable_pullable",
+    "pram": "human.pedestrian.stroller",
+    "bicycle": "vehicle.bicycle",
+    "motorbike": "vehicle.motorcycle",
+    "person": "human.pedestrian.adult",
+}
+"""Semantic classes of objects with nuScenes boxes, and their categories."""
+_PARTS = {"number_plate": "vehicle.car"}
+"""Semantic classes of parts of boxed objects, and the categories of those objects."""
+FLAT = frozenset(entry.label for entry in CLASSES if entry.cityscapes in {"road", "parking"})
+"""Semantic classes of the ground and its paint."""
+STANDING = frozenset({"wall", "column", "obstacle", "vehicle_door"})
+"""Semantic classes of fixed objects that stand on the ground."""
+_KNOWN = frozenset(entry.label for entry in CLASSES)
 
 
 class Tables:
@@ -35,3 +96,12 @@ def place_fields(matrix: NDArray[np.float64]) -> Record:
     """Return a rigid transform, shape (4, 4), as nuScenes' translation and rotation fields."""
     x, y, z, w = Rotation.from_matrix(matrix[:3, :3]).as_quat(canonical=True).tolist()
     return {"translation": matrix[:3, 3].tolist(), "rotation": [w, x, y, z]}
+
+
+def categories_of_classes(labels: Labels) -> NDArray[np.uint8]:
+    """Return the nuScenes-lidarseg category index of each semantic class, indexed by class id."""
+    table = np.full(256, CATEGORIES.index(_NOISE), dtype=np.uint8)
+    for number, entry in labels.classes.items():
+        name = (BOXED | _PARTS).get(entry.name) or (_DRIVEABLE if entry.name in FLAT else _MANMADE)
+        table[number] = CATEGORIES.index(name if entry.name in _KNOWN else _OTHER)
+    return table

@@ -10,20 +10,16 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.extras import of_extra
-from garage2usd.sensors.formats.point_cloud_files import POINT_ROW, point_rows, read_npz
+from garage2usd.common.package import of_extra
 from garage2usd.sensors.formats.recording import Recording, Shot
 from garage2usd.sensors.rays.lenses import KannalaBrandt, Pinhole
-from garage2usd.sensors.rays.point_cloud import PointCloud
-from garage2usd.sensors.rig.camera import Camera
-from garage2usd.sensors.rig.mount import Sensor
+from garage2usd.sensors.rays.point_cloud import POINT_ROW, PointCloud, point_rows, read_npz
+from garage2usd.sensors.rig.sensors import Camera, Sensor
 
 with of_extra("a ROS 2 bag"):
     from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
     from rosbags.rosbag2 import StoragePlugin, Writer
     from rosbags.typesys import Stores, get_typestore
-
-__all__ = ["write_ros_bag"]
 
 _VERSION: Literal[8] = 8
 """Version of the metadata: the newest that ROS 2 Humble and Iron read; from 9 on QoS profiles are not text."""

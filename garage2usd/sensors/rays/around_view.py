@@ -14,8 +14,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from garage2usd.sensors.rays.lenses import Lens
 
-__all__ = ["SEAM_M", "SECTORS", "AroundView", "Eye"]
-
 SECTORS = ("front", "rear", "left", "right")
 """The sectors of the ground around the car, one for each side; the seams run from the car's corners at 45 degrees."""
 SEAM_M = 1e-5

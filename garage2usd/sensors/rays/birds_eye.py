@@ -12,8 +12,6 @@ from pydantic import Field
 from garage2usd.common.settings import Settings
 from garage2usd.sensors.rays.lenses import Lens
 
-__all__ = ["FLOOR_CLASSES", "FREE_CLASSES", "BirdsEye", "Orthographic", "free_space"]
-
 FLOOR_CLASSES = frozenset(
     {
         "crossing",

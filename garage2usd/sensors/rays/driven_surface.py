@@ -12,8 +12,6 @@ from garage2usd.reading.labels import Labels
 from garage2usd.sensors.rays.ray_scene import read_ray_scene
 from garage2usd.sensors.rig.poses import y_up_to_stage
 
-__all__ = ["DrivenSurface"]
-
 _STEP_M = 0.08
 """Height over the floor up to which a car drives over an obstacle: a speed bump, not a kerb."""
 _ROUNDING_M = 0.01

@@ -1,11 +1,12 @@
-"""Point clouds of LiDAR sweeps."""
+"""Point clouds of LiDAR sweeps, and their files: PCD, KITTI's ``.bin`` and NumPy's ``.npz``."""
 
 from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-
-__all__ = ["PointCloud"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,3 +40,90 @@ class PointCloud:
     def __len__(self) -> int:
         """Return the number of points."""
         return len(self.points_m)
+
+
+class CloudFormat(StrEnum):
+    """File formats of point clouds."""
+
+    PCD = "pcd"
+    """Binary PCD of the Point Cloud Library: x, y, z, intensity, instance, class, ring."""
+    KITTI = "bin"
+    """Rows of x, y, z, intensity, as in KITTI; without instances and classes."""
+    NPZ = "npz"
+    """The arrays of a `PointCloud` by their names."""
+
+
+POINT_ROW = np.dtype(
+    [
+        ("x", "<f4"),
+        ("y", "<f4"),
+        ("z", "<f4"),
+        ("intensity", "<f4"),
+        ("instance", "<u4"),
+        ("class", "u1"),
+        ("ring", "<u2"),
+    ]
+)
+"""Record of a point with all its attributes, without padding."""
+
+_ARRAYS = ("points_m", "intensity", "instance", "class_id", "ring", "beam")
+
+
+def write_cloud(cloud: PointCloud, path: Path, kind: CloudFormat) -> None:
+    """Write a point cloud to a file, in the sensor's axes: x forward, y left, z up, in metres.
+
+    Parameters
+    ----------
+    cloud
+        The points.
+    path
+        The file, in an existing folder.
+    kind
+        Its format.
+    """
+    _WRITERS[kind](cloud, path)
+
+
+def read_npz(path: Path) -> PointCloud:
+    """Read a point cloud that was written as `CloudFormat.NPZ`."""
+    with np.load(path) as arrays:
+        return PointCloud(**{name: arrays[name] for name in _ARRAYS})
+
+
+def point_rows(cloud: PointCloud) -> NDArray[np.void]:
+    """Return a point cloud as rows of `POINT_ROW`, shape (n,)."""
+    rows = np.empty(len(cloud), dtype=POINT_ROW)
+    for axis, name in enumerate("xyz"):
+        rows[name] = cloud.points_m[:, axis]
+    rows["intensity"], rows["instance"] = cloud.intensity, cloud.instance
+    rows["class"], rows["ring"] = cloud.class_id, cloud.ring
+    return rows
+
+
+def _write_pcd(cloud: PointCloud, path: Path) -> None:
+    rows = point_rows(cloud)
+    fields = [(name, *_pcd_type(POINT_ROW[name])) for name in POINT_ROW.names or ()]
+    names, sizes, types = (" ".join(column) for column in zip(*fields, strict=True))
+    header = (
+        f"# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS {names}\nSIZE {sizes}\nTYPE {types}\n"
+        f"COUNT {' '.join('1' * len(fields))}\nWIDTH {len(rows)}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\n"
+        f"POINTS {len(rows)}\nDATA binary\n"
+    )
+    path.write_bytes(header.encode("ascii") + rows.tobytes())
+
+
+def _pcd_type(dtype: np.dtype[Any]) -> tuple[str, str]:
+    return str(dtype.itemsize), "F" if dtype.kind == "f" else "U"
+
+
+def _write_kitti(cloud: PointCloud, path: Path) -> None:
+    rows = np.column_stack([cloud.points_m, cloud.intensity]).astype("<f4")
+    path.write_bytes(rows.tobytes())
+
+
+def _write_npz(cloud: PointCloud, path: Path) -> None:
+    with path.open("wb") as file:
+        np.savez_compressed(file, **{name: getattr(cloud, name) for name in _ARRAYS})
+
+
+_WRITERS = {CloudFormat.PCD: _write_pcd, CloudFormat.KITTI: _write_kitti, CloudFormat.NPZ: _write_npz}

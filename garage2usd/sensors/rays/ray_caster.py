@@ -5,10 +5,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.common.extras import of_extra
+from garage2usd.common.package import of_extra
 from garage2usd.common.system import HAS_EMBREE
-
-__all__ = ["SLOWLY", "BoxTree", "RayCaster", "ray_caster"]
 
 SLOWLY = None if HAS_EMBREE else "rays without embreex, which has no package for this machine: the same hits, slowly"
 """Warning that ray casting without Embree is slow; None if Embree is installed."""

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from pxr import Usd
 
 from garage2usd.common.errors import StageError
-from garage2usd.common.extras import of_extra
+from garage2usd.common.package import of_extra
 from garage2usd.objects.sky import KIND as SKY
 from garage2usd.reading.labels import Labels, owner_of
 from garage2usd.scenes.looks import MeshLooks
 from garage2usd.scenes.meshes import DRAWN_TYPES
-from garage2usd.scenes.objects import DrawnPart, PlacedObject, once_for_each_look
 from garage2usd.scenes.pictures import Pictures, sampled
+from garage2usd.scenes.prims import DrawnPart, PlacedObject, once_for_each_look
 from garage2usd.scenes.surfaces import SurfaceLook
 from garage2usd.scenes.textures import Layout
 from garage2usd.scenes.values import metres_per_unit
@@ -25,8 +25,6 @@ from garage2usd.sensors.rays.ray_caster import RayCaster, ray_caster
 
 with of_extra("LiDAR"):
     import trimesh
-
-__all__ = ["RayHits", "RayScene", "read_ray_scene"]
 
 _OPAQUE = 0.5
 """Opacity below which a surface is transparent to rays, as in the path tracer's pictures of depth and instances."""

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 from garage2usd.assets import MATERIALS, Material, Touch, pascal_case
 from garage2usd.scenes.surfaces import SurfaceLook
 
-__all__ = ["REFLECTANCES", "MaterialClass", "Reflectance", "material_class", "returned"]
-
 
 class MaterialClass(StrEnum):
     """Material classes of surfaces at a wavelength of 905 nm."""

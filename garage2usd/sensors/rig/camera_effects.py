@@ -6,8 +6,6 @@ from pydantic import Field
 
 from garage2usd.common.settings import Settings
 
-__all__ = ["CameraEffects"]
-
 _Share = Annotated[float, Field(ge=0.0, le=1.0)]
 _Ev = Annotated[float, Field(ge=-12.0, le=12.0)]
 

@@ -16,25 +16,15 @@ from garage2usd.config.files import absolute_in
 from garage2usd.config.own_cars import ModelFolder, OwnCar, cars_by_name, folder_of, read_own_cars
 from garage2usd.config.vehicles import CarBody
 from garage2usd.sensors.rig.around_view_camera import AroundViewCamera
-from garage2usd.sensors.rig.camera import Camera, KannalaBrandtCamera, PinholeCamera, WoodScapeCamera
-from garage2usd.sensors.rig.lidar_settings import Lidar, SolidStateLidar, SpinningLidar
-from garage2usd.sensors.rig.mount import Sensor
-
-__all__ = [
-    "RIG_NAMES",
-    "AroundViewCamera",
-    "Camera",
-    "KannalaBrandtCamera",
-    "Lidar",
-    "PinholeCamera",
-    "Rig",
-    "Sensor",
-    "SolidStateLidar",
-    "SpinningLidar",
-    "WoodScapeCamera",
-    "read_rig",
-    "rig_from_mapping",
-]
+from garage2usd.sensors.rig.sensors import (
+    Camera,
+    KannalaBrandtCamera,
+    PinholeCamera,
+    Sensor,
+    SolidStateLidar,
+    SpinningLidar,
+    WoodScapeCamera,
+)
 
 RIG_NAMES = ("avp_around_view", "avp_surround", "column_camera", "lidar_32", "woodscape_like")
 """Names of the shipped rigs."""

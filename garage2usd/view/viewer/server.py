@@ -14,8 +14,6 @@ from garage2usd.common.errors import OutputError
 from garage2usd.view.viewer.scene import Scene
 from garage2usd.view.viewer.wire import encode_colliders, encode_scene
 
-__all__ = ["ViewerServer", "page_files"]
-
 HOST = "127.0.0.1"
 _TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css", ".txt": "text/plain"}
 _SCENE, _COLLIDERS, _TEXTURES = "/scene.bin", "/colliders.bin", "/textures/"

@@ -12,13 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.common.view_transform import EXPOSURE_EV
+from garage2usd.assets.light import EXPOSURE_EV
 from garage2usd.garage import Stall
 from garage2usd.reading.lanes import GUIDE_LIFT_M, Lanes
-from garage2usd.view.viewer.colliders import collider_lines
+from garage2usd.view.viewer.reading import collider_lines
 from garage2usd.view.viewer.scene import Scene, Shape, moved
-
-__all__ = ["encode_colliders", "encode_scene"]
 
 _MAGIC = b"G2UV"
 _ALIGNMENT = 4

@@ -5,7 +5,7 @@ Each call succeeds or ends in one line of error, without a traceback, within ten
 nothing outside its output folder. What does not is kept in a folder and named by its number.
 
 Each call is a process forked from one that has the program loaded. Commands that read stages have the limits that
-`garage2usd.cli.supervision` gives them, and crashes of USD and ends by a limit count as the errors that it makes of
+`garage2usd.cli.process` gives them, and crashes of USD and ends by a limit count as the errors that it makes of
 them.
 `view` ends once the page could be shown; of `render`, what comes before Blender is run.
 """
@@ -92,7 +92,7 @@ def _become_command(case: Case, work: Path, temporary: Path) -> None:
         os.environ["TMPDIR"] = tempfile.tempdir = str(temporary)
         resource.setrlimit(resource.RLIMIT_CPU, (_HARD_S, _HARD_S))
         from garage2usd.cli import main
-        from garage2usd.cli.supervision import SUPERVISED
+        from garage2usd.cli.process import SUPERVISED
         from garage2usd.common import limits
 
         if case.arguments[0] in SUPERVISED:
@@ -112,7 +112,7 @@ def _become_command(case: Case, work: Path, temporary: Path) -> None:
 
 
 def _judge(case: Case, status: int, said: str) -> tuple[str, list[str]]:
-    from garage2usd.cli.supervision import CRASHES, SUPERVISED
+    from garage2usd.cli.process import CRASHES, SUPERVISED
 
     wrong = ["a traceback"] if "Traceback (most recent call last)" in said else []
     if status >= 0:

@@ -9,10 +9,8 @@ from hypothesis import strategies as st
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning import sarsa
-from garage2usd.planning.archive import new_archive
-from garage2usd.planning.board import new_board
+from garage2usd.planning.board import PADDING, ground_of, new_archive, new_board
 from garage2usd.planning.decision import Action, DecisionProcess, State, observe
-from garage2usd.planning.ground import PADDING, ground_of
 from garage2usd.planning.reference_sarsa import ReferenceSarsa, SplitMix64
 from garage2usd.structure.grid import Cell, Structure
 

@@ -16,9 +16,8 @@ from garage2usd.config import GarageConfig
 from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.objects.car import CarSpec
 from garage2usd.pipeline import generate
-from garage2usd.stage import baked_meshes
-from garage2usd.stage.baked_meshes import MESH_FILE, bake_meshes, baked_asset, baked_shapes
-from garage2usd.stage.prototypes import _asset_of_shape
+from garage2usd.stage import prototypes
+from garage2usd.stage.prototypes import MESH_FILE, _asset_of_shape, bake_meshes, baked_asset, baked_shapes
 
 AGAIN = "bake the meshes again: garage2usd meshes garage2usd/stage (--choose where shapes have other measures)"
 ARRAYS = ("points", "face_counts", "face_indices", "normals", "normal_indices", "st", "st_indices")
@@ -66,9 +65,9 @@ def test_a_change_of_one_number_is_found(tmp_path, monkeypatch):
 
 
 def use(path, monkeypatch):
-    monkeypatch.setattr(baked_meshes, "MESH_FILE", path)
+    monkeypatch.setattr(prototypes, "MESH_FILE", path)
     for name in ("_packed_groups", "_group"):
-        monkeypatch.setattr(baked_meshes, name, lru_cache(getattr(baked_meshes, name).__wrapped__))
+        monkeypatch.setattr(prototypes, name, lru_cache(getattr(prototypes, name).__wrapped__))
 
 
 def test_usual_garages_find_almost_all_of_their_shapes():
@@ -104,7 +103,7 @@ def test_a_garage_reads_the_cars_that_it_has_alone(monkeypatch):
     use(MESH_FILE, monkeypatch)
     assert baked_asset(cars[0]) is not None
     assert baked_asset(cars[0]) is not None
-    assert baked_meshes._group.cache_info().currsize == 1
+    assert prototypes._group.cache_info().currsize == 1
 
 
 def test_a_car_that_was_used_is_made_from_what_is_made_ahead(monkeypatch):
@@ -145,7 +144,7 @@ def test_a_shape_that_is_none_any_longer_is_named(tmp_path, monkeypatch, key):
 
 
 def test_shapes_of_two_garages_are_chosen(monkeypatch):
-    command = import_module("garage2usd.cli.meshes")
+    command = import_module("garage2usd.cli.shipped")
     monkeypatch.setattr(command, "_GARAGES", ((2, {"width_cells": 5, "height_cells": 4, "obstacles": 0}),))
     sites = [{"width_cells": 5, "height_cells": 4, "obstacles": 0}] * 2
     garages = [

@@ -12,7 +12,7 @@ from garage2usd.assets.car_shell import Shell
 from garage2usd.assets.car_wheels import MOST_STEER_DEG, steered_box
 from garage2usd.assets.cars import car
 from garage2usd.common.errors import ConfigError
-from garage2usd.config.stage import TextureQuality
+from garage2usd.config.outputs import TextureQuality
 from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_BODIES, PAINTS
 from garage2usd.objects.car import CarSpec
 from garage2usd.stage.prototype_layer import write_prototype

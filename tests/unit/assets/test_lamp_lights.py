@@ -12,8 +12,7 @@ from garage2usd.config.vehicles import CAR_BODIES, body_named
 from garage2usd.objects.car import CarSpec
 from garage2usd.reading.lights import light_of
 from garage2usd.sensors.rig.rig import rig_from_mapping
-from garage2usd.stage.ego_car import EGO_PATH, write_stage_with_car
-from garage2usd.stage.lamp_lights import lamp_places
+from garage2usd.stage.ego_car import EGO_PATH, lamp_places, write_stage_with_car
 from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY
 
 HATCHBACK = body_named("hatchback")

@@ -16,11 +16,11 @@ from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
 from garage2usd.config.own_cars import ModelFolder, cars_by_name, read_own_cars
+from garage2usd.recordings.birds_eye import ego_triangles_m
 from garage2usd.scenes.foreign_models import read_model
-from garage2usd.sensors.rig.ego_mask import ego_triangles_m
 from garage2usd.sensors.rig.rig import read_rig, rig_from_mapping
 from garage2usd.stage.driving_car import CAR_NAME, driven_asset
-from garage2usd.stage.lamp_lights import lamp_places
+from garage2usd.stage.ego_car import lamp_places
 
 
 @pytest.fixture(scope="module")

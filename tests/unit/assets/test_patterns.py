@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from garage2usd.assets.patterns import cells, joint, strokes, trowel_marks
+from garage2usd.assets.fields import cells, joint, strokes, trowel_marks
 
 SHAPE = 96, 120
 

@@ -14,13 +14,13 @@ from support.soak import soak_but
 
 from garage2usd.common.errors import ConfigError, StageError
 from garage2usd.config import GarageConfig
-from garage2usd.config.stage import StageForm
+from garage2usd.config.outputs import StageForm
 from garage2usd.garage_sources import check
 from garage2usd.pipeline import build
 from garage2usd.reading.files import open_stage
 from garage2usd.stage.asset_files import _asset_file
+from garage2usd.stage.looks import texture_file
 from garage2usd.stage.prototypes import _asset_of_shape
-from garage2usd.stage.texture_files import texture_file
 from garage2usd.view.viewer import read_scene
 from garage2usd.view.viewer.wire import encode_scene
 

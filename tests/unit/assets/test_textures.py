@@ -8,7 +8,7 @@ from garage2usd.assets import GLOSSES, MATERIALS, PaintedTexture
 from garage2usd.assets.stain_texture import CELLS, CELLS_ACROSS, DIRT_CELLS
 from garage2usd.assets.textures import texture_folder
 from garage2usd.config.look import Dirt
-from garage2usd.config.stage import TextureQuality
+from garage2usd.config.outputs import TextureQuality
 
 _USED = {texture for material in MATERIALS.values() for texture in material.textures()}
 NAMES = sorted(

@@ -9,9 +9,9 @@ import pytest
 from PIL import Image
 
 from garage2usd.assets.textures import texture_folder
-from garage2usd.assets.worn_paint import WEAR_STEPS, painted, wear_palette
+from garage2usd.assets.textures.paints import WEAR_STEPS, painted, wear_palette
 from garage2usd.common.errors import ConfigError
-from garage2usd.config.stage import TextureQuality
+from garage2usd.config.outputs import TextureQuality
 
 NAMES = ["wear_fresh.png", "wear_worn.png", "wear_gone.png", "wear_ghost.png"]
 YELLOW, GREEN = (0.7, 0.4, 0.02), (0.05, 0.2, 0.1)

@@ -6,7 +6,7 @@ import shapely
 from pxr import Sdf, Usd, UsdGeom
 
 from garage2usd.as_built.stage_reader import level_of_stage
-from garage2usd.maps.occupied_ground import floor_of
+from garage2usd.maps.occupancy import floor_of
 
 L_SHAPE = [(10, 4), (4, 4), (4, 10), (0, 10), (0, 0), (10, 0)]
 

@@ -11,7 +11,7 @@ from garage2usd import GarageConfig, build
 from garage2usd.as_built.core_reader import core_doors
 from garage2usd.as_built.layout_reader import level_of_layout
 from garage2usd.as_built.stage_reader import level_of_stage
-from garage2usd.checks import egress
+from garage2usd.checks import safety
 from garage2usd.profiles import load_profile
 from garage2usd.structure.grid import Cell
 
@@ -49,7 +49,8 @@ def stage(opened):
 
 def found_in(stage):
     subject = level_of_stage(stage, source="edited")
-    return [(finding.rule, finding.place) for rule in egress.BOOK.rules for finding in rule.findings(subject, CN)]
+    rules = [rule for rule in safety.BOOK.rules if "compartment" in rule.name or "exit" in rule.name]
+    return [(finding.rule, finding.place) for rule in rules for finding in rule.findings(subject, CN)]
 
 
 def core_prims(stage):

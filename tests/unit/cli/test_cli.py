@@ -18,13 +18,13 @@ from support.soak import soak_but
 import garage2usd
 from garage2usd.cli import bars, main
 from garage2usd.cli.build import _learnt, _planned
-from garage2usd.cli.termination import Termination
+from garage2usd.cli.process import Termination
 from garage2usd.common.limits import ONE_THREAD
 from garage2usd.common.progress import time_in_words
 from garage2usd.config import config_schema
 from garage2usd.profiles import PROFILE_NAMES
 from garage2usd.reading.label_table import read_label_table
-from garage2usd.stage.baked_meshes import MESH_FILE
+from garage2usd.stage.prototypes import MESH_FILE
 
 QUICK = "[plan]\nepisodes = 200\n"
 

@@ -22,8 +22,8 @@ from garage2usd.pipeline import generate
 from garage2usd.profiles import read_profile
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.report import read_report
+from garage2usd.view.drawing import to_svg
 from garage2usd.view.plan_picture import draw_plan
-from garage2usd.view.svg import to_svg
 from garage2usd.view.viewer import read_scene
 from garage2usd.view.viewer.wire import encode_scene
 

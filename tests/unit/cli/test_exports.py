@@ -16,9 +16,9 @@ from support.map_reader import read_map
 
 import garage2usd
 from garage2usd.cli import main
-from garage2usd.common import extras
+from garage2usd.common import package
 from garage2usd.common.errors import ConfigError, MissingExtraError, ReportError, StageError
-from garage2usd.config.maps import MapsConfig
+from garage2usd.config.outputs import MapsConfig
 
 QUICK = "[plan]\nepisodes = 200\n"
 GRID_FILES = tuple(f"g{mask}.{suffix}" for mask in ("", "_keepout", "_speed") for suffix in ("yaml", "pgm"))
@@ -195,7 +195,7 @@ def test_without_pyproj_a_lanelet2_map_is_refused_before_a_garage_is_made(tmp_pa
 
 
 def test_files_that_need_no_extra_are_written_and_the_others_named(made, tmp_path, monkeypatch):
-    monkeypatch.setattr(extras, "find_spec", lambda module: None if module == "scenariogeneration" else module)
+    monkeypatch.setattr(package, "find_spec", lambda module: None if module == "scenariogeneration" else module)
     names = "g.xodr", "g.xosc", "g.osm", "g.yaml", "g.add.xml"
     asked = [word for name in names for word in ("-o", str(tmp_path / name))]
     run = CliRunner().invoke(main, ["export", str(made / "g.usdc"), *asked, "--stall", "A1-01"])

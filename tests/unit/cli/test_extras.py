@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from support.sample_files import REPOSITORY
 
 from garage2usd.cli import main
-from garage2usd.common import extras
+from garage2usd.common import package
 
 MIXED = REPOSITORY / "samples" / "recipes" / "mixed.toml"
 RECIPE = 'name = "small"\ncount = 1\n[garage.site]\nwidth_cells = 5\nheight_cells = 5\n[make]\n'
@@ -60,13 +60,13 @@ def inputs(tmp_path, monkeypatch):
 def test_what_is_missing_is_named_before_the_work(case, inputs, tmp_path, monkeypatch):
     missing, command, extra = CASES[case]
     # what is not named is there, on machines that have no Blender too
-    monkeypatch.setattr(extras, "find_spec", lambda module: None if module in missing else module)
+    monkeypatch.setattr(package, "find_spec", lambda module: None if module in missing else module)
     for module in missing:
         monkeypatch.setitem(sys.modules, module, None)
     run = CliRunner().invoke(main, [str(word) for word in command])
     assert run.exit_code == 1, run.output
     (line,) = [line for line in run.stderr.splitlines() if " gets none of the " not in line]  # so few garages
-    assert line.endswith(extras.installation_of(extra))
+    assert line.endswith(package.installation_of(extra))
     assert {path.name for path in tmp_path.iterdir()} == inputs
 
 
@@ -89,24 +89,24 @@ def test_a_hint_installs_an_extra_as_garage2usd_was_installed(origin, command, t
 
     (tmp_path / "my garages").mkdir()
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(extras, "distribution", lambda _name: Installed())
+    monkeypatch.setattr(package, "distribution", lambda _name: Installed())
     told = command.replace("HERE", tmp_path.as_uri()).replace("PLACE", str(tmp_path))
-    monkeypatch.setattr(extras, "find_spec", lambda _name: None)
-    with pytest.raises(extras.MissingExtraError) as raised:
-        extras.require("a map", ["pyproj"])
+    monkeypatch.setattr(package, "find_spec", lambda _name: None)
+    with pytest.raises(package.MissingExtraError) as raised:
+        package.require("a map", ["pyproj"])
     assert str(raised.value) == f"a map needs pyproj: {told}"
 
 
 def test_without_its_python_blender_is_said_to_need_it(monkeypatch):
-    monkeypatch.setattr(extras, "find_spec", lambda _name: None)
+    monkeypatch.setattr(package, "find_spec", lambda _name: None)
     monkeypatch.setattr(sys, "version_info", (3, 13, 0))
-    with pytest.raises(extras.MissingExtraError, match=r"render needs Python 3.11 instead of 3.13, and in it Blender"):
-        extras.require("render", extras.BLENDER)
+    with pytest.raises(package.MissingExtraError, match=r"render needs Python 3.11 instead of 3.13, and in it Blender"):
+        package.require("render", package.BLENDER)
 
 
 def test_extras_bring_what_they_are_said_to_bring():
     optional = tomllib.loads((REPOSITORY / "pyproject.toml").read_text())["project"]["optional-dependencies"]
     distributions = packages_distributions()
-    for module, (extra, _) in extras._BROUGHT.items():
+    for module, (extra, _) in package._BROUGHT.items():
         names = {name.lower() for name in distributions.get(module, [module])}
         assert any(requirement.lower().startswith(tuple(names)) for requirement in optional[extra]), module

@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from garage2usd.cli import bars, main
-from garage2usd.cli.streams import ShownText
+from garage2usd.cli.process import ShownText
 
 ESCAPES = "\x1b[2J\x1b]0;owned\x07\u202e"
 
@@ -42,7 +42,7 @@ def test_names_from_files_are_shown_on_one_line(tmp_path):
 @pytest.mark.parametrize("encoding", ["utf-8", "ascii"])
 def test_the_streams_of_the_program_show_control_characters(encoding):
     code = (
-        "from garage2usd.cli.streams import open_streams as o; import click; o(); click.echo('ä\\x1b[2J\\x9b\\r!\\t')"
+        "from garage2usd.cli.process import open_streams as o; import click; o(); click.echo('ä\\x1b[2J\\x9b\\r!\\t')"
     )
     said = subprocess.run(
         [sys.executable, "-c", code], env={**os.environ, "PYTHONIOENCODING": encoding}, capture_output=True, check=True

@@ -5,7 +5,7 @@ import json
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garage2usd.common.json_text import json_text
+from garage2usd.common.documents import json_text
 
 NUMBERS = st.integers() | st.floats(allow_nan=False, allow_infinity=False) | st.integers(-999, 999).map(float)
 STRINGS = st.text() | st.from_regex(r'"?[0-9]*\\?\.0["\],}\\]*', fullmatch=True)

@@ -15,7 +15,7 @@ from garage2usd.assets.own_textures import own_pixels
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.map_names import Channel, channels_of
-from garage2usd.config.stage import TextureQuality
+from garage2usd.config.outputs import TextureQuality
 from garage2usd.config.texture_sets import Role, TextureFolder, read_texture_sets, texture_remarks
 from garage2usd.datasets.recipe import Recipe, folder_remarks
 from garage2usd.imports import import_layout

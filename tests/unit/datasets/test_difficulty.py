@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from support.sample_files import REPOSITORY
 
 from garage2usd import GarageConfig, generate
+from garage2usd.common.documents import json_text
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.json_text import json_text
 from garage2usd.config.plan import UnreachableStalls
 from garage2usd.datasets.difficulty import (
     REFERENCE_FILE,

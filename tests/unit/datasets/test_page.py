@@ -17,12 +17,12 @@ from support.sample_files import REPOSITORY
 from support.soak import soak_but
 
 from garage2usd.datasets.charts import bars, histogram, split_colours
-from garage2usd.datasets.contour import contour_shape
 from garage2usd.datasets.difficulty import Level
+from garage2usd.datasets.drawn_plan import contour_shape
 from garage2usd.datasets.page import write_page
 from garage2usd.datasets.variety import FIGURES, PlanFigures, Variety
 from garage2usd.structure.grid import Cell
-from garage2usd.view.plan_thumbnail import THUMBNAIL_COLOURS, draw_thumbnail
+from garage2usd.view.thumbnails import THUMBNAIL_COLOURS, draw_thumbnail
 
 SPLITS = ("train", "val", "test")
 

@@ -6,7 +6,7 @@ from support.data_sets import SMALL, small_recipe
 
 from garage2usd import build
 from garage2usd.common.errors import ConfigError
-from garage2usd.config.stage import AssetPlace
+from garage2usd.config.outputs import AssetPlace
 from garage2usd.datasets import Recipe, load_recipe
 
 GROUPS = {

@@ -7,7 +7,7 @@ import time
 import pytest
 from support.signals import heed_all
 
-START = "import os, signal, sys, time\nfrom garage2usd.cli.supervision import supervise\n"
+START = "import os, signal, sys, time\nfrom garage2usd.cli.process import supervise\n"
 
 
 def supervised(body, **options):

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garage2usd.datasets.contour import ContourShape, contour_shape
 from garage2usd.datasets.difficulty import Level
+from garage2usd.datasets.drawn_plan import ContourShape, contour_shape
 from garage2usd.datasets.variety import FIGURES, PlanFigures, Variety, nearest_shares
 from garage2usd.structure.grid import cells_from_text
 from garage2usd.structure.symmetry import canonical_cells, eight_symmetries

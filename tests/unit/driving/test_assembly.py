@@ -7,8 +7,7 @@ from support.small_garage import SETTINGS
 import garage2usd
 from garage2usd.as_built.driven_ground import driven_garage
 from garage2usd.driving import DesignCar
-from garage2usd.driving.assembly import StandingThing, assembled
-from garage2usd.driving.layout_garage import layout_garage
+from garage2usd.driving.layout_garage import StandingThing, assembled, layout_garage
 from garage2usd.garage import LaneGraph, LaneNode, Stall, StallUse
 from garage2usd.garage_sources import read_built
 

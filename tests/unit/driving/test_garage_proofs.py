@@ -18,13 +18,13 @@ import garage2usd
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
 from garage2usd.driving import DesignCar, Manoeuvre, Obstacles, prove_garage, prove_stalls
-from garage2usd.driving.lane_poses import lane_poses
 from garage2usd.driving.layout_garage import layout_garage, object_name
-from garage2usd.driving.witness import write_witness
+from garage2usd.driving.proof import lane_poses
+from garage2usd.driving.trajectory import write_witness
 from garage2usd.garage import StallUse
 from garage2usd.garage_sources import check
 from garage2usd.layout import lay_out
-from garage2usd.stage.driving_layer import write_driving_layer
+from garage2usd.stage.curves import write_driving_layer
 from garage2usd.structure.grid import Cell
 
 DRAWN = """

@@ -21,9 +21,8 @@ from garage2usd.driving import (
     prove_garage,
     way_search,
 )
-from garage2usd.driving.search import Task, reeds_shepp_words, search
-from garage2usd.driving.way_search import find_way_by_steps
-from garage2usd.driving.witness import write_witness
+from garage2usd.driving.trajectory import write_witness
+from garage2usd.driving.way_search import Task, find_way_by_steps, reeds_shepp_words, search
 from garage2usd.garage import LaneEdge, LaneGraph, LaneNode, Stall, StallUse
 
 CAR = DesignCar()

@@ -6,9 +6,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from garage2usd.driving import search as searching
-from garage2usd.driving.search import Task, search
-from garage2usd.driving.sweep import Scene
+from garage2usd.driving import way_search as searching
+from garage2usd.driving.obstacles import Scene
+from garage2usd.driving.way_search import Task, search
 
 NOTHING = np.zeros((0, 4, 2))
 

@@ -17,7 +17,7 @@ import garage2usd
 from garage2usd.as_built.driven_road import driven_road
 from garage2usd.as_built.garage import garage_as_made
 from garage2usd.common.errors import ConfigError
-from garage2usd.config.maps import DriveConfig, Leg
+from garage2usd.config.outputs import DriveConfig, Leg
 from garage2usd.driving import DesignCar, Gear, Pose
 from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.timing import timed

@@ -12,7 +12,7 @@ from support.sample_files import REPOSITORY
 
 import garage2usd
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.extras import installation_of
+from garage2usd.common.package import installation_of
 from garage2usd.config import GarageConfig
 from garage2usd.environment import ENVIRONMENT_ID, LanesEnvironment
 from garage2usd.planning import evaluate, is_feasible

@@ -18,7 +18,7 @@ from garage2usd.reading.files import open_stage
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.structure.lane_graph import LaneSquares
 from garage2usd.view.plan_lanes import arrows
-from garage2usd.view.route import route_of
+from garage2usd.view.plan_picture import route_of
 
 PLAN = "......\n.====E\n.=..=.\n.=..=.\n.====X\n......"
 ONE_WAY = [(1, 4), (1, 3), (1, 2), (1, 1), (2, 1), (3, 1), (4, 1), (4, 2), (4, 3), (4, 4)]

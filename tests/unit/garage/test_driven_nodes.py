@@ -3,7 +3,7 @@
 import pytest
 
 from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, LaneNode
-from garage2usd.garage.driven_nodes import LEAST_TURN_BACK_M, driven_nodes
+from garage2usd.garage.levels import LEAST_TURN_BACK_M, driven_nodes
 
 
 def graph_of(places, ways):

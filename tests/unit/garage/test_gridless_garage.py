@@ -8,9 +8,9 @@ import shapely
 from support.opendrive_reader import OpenDrive
 
 from garage2usd.as_built import BuiltGarage, BuiltLevel
-from garage2usd.config.maps import MapsConfig
+from garage2usd.config.outputs import MapsConfig
 from garage2usd.driving import DesignCar, prove_garage
-from garage2usd.driving.assembly import StandingThing, assembled
+from garage2usd.driving.layout_garage import StandingThing, assembled
 from garage2usd.garage import LaneEdge, LaneGraph, LaneNode, Stall, StallKind, StallUse
 from garage2usd.maps.frame import map_point
 from garage2usd.maps.lanelet2 import write_lanelet2

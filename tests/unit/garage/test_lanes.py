@@ -3,7 +3,7 @@ import pytest
 
 import garage2usd
 from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, LaneNode
-from garage2usd.structure.dead_ends import dead_ends
+from garage2usd.structure.lanes import dead_ends
 
 KINDS = ("entrance", "straight", "t_junction", "crossroads", "straight", "exit")
 

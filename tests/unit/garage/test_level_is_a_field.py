@@ -10,7 +10,7 @@ from garage2usd.config import config_from_mapping
 from garage2usd.garage import LaneGraph
 from garage2usd.layout import lay_out
 from garage2usd.reading.lanes import read_lanes
-from garage2usd.stage.lane_curves import write_lane_graph
+from garage2usd.stage.curves import write_lane_graph
 from garage2usd.structure.grid import Structure, cells_from_text
 from garage2usd.structure.lane_graph import LaneSquares, build_lane_graph
 

@@ -5,7 +5,7 @@ import pytest
 
 import garage2usd
 from garage2usd.garage import Stall, StallKind, StallUse
-from garage2usd.layout.garage_stalls import garage_stalls
+from garage2usd.layout.parking.stalls import garage_stalls
 
 SQUARE = Stall("A", ((-1.2, 2.5), (1.2, 2.5), (1.2, -2.5), (-1.2, -2.5)), StallUse.STANDARD, 0)
 

@@ -16,7 +16,7 @@ from support.soak import soak_but
 from garage2usd.checks import check_layout
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
-from garage2usd.config.clutter import ClutterConfig
+from garage2usd.config.fittings import ClutterConfig
 from garage2usd.driving.layout_garage import prove_stalls
 from garage2usd.layout import ObjectTable
 from garage2usd.layout.placement import placed

@@ -8,8 +8,8 @@ from support.footprints import footprint
 
 from garage2usd.config import GarageConfig
 from garage2usd.layout import lay_out
-from garage2usd.layout.egress.compartments import compartments_of
 from garage2usd.layout.egress.cores import obstacle_cores
+from garage2usd.layout.egress.exits import compartments_of
 from garage2usd.planning import dimension
 from garage2usd.profiles import load_profile
 from garage2usd.structure.grid import Cell, Structure, cells_from_text

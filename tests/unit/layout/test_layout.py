@@ -17,9 +17,9 @@ from garage2usd.objects import KINDS
 from garage2usd.objects.panel import PanelSpec
 from garage2usd.pipeline import generate
 from garage2usd.stage.prototypes import asset_of
-from garage2usd.structure.dead_ends import dead_ends
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph
+from garage2usd.structure.lanes import dead_ends
 from garage2usd.structure.stalls import square_capacity
 
 

@@ -24,7 +24,7 @@ from garage2usd.garage_sources import check
 from garage2usd.profiles import PROFILE_NAMES
 from garage2usd.reading.labels import read_labels
 from garage2usd.sensors.formats.coco import CocoImage, coco_keypoints
-from garage2usd.sensors.formats.dmpr_ps import dmpr_ps
+from garage2usd.sensors.formats.slot_files import dmpr_ps
 from garage2usd.sensors.slots import read_slots
 
 SETTINGS = {

@@ -17,9 +17,8 @@ from garage2usd.config.site import SiteConfig
 from garage2usd.layout import lay_out
 from garage2usd.layout.shell import mounts
 from garage2usd.objects import MOUNTED, Mounted
-from garage2usd.objects.kind import Spec
+from garage2usd.objects.kind import Spec, rectangle
 from garage2usd.objects.mirror import KIND
-from garage2usd.objects.outline import rectangle
 from garage2usd.pipeline import generate
 from garage2usd.structure.grid import Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial import KDTree
 
-from garage2usd.layout.nearness import Points, distances_m
+from garage2usd.layout.grounds import Points, distances_m
 
 
 @pytest.mark.parametrize("norm", [1, 2])

@@ -12,19 +12,18 @@ from support.small_garage import SETTINGS
 from support.soak import soak_but
 
 from garage2usd.assets.countries import Country
-from garage2usd.assets.number_plates import painted_plates, plate_coordinates
-from garage2usd.assets.plate_texture import BAND, CHARACTERS, SPACE, cell_corners
+from garage2usd.assets.number_plates import BAND, CHARACTERS, SPACE, cell_corners, painted_plates, plate_coordinates
 from garage2usd.config import GarageConfig
 from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_BODIES, DRIVEN_PLATE, PAINTS
 from garage2usd.garage_sources import check
-from garage2usd.layout.parking.number_plates import number_plates
+from garage2usd.layout.parking.car_details import number_plates
 from garage2usd.maps.glb import write_glb
 from garage2usd.objects.car import CarSpec
 from garage2usd.objects.number_plate import NumberPlateSpec
 from garage2usd.pipeline import build, generate
 from garage2usd.reading.labels import Labels, NumberPlates, read_labels
-from garage2usd.render.frames_file import _seen
 from garage2usd.render.pictures import Picture, Surfaces, VisibleInstance, read_ids, write_picture
+from garage2usd.render.tables import _seen
 from garage2usd.stage.prototypes import asset_of
 
 PLAN = """

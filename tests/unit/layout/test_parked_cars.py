@@ -26,7 +26,7 @@ from garage2usd.layout.parking.fleet import Fleet
 from garage2usd.layout.parking.parked_cars import fitting, park_cars
 from garage2usd.layout.parking.stalls import stalls_of
 from garage2usd.layout.tiles import TileGrid
-from garage2usd.maps.stall_facts import StallFacts
+from garage2usd.maps.facts import StallFacts
 from garage2usd.objects.car import CarSpec
 from garage2usd.pipeline import build, generate
 from garage2usd.reading.lanes import read_lanes

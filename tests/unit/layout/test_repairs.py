@@ -8,10 +8,10 @@ from support.small_survey import surveyed
 
 from garage2usd.assets.textures import texture_folder
 from garage2usd.config import GarageConfig
-from garage2usd.config.stage import TextureQuality
+from garage2usd.config.outputs import TextureQuality
 from garage2usd.layout import lay_out
 from garage2usd.objects.floor_stain import StainMark
-from garage2usd.stage.bounds import world_bounds_m
+from garage2usd.stage.labels import world_bounds_m
 from garage2usd.structure.grid import Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph
 

@@ -8,7 +8,7 @@ from garage2usd.as_built.garage import garage_as_made
 from garage2usd.checks import RULES, check_layout, findings_of
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
-from garage2usd.layout.parking.tight import tight_stalls
+from garage2usd.layout.parking.stalls import tight_stalls
 from garage2usd.pipeline import generate
 
 QUICK = {"episodes": 30, "starts": 1}

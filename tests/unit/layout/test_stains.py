@@ -15,7 +15,7 @@ from garage2usd.objects.floor_stain import StainMark, StainSpec, TyreMarkSpec
 from garage2usd.objects.stall_number import PAINT_LIFT_M
 from garage2usd.pipeline import generate
 from garage2usd.stage.arrangement import arrange
-from garage2usd.stage.bounds import world_bounds_m
+from garage2usd.stage.labels import world_bounds_m
 from garage2usd.structure.grid import Cell
 
 SITE = {"width_cells": 14, "height_cells": 10, "obstacles": 2, "min_portal_distance_cells": 4}

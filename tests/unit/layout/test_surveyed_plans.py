@@ -13,9 +13,8 @@ from garage2usd import GarageConfig
 from garage2usd.checks import judged_layout
 from garage2usd.imports import import_layout
 from garage2usd.layout.surveyed import lay_out_survey
-from garage2usd.layout.surveyed.rectangles import rectangles
-from garage2usd.survey.alignment import aligned
-from garage2usd.survey.survey import PortalKind, Survey, SurveyedLane, SurveyedPortal, SurveyedStall
+from garage2usd.layout.surveyed.ground import rectangles
+from garage2usd.survey.survey import PortalKind, Survey, SurveyedLane, SurveyedPortal, SurveyedStall, aligned
 
 SMALL = {"width_cells": 8, "height_cells": 7}
 PLANS = {

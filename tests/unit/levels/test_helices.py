@@ -16,7 +16,7 @@ from garage2usd.garage_sources import read_built
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.profiles import load_profile, read_profile
 from garage2usd.reading.report import read_report
-from garage2usd.site.level_ramps import with_ramps_room
+from garage2usd.site.levels import with_ramps_room
 from garage2usd.structure.building import level_cells
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.helix import Helix

@@ -26,20 +26,18 @@ from garage2usd.checks import findings_of, usd
 from garage2usd.checks.levels import findings_of_whole
 from garage2usd.cli import main
 from garage2usd.common.errors import Garage2UsdError, StageError
-from garage2usd.config.building import RampsPlace
+from garage2usd.config.site import RampsPlace
 from garage2usd.garage_sources import read_built
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.level_networks import level_networks
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.report import read_report
 from garage2usd.site import make_site
-from garage2usd.site.level_ramps import draw_ramps
-from garage2usd.site.levels import make_level_sites
-from garage2usd.stage.driving_layer import write_driving_layer
+from garage2usd.site.levels import draw_ramps, make_level_sites
+from garage2usd.stage.curves import write_driving_layer
 from garage2usd.structure.building import Building, Flight, level_cells
-from garage2usd.structure.doors import door_edges
 from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.stalls import Edge
+from garage2usd.structure.stalls import Edge, door_edges
 
 SMALL = {
     "seed": 5,

@@ -17,9 +17,9 @@ from garage2usd.assets.stain_texture import CELLS, CELLS_ACROSS, DIRT_CELLS
 from garage2usd.assets.textures import texture_folder
 from garage2usd.config import GarageConfig, LookConfig
 from garage2usd.config.look import Dirt, Drains
-from garage2usd.config.stage import TextureQuality
+from garage2usd.config.outputs import TextureQuality
 from garage2usd.garage_sources import check
-from garage2usd.layout.floor.drains import drains
+from garage2usd.layout.floor.drainage import drains
 from garage2usd.look import drawn_look, finishes_of
 from garage2usd.objects.floor_stain import DirtSpec, PuddleSpec, StainMark, StainSpec
 from garage2usd.pipeline import build, generate

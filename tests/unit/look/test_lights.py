@@ -8,7 +8,7 @@ import pytest
 from pxr import Usd, UsdLux, UsdShade
 
 from garage2usd.as_built.garage import garage_of_file
-from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB, USUAL_TEMPERATURE_K, lamp_colour
+from garage2usd.assets.light import USUAL_LAMP_RGB, USUAL_TEMPERATURE_K, lamp_colour
 from garage2usd.config import GarageConfig
 from garage2usd.config.look import LampKind
 from garage2usd.garage_sources import check

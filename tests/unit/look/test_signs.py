@@ -13,8 +13,16 @@ from support.soak import soak_but
 from garage2usd.assets import MATERIALS, pascal_case
 from garage2usd.assets.countries import Country
 from garage2usd.assets.glyphs import text_length, text_shape
-from garage2usd.assets.number_plates import PLATE_STYLES, plate_coordinates
-from garage2usd.assets.plate_texture import CHARACTERS, DOT, PROVINCES, SPACE, bake_plate_ink, ink_cell_corners
+from garage2usd.assets.number_plates import (
+    CHARACTERS,
+    DOT,
+    PLATE_STYLES,
+    PROVINCES,
+    SPACE,
+    bake_plate_ink,
+    ink_cell_corners,
+    plate_coordinates,
+)
 from garage2usd.config import GarageConfig
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec

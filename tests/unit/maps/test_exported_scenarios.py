@@ -20,7 +20,7 @@ from support.trajectory_judge import OpenWorld
 import garage2usd
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError, MissingExtraError
-from garage2usd.config.maps import MapsConfig, ScenarioConfig
+from garage2usd.config.outputs import MapsConfig, ScenarioConfig
 from garage2usd.maps.openscenario import EGO
 
 STALL, TAKEN = "Stall_r00_c01_2", "Stall_r00_c01_1"

@@ -169,11 +169,11 @@ FAULTS = (
     Fault("all seen from both sides", "glb_file", "double_sided=own.double_sided", "double_sided=True"),
     Fault(
         "an image for each texture",
-        "glb_textures",
+        "glb_materials",
         "_number(self.images, self._pictures.composed(bands, is_srgb=is_srgb))",
         "(self.images.append(self._pictures.composed(bands, is_srgb=is_srgb)), len(self.images) - 1)[1]",
     ),
-    Fault("no car in any stall", "stall_facts", "self._car_of.setdefault(home, car)", "pass"),
+    Fault("no car in any stall", "facts", "self._car_of.setdefault(home, car)", "pass"),
     Fault("stalls the wrong way round", "glb", "(mouth_x, 0, mouth_z, 0)", "(-mouth_x, 0, -mouth_z, 0)"),
 )
 

@@ -10,7 +10,7 @@ from support.small_garage import SETTINGS
 from garage2usd import GarageConfig, build
 from garage2usd.as_built import BuiltGarage
 from garage2usd.as_built.shapes import Body, Thing, box_shape
-from garage2usd.config.maps import MapsConfig
+from garage2usd.config.outputs import MapsConfig
 from garage2usd.garage_sources import read_built
 from garage2usd.maps.opendrive import write_opendrive
 

@@ -19,7 +19,7 @@ from garage2usd import GarageConfig, build
 from garage2usd.as_built.driven_ground import driven_garage
 from garage2usd.common.errors import ConfigError, StageError
 from garage2usd.config.look import ColumnSection
-from garage2usd.config.maps import GridConfig
+from garage2usd.config.outputs import GridConfig
 from garage2usd.driving import DesignCar, prove_garage
 from garage2usd.garage_sources import read_built
 from garage2usd.maps.occupancy import _Raster, write_grid
@@ -165,22 +165,22 @@ FAULTS = (
     Fault("a column too far", "occupancy", "np.ceil(low[side, 0]", "np.ceil(1 + low[side, 0]"),
     Fault("unknown read as free", "occupancy", "_FREE_THRESHOLD = 0.65, 0.196", "_FREE_THRESHOLD = 0.65, 0.25"),
     Fault("every cell that is touched", "occupancy", "_NEAR_CELLS = 0.25", "_NEAR_CELLS = 2.0"),
-    Fault("doors shut", "occupied_ground", "if solid.label not in {_DOOR, _RAMP,", "if solid.label not in {_RAMP,"),
-    Fault("ramps filled", "occupied_ground", "if not (_is_sheet(body)", "if True or (_is_sheet(body)"),
+    Fault("doors shut", "occupancy", "if solid.label not in {_DOOR, _RAMP,", "if solid.label not in {_RAMP,"),
+    Fault("ramps filled", "occupancy", "if not (_is_sheet(body)", "if True or (_is_sheet(body)"),
     Fault(
         "what hangs counts",
-        "occupied_ground",
+        "occupancy",
         "garage.solids.between(low_m, high_m)",
         "garage.solids.between(low_m, 9.0)",
     ),
-    Fault("speed bumps stand", "occupied_ground", "_RAMP, _DRIVEN_OVER}", "_RAMP}"),
+    Fault("speed bumps stand", "occupancy", "_RAMP, _DRIVEN_OVER}", "_RAMP}"),
     Fault(
         "walls alone",
-        "occupied_ground",
+        "occupancy",
         "            yield solid.footprint",
         "            yield solid.footprint.boundary",
     ),
-    Fault("no floor of ramps", "occupied_ground", "[*tiles, *ramp_floors(garage)]", "tiles"),
+    Fault("no floor of ramps", "occupancy", "[*tiles, *ramp_floors(garage)]", "tiles"),
 )
 
 

@@ -13,7 +13,7 @@ from support.small_garage import SETTINGS
 
 import garage2usd
 from garage2usd.as_built.garage import garage_as_made
-from garage2usd.config.maps import Leg
+from garage2usd.config.outputs import Leg
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.openscenario import EGO, write_scenario
 from garage2usd.maps.parked_cars import parked_cars

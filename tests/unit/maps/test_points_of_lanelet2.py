@@ -18,7 +18,7 @@ from garage2usd.imports import import_layout
 from garage2usd.maps.lane_bounds import lane_bounds
 from garage2usd.maps.network import Lanes, Network, Road
 from garage2usd.maps.osm_file import OsmFile
-from garage2usd.maps.reference_line import straight, turn
+from garage2usd.maps.road_nodes import straight, turn
 
 APART_M = 0.05
 SAG_M = 1e-3

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garage2usd.maps.reference_line import straight, turn
+from garage2usd.maps.road_nodes import straight, turn
 
 lengths = st.floats(0.5, 40.0)
 headings = st.floats(-math.pi, math.pi)

@@ -8,14 +8,12 @@ from numpy.typing import NDArray
 from support.c_declarations import c_functions, c_structs, python_functions, same_type, size_of
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.driving.search import Task
-from garage2usd.driving.sweep import Scene, least_clearance, touched_shapes
+from garage2usd.driving.obstacles import Scene, least_clearance, touched_shapes
+from garage2usd.driving.way_search import Task
 from garage2usd.native import LIBRARY, in_c, load, packed
 from garage2usd.planning import aisles, annealing, sarsa
-from garage2usd.planning.archive import new_archive, next_random
-from garage2usd.planning.board import new_board
+from garage2usd.planning.board import ground_of, new_archive, new_board, next_random
 from garage2usd.planning.dimensions import sizes_of
-from garage2usd.planning.ground import ground_of
 from garage2usd.structure.grid import Structure
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from support.sample_files import REPOSITORY
 
-from garage2usd.driving.sweep import Scene
+from garage2usd.driving.obstacles import Scene
 from garage2usd.native import LIBRARY, Float64s, UInt64s
 
 

@@ -8,9 +8,8 @@ from support.object_specs import CASES, KEPT, SPECS, asset_of_case
 from garage2usd.config.vehicles import VehicleClass
 from garage2usd.objects import CAR_LABELS, CLASSES, CLASSES_VERSION, KINDS, PIECE_LABELS, Kind, Spec, _in_order
 from garage2usd.objects.car import CAR_KINDS
-from garage2usd.objects.kind import VariantSet
+from garage2usd.objects.kind import PAINT_CLASSES, VariantSet
 from garage2usd.objects.panel import Paint
-from garage2usd.objects.pieces import PAINT_CLASSES
 
 DRIVEN_OVER = {"Floor", "Threshold", "LeftKerb", "RightKerb"}
 """Parts of ramps that wheels touch."""

@@ -9,8 +9,7 @@ from garage2usd.config import PlanConfig, SiteConfig
 from garage2usd.planning import counting_bound, evaluate, plan_lanes
 from garage2usd.planning.aisles import runs_of
 from garage2usd.planning.annealing import anneal_flips
-from garage2usd.planning.board import connect, measure
-from garage2usd.planning.ground import cells_of, ground_of
+from garage2usd.planning.board import cells_of, connect, ground_of, measure
 from garage2usd.site import make_site
 
 ALLOW = PlanConfig(circulation="allow", dead_ends="allow")

@@ -7,8 +7,7 @@ from support.planning_reference import BAY, drawn, feasible, random_site, score,
 from support.soak import soak_but
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.planning.board import NO_VALUE, connect, measure, new_board, value_now
-from garage2usd.planning.ground import cells_of, ground_of, lanes_of
+from garage2usd.planning.board import NO_VALUE, cells_of, connect, ground_of, lanes_of, measure, new_board, value_now
 
 ALLOW = PlanConfig(circulation="allow", dead_ends="allow")
 FORBID = PlanConfig(circulation="allow", dead_ends="forbid")

@@ -8,9 +8,8 @@ from support.soak import soak_but
 from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.pipeline import generate
 from garage2usd.planning import area_per_stall_m2, dimension
-from garage2usd.structure.doors import door_edges
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
-from garage2usd.structure.stalls import Edge, square_capacity
+from garage2usd.structure.stalls import Edge, door_edges, square_capacity
 
 BAY = BayConfig()
 LADDER = """

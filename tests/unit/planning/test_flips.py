@@ -9,8 +9,7 @@ from support.planning_reference import BAY, random_site
 from support.soak import soak_but
 
 from garage2usd.config import PlanConfig
-from garage2usd.planning.board import NO_VALUE, connect, measure, new_board
-from garage2usd.planning.ground import ground_of
+from garage2usd.planning.board import NO_VALUE, connect, ground_of, measure, new_board
 
 
 @pytest.mark.parametrize("circulation", soak_but(1, ["allow", "loops"]))

@@ -7,7 +7,7 @@ from support.soak import soak_but
 
 from garage2usd import ConfigError, GarageConfig, GenerationError, generate
 from garage2usd.planning import driven_lengths
-from garage2usd.structure.directions import BOTH_WAYS, stretches_of
+from garage2usd.structure.lanes import BOTH_WAYS, stretches_of
 
 SITE = {"width_cells": 12, "height_cells": 9}
 PLAN = {"episodes": 200, "starts": 1}

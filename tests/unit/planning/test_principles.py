@@ -7,8 +7,8 @@ from support.planning_reference import BAY, drawn, random_site
 
 from garage2usd.config import PlanConfig
 from garage2usd.planning import plan_lanes, principles
-from garage2usd.planning.ground import ground_of
-from garage2usd.structure.dead_ends import dead_ends
+from garage2usd.planning.board import ground_of
+from garage2usd.structure.lanes import dead_ends
 
 COMB = "\n".join([".=..=..=."] * 5 + [".=======.", "..E...X.."])
 AISLE = "\n".join([".........", ".=======."] + [".=..=..=."] * 3 + [".=======.", "..E...X.."])

@@ -8,10 +8,9 @@ from support.soak import soak_but
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning import area_per_stall_m2, dimension, evaluate
 from garage2usd.planning.annealing import anneal_labels, improve, new_trial_move, new_workspace
-from garage2usd.planning.board import FAULTS, measure, new_board
+from garage2usd.planning.board import FAULTS, cells_of, ground_of, lanes_of, measure, new_board
 from garage2usd.planning.circulation import circulation
 from garage2usd.planning.dimensions import sizes_of
-from garage2usd.planning.ground import cells_of, ground_of, lanes_of
 from garage2usd.structure.grid import Cell, Structure
 
 BAY = BayConfig()

@@ -12,7 +12,7 @@ from garage2usd.as_built.contents import read_contents as scene_of_checks
 from garage2usd.render.drawn_prims import read_drawn_prims as scene_of_render
 from garage2usd.scenes.values import metres_y_up
 from garage2usd.scenes.walk import placed_objects
-from garage2usd.view.viewer.looks import Looks
+from garage2usd.view.viewer.reading import Looks
 
 STAGES = {**installed_stages(), **TRAPS}
 TYPES = ("Mesh", "Cube", "Sphere", "Cylinder", "Cone", "Capsule", "Plane")

@@ -6,10 +6,10 @@ import pytest
 from click.testing import CliRunner
 from pxr import Sdf, Usd
 
-from garage2usd.cli.commands import Commands
+from garage2usd.cli.options import Commands
 from garage2usd.common.errors import StageError
 from garage2usd.reading.files import open_stage, usd_text
-from garage2usd.scenes.taxonomy import label_of, labels_of
+from garage2usd.scenes.prims import label_of, labels_of
 from garage2usd.scenes.values import number_of, numbers_of
 
 TEXT = '#usda 1.0\n(\n    defaultPrim = "Garage"\n)\ndef Xform "Garage" (\n    references = @./asset.usdc@\n)\n{\n}\n'

@@ -10,8 +10,8 @@ from pxr import Usd
 from support.sample_files import SAMPLES
 
 from garage2usd.cli import main
+from garage2usd.common.documents import json_text
 from garage2usd.common.errors import ReportError, StageError
-from garage2usd.common.json_text import json_text
 from garage2usd.config import GarageConfig
 from garage2usd.garage_sources import check
 from garage2usd.reading.label_table import read_label_table

@@ -14,7 +14,7 @@ from support.small_garage import SETTINGS
 import garage2usd
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.extras import installation_of
+from garage2usd.common.package import installation_of
 from garage2usd.config import config_from_mapping
 from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.recordings import CloudFormat, Sequence, record

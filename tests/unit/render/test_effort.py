@@ -1,6 +1,6 @@
 """Samples and times of pictures that are not drawn yet."""
 
-from garage2usd.render.effort import default_samples, drawing_s
+from garage2usd.render.devices import default_samples, drawing_s
 
 WIDE = (1280, 720)
 

@@ -9,8 +9,7 @@ from support.soak import soak_but
 
 from garage2usd.assets.faces import box_faces
 from garage2usd.reading.labels import read_labels
-from garage2usd.render.drawn_prims import read_drawn_prims
-from garage2usd.render.overhead import find_overhead
+from garage2usd.render.drawn_prims import find_overhead, read_drawn_prims
 
 HAND_DRAWN = REPOSITORY / "samples" / "hand_drawn.toml"
 

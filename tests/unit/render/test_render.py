@@ -14,17 +14,16 @@ from support.sample_files import REPOSITORY
 from support.soak import soak_but
 
 from garage2usd.cli import main
-from garage2usd.common import extras
+from garage2usd.common import package
 from garage2usd.common.errors import ConfigError, StageError
-from garage2usd.common.extras import installation_of
+from garage2usd.common.package import installation_of
 from garage2usd.common.progress import silent, time_in_words
 from garage2usd.reading.labels import read_labels
 from garage2usd.render import Picture, blender_process, devices, drawing
 from garage2usd.render.cameras import find_views
-from garage2usd.render.devices import ComputeDevice, Device, find_device
+from garage2usd.render.devices import ComputeDevice, Device, drawing_s, find_device
 from garage2usd.render.drawn_prims import read_drawn_prims
-from garage2usd.render.effort import drawing_s
-from garage2usd.render.free_camera import free_view
+from garage2usd.render.free_views import free_view
 from garage2usd.render.pictures import visible_instances
 
 HAND_DRAWN = REPOSITORY / "samples" / "hand_drawn.toml"
@@ -216,7 +215,7 @@ def test_the_view_of_a_free_camera_has_a_name_of_its_own():
     ],
 )
 def test_places_that_a_camera_cannot_take_are_refused(build, tmp_path, monkeypatch, options, code, said):
-    monkeypatch.setattr(extras, "find_spec", lambda _name: True)
+    monkeypatch.setattr(package, "find_spec", lambda _name: True)
     result = run(build.stage, "-o", tmp_path / "out", *options)
     assert result.exit_code == code
     assert said in result.output
@@ -245,7 +244,7 @@ def test_a_gpu_draws_where_there_is_one_that_can(monkeypatch, there, asked, has_
 
 
 def test_a_gpu_that_is_not_there_is_refused_with_what_is(build, tmp_path, monkeypatch):
-    monkeypatch.setattr(extras, "find_spec", lambda _name: True)
+    monkeypatch.setattr(package, "find_spec", lambda _name: True)
     monkeypatch.setattr(devices, "_devices", lambda _blender: NO_GPU)
     result = run(build.stage, "-o", tmp_path / "out", "--device", "gpu")
     assert result.exit_code == 1

@@ -56,7 +56,7 @@ def test_no_module_whose_functions_a_test_file_calls_changes_without_it(file, tm
 @pytest.mark.parametrize(
     ("changed", "nearest"),
     [
-        ("garage2usd/checks/egress.py", {"tests/unit/checks/test_egress.py"}),
+        ("garage2usd/checks/safety.py", {"tests/unit/checks/test_egress.py"}),
         ("garage2usd/objects/zone_plate.py", {"tests/unit/layout/test_zones.py", "tests/unit/objects/test_objects.py"}),
         ("garage2usd/maps/opendrive.py", {"tests/clients/test_opendrive.py"}),
         ("garage2usd/profiles/de-garvo.toml", {"tests/unit/profiles/test_profiles.py"}),
@@ -136,12 +136,12 @@ def test_what_is_committed_edited_deleted_and_new_since_the_branch_left_is_chang
 
 
 def test_what_is_left_out_is_told(monkeypatch, capsys):
-    monkeypatch.setattr(affected_tests, "changed_since", lambda _: ["garage2usd/checks/egress.py"])
+    monkeypatch.setattr(affected_tests, "changed_since", lambda _: ["garage2usd/checks/safety.py"])
     monkeypatch.setattr(affected_tests, "read_durations", lambda: dict.fromkeys(files_of_tests(), 10.0))
     monkeypatch.setattr(sys, "argv", ["affected_tests", "--list", "--seconds", "15", "--base", "HEAD"])
     assert main() == 0
     said = capsys.readouterr().out.splitlines()
-    count = len(affected(["garage2usd/checks/egress.py"]))
+    count = len(affected(["garage2usd/checks/safety.py"]))
     room = [file for file in files_of_tests() if file.startswith("tests/unit/checks/")]
     run = f"{len(room)} are run, about {5 * len(room)} s on 2 cores of the {5 * count} s that all of them take"
     assert f"{count} of {len(files_of_tests())} test files can be affected, {run}" in said[0]
@@ -152,7 +152,7 @@ def test_what_is_left_out_is_told(monkeypatch, capsys):
 
 
 def test_the_tests_of_a_changed_room_are_all_run():
-    assert affected_tests.rooms_of(["garage2usd/checks/egress.py", "docs/check.md"]) == {"tests/unit/checks"}
+    assert affected_tests.rooms_of(["garage2usd/checks/safety.py", "docs/check.md"]) == {"tests/unit/checks"}
     steps = {"tests/unit/checks/far.py": 9, "tests/unit/maps/near.py": 0, "tests/unit/maps/nearer.py": 0}
     run, left = chosen(steps, dict.fromkeys(steps, 10.0), 15.0, rooms={"tests/unit/checks"})
     assert (run, left) == (["tests/unit/checks/far.py"], ["tests/unit/maps/near.py", "tests/unit/maps/nearer.py"])

@@ -225,7 +225,7 @@ def test_files_of_text_have_one_kind_of_newline_and_an_encoding():
             found += 1
             named = {each.arg for each in call.keywords}
             if (
-                not {"newline", "encoding"} <= named and path.name != "streams.py"
+                not {"newline", "encoding"} <= named and path.name != "process.py"
             ):  # where the system's newline is right
                 pytest.fail(f"{path.relative_to(REPOSITORY)}:{call.lineno} writes text without newline and encoding")
     assert found > 15

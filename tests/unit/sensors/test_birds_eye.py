@@ -6,7 +6,7 @@ from pydantic import ValidationError
 
 from garage2usd.objects import CLASSES
 from garage2usd.sensors.rays.birds_eye import FREE_CLASSES, BirdsEye, free_space
-from garage2usd.sensors.rays.seen_points import seen_points
+from garage2usd.sensors.rays.sight import seen_points
 
 
 def test_forwards_is_up_and_left_is_left():

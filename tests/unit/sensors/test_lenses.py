@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garage2usd.sensors.rays.lenses import KannalaBrandt, Pinhole, WoodScape
-from garage2usd.sensors.rays.radius_polynomial import RadiusPolynomial
+from garage2usd.sensors.rays.lenses import KannalaBrandt, Pinhole, RadiusPolynomial, WoodScape
 
 KB = KannalaBrandt(
     size_px=(1280, 960),

@@ -5,10 +5,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from garage2usd.garage.level_place import LevelPlace, nearest_floor
+from garage2usd.garage.levels import LevelPlace, nearest_floor
 from garage2usd.reading.levels import paths_from_above
-from garage2usd.sensors.formats.nuscenes_locations import Location
-from garage2usd.sensors.formats.nuscenes_scenes import stretches_of
+from garage2usd.sensors.formats.nuscenes_scenes import Location, stretches_of
 from garage2usd.sensors.formats.recording import Shot
 
 FLOORS_M = {"U1": 0.0, "U2": -3.0, "U3": -6.0}

@@ -7,10 +7,10 @@ from pxr import Usd
 from support.sample_files import REPOSITORY
 
 from garage2usd.reading.labels import read_labels
+from garage2usd.recordings.birds_eye import ego_mask
 from garage2usd.sensors.rays import ray_caster
 from garage2usd.sensors.rays.ray_caster import BoxTree, _Embree
 from garage2usd.sensors.rays.ray_scene import read_ray_scene
-from garage2usd.sensors.rig.ego_mask import ego_mask
 from garage2usd.sensors.rig.rig import read_rig
 
 SINGLE_M = 1e-4

@@ -16,16 +16,15 @@ from garage2usd.as_built.garage import garage_of_file
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError, OutputError
 from garage2usd.common.output import unfinished_folder
-from garage2usd.config.maps import DriveConfig
+from garage2usd.config.outputs import DriveConfig
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
 from garage2usd.recordings import record
 from garage2usd.recordings.scene import Scene
-from garage2usd.recordings.way import Way
+from garage2usd.recordings.way import Way, column_to_y_up
 from garage2usd.render import Picture
-from garage2usd.sensors.rig.columns import column_to_y_up
+from garage2usd.sensors.rig.poses import Twist
 from garage2usd.sensors.rig.rig import read_rig, rig_from_mapping
-from garage2usd.sensors.rig.twist import Twist
 
 
 @pytest.fixture(scope="module")

@@ -9,15 +9,9 @@ import trimesh
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.objects.car import CarSpec
-from garage2usd.sensors.rig.rig import (
-    RIG_NAMES,
-    AroundViewCamera,
-    KannalaBrandtCamera,
-    Rig,
-    WoodScapeCamera,
-    read_rig,
-    rig_from_mapping,
-)
+from garage2usd.sensors.rig.around_view_camera import AroundViewCamera
+from garage2usd.sensors.rig.rig import RIG_NAMES, Rig, read_rig, rig_from_mapping
+from garage2usd.sensors.rig.sensors import KannalaBrandtCamera, WoodScapeCamera
 from garage2usd.stage.prototypes import asset_of
 
 PINHOLE = {"kind": "pinhole", "name": "a", "position_m": [0, 0, 1], "size_px": [64, 48], "focal_px": [50, 50]}

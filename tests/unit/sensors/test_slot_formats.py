@@ -16,8 +16,7 @@ from support.slot_frames import equidistant, from_above, shot_from
 from garage2usd.objects import CLASSES
 from garage2usd.reading.labels import read_labels
 from garage2usd.sensors.formats.coco import STUFF, CocoImage, coco_keypoints, coco_panoptic, panoptic_segments
-from garage2usd.sensors.formats.dmpr_ps import dmpr_ps
-from garage2usd.sensors.formats.slots_file import slots_document
+from garage2usd.sensors.formats.slot_files import dmpr_ps, slots_document
 from garage2usd.sensors.slots import read_slots
 
 HAND_DRAWN = REPOSITORY / "samples" / "hand_drawn.toml"

@@ -15,7 +15,7 @@ from support.soak import soak_but
 
 from garage2usd.common.errors import StageError
 from garage2usd.reading.labels import read_labels
-from garage2usd.sensors.rays.outline import outline_in_picture
+from garage2usd.sensors.rays.sight import outline_in_picture
 from garage2usd.sensors.rig.rig import read_rig
 from garage2usd.sensors.slots import CORNERS, read_slots
 

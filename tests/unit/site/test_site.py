@@ -4,7 +4,7 @@ import pytest
 from garage2usd.common.errors import ConfigError, GenerationError
 from garage2usd.config import BayConfig, SiteConfig
 from garage2usd.site import make_site
-from garage2usd.site.obstacles import inner_squares
+from garage2usd.site.contour import inner_squares
 from garage2usd.site.portals import straight_frontier
 from garage2usd.structure.grid import Cell
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from garage2usd.structure.border import bordered
+from garage2usd.structure.squares import bordered
 
 
 @pytest.mark.parametrize(("dtype", "value"), [(np.bool_, True), (np.int8, -1), (np.int64, 0)])

@@ -3,8 +3,8 @@ from itertools import pairwise
 import pytest
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.structure.directions import LaneDirections, given_directions, stretches_of
 from garage2usd.structure.grid import Structure, cells_from_text
+from garage2usd.structure.lanes import LaneDirections, given_directions, stretches_of
 
 EIGHT = """
 E=====X

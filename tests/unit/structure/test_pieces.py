@@ -4,7 +4,7 @@ from scipy import ndimage
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from garage2usd.structure.pieces import joined, pieces_of
+from garage2usd.structure.squares import joined, pieces_of
 
 
 @pytest.mark.parametrize("share", [0.0, 0.3, 0.55, 0.8, 1.0])

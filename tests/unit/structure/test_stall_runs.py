@@ -9,8 +9,7 @@ from garage2usd.config import BayConfig
 from garage2usd.garage import StallKind
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
 from garage2usd.structure.stall_runs import StallRun, capacity_of_runs, rows_of_runs, runs_of_rows, turn_of
-from garage2usd.structure.stall_shapes import StallShape
-from garage2usd.structure.stalls import Edge, stall_rows
+from garage2usd.structure.stalls import Edge, StallShape, stall_rows
 
 BAY = BayConfig(square_side_m=8.1)
 GAP_M = BAY.row_ends_m / 2

@@ -8,7 +8,7 @@ from pxr import Usd
 from garage2usd.common.errors import ConfigError
 from garage2usd.imports import import_layout
 from garage2usd.survey.reader import read_survey
-from garage2usd.survey.words import length_of
+from garage2usd.survey.text import length_of
 
 
 def box(x, y=0.0, width=2.5, length=5.0):

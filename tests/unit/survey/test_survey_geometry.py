@@ -11,13 +11,11 @@ from hypothesis import strategies as st
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.garage import LaneKind
-from garage2usd.survey.alignment import aligned
-from garage2usd.survey.clear_widths import with_clear_widths
+from garage2usd.survey.clear_ground import with_clear_widths, with_medial_lanes
 from garage2usd.survey.fitted_stalls import fitted_stalls
 from garage2usd.survey.lane_network import Gate, lane_network
-from garage2usd.survey.medial_lanes import with_medial_lanes
 from garage2usd.survey.stall_shapes import stall_shape
-from garage2usd.survey.survey import Survey, SurveyedColumn, SurveyedLane, SurveyedStall
+from garage2usd.survey.survey import Survey, SurveyedColumn, SurveyedLane, SurveyedStall, aligned
 
 GATES = (
     Gate(LaneKind.ENTRANCE, (0.0, 10.0), (-1.0, 0.0), 5.0),

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.stalls import SizeClass
 from garage2usd.garage import StallUse
-from garage2usd.structure.stall_shapes import StallShape
+from garage2usd.structure.stalls import StallShape
 from garage2usd.survey.reader import read_survey
 from garage2usd.survey.survey import PortalKind
 

@@ -22,11 +22,9 @@ from garage2usd.garage import LaneKind, StallUse
 from garage2usd.pipeline import build, generate
 from garage2usd.planning import measured_circulation
 from garage2usd.structure.grid import Cell
-from garage2usd.view.plan_picture import Mark, draw_plan
-from garage2usd.view.plan_sheet import MARK_COLOUR
-from garage2usd.view.raster import to_image, write_png
-from garage2usd.view.route import find_stall, route_of
-from garage2usd.view.svg import CM_PER_M, to_svg
+from garage2usd.view.drawing import CM_PER_M, to_image, to_svg, write_png
+from garage2usd.view.plan_picture import draw_plan, find_stall, route_of
+from garage2usd.view.plan_sheet import MARK_COLOUR, Mark
 
 SVG = "{http://www.w3.org/2000/svg}"
 HAND_DRAWN = REPOSITORY / "samples" / "hand_drawn.toml"

@@ -23,8 +23,8 @@ from garage2usd.structure.grid import Cell
 from garage2usd.view.drawing import Line, Region, Text
 from garage2usd.view.plan_lanes import LANDING, LANE_COLOUR
 from garage2usd.view.plan_picture import draw_plan
-from garage2usd.view.plan_thumbnail import draw_thumbnail
 from garage2usd.view.section import draw_section
+from garage2usd.view.thumbnails import draw_thumbnail
 
 HELICES = garage2usd.load_config(REPOSITORY / "samples/three_levels.toml")
 FINE_M, MOST_M = 0.01, 1.6

@@ -15,7 +15,7 @@ from garage2usd.reading.files import open_stage
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.view.viewer import read_scene
-from garage2usd.view.viewer.colliders import collider_lines
+from garage2usd.view.viewer.reading import collider_lines
 from garage2usd.view.viewer.scene import moved
 from garage2usd.view.viewer.wire import encode_colliders, encode_scene
 

@@ -1,0 +1,124 @@
+"""The package itself: its version, its public names loaded on first use, and the modules of its optional extras."""
+
+import json
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from importlib import import_module
+from importlib.metadata import distribution, version
+from importlib.util import find_spec
+from pathlib import Path
+
+from garage2usd.common.errors import MissingExtraError
+from garage2usd.common.system import HAS_EMBREE
+
+BLENDER = ("bpy", "OpenEXR")
+"""Modules for rendering with Blender and reading the images."""
+PICTURES = ("OpenEXR",)
+"""Modules for reading images rendered by an installed Blender."""
+RAYS = ("embreex", "trimesh") if HAS_EMBREE else ("trimesh",)
+"""Modules for ray casting; without embreex, the much slower `garage2usd.sensors.rays.ray_caster` is used."""
+_BROUGHT = {
+    "bpy": ("blender", "Blender's Python module"),
+    "OpenEXR": ("blender", "OpenEXR"),
+    "distributed": ("dataset", "Dask's distributed"),
+    "jinja2": ("dataset", "Jinja"),
+    "matplotlib": ("dataset", "Matplotlib"),
+    "pyarrow": ("dataset", "PyArrow"),
+    "gymnasium": ("gymnasium", "Gymnasium"),
+    "pyproj": ("maps", "pyproj"),
+    "scenariogeneration": ("maps", "scenariogeneration"),
+    "embreex": ("sensors", "embreex"),
+    "trimesh": ("sensors", "trimesh"),
+    "DracoPy": ("models", "DracoPy"),
+    "rosbags": ("sensors", "rosbags"),
+}
+"""Extra and display name of each optional module."""
+_PYTHON_OF_BLENDER = (3, 11)
+VERSION = version("garage2usd")
+
+
+def require(purpose: str, modules: Iterable[str], *, without: str = "") -> None:
+    """Check that optional modules are installed, without importing them.
+
+    Parameters
+    ----------
+    purpose
+        Feature that needs them; the beginning of the error message.
+    modules
+        Import names of the modules.
+    without
+        Alternative without the modules, in words; appended to the message if parts of Blender are missing.
+
+    Raises
+    ------
+    MissingExtraError
+        If a module is missing; names all missing modules and their extras.
+    """
+    missing = [module for module in modules if not is_there(module)]
+    if missing:
+        raise _missing(purpose, missing, without)
+
+
+def is_there(module: str) -> bool:
+    """True if a module of an optional extra is installed; does not import the module."""
+    return find_spec(module) is not None
+
+
+@contextmanager
+def of_extra(purpose: str) -> Iterator[None]:
+    """Context for imports of optional modules.
+
+    Raises
+    ------
+    MissingExtraError
+        If a module is not installed.
+    """
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        module = (error.name or "").partition(".")[0]
+        if module not in _BROUGHT:
+            raise
+        raise _missing(purpose, [module]) from error
+
+
+def _missing(purpose: str, modules: list[str], without: str = "") -> MissingExtraError:
+    extras = sorted({_BROUGHT[module][0] for module in modules})
+    *others, last = (_BROUGHT[module][1] for module in modules)
+    brings = f"{', '.join(others)} and {last}" if others else last
+    here = sys.version_info[:2]
+    if "bpy" in modules and here != _PYTHON_OF_BLENDER:
+        needed, found = (".".join(map(str, version)) for version in (_PYTHON_OF_BLENDER, here))
+        brings = f"Python {needed} instead of {found}, and in it {brings}"
+    if without and set(BLENDER).intersection(modules):
+        brings = f"{brings} ({without})"
+    return MissingExtraError(purpose, ",".join(extras), brings, installation_of(",".join(extras)))
+
+
+def installation_of(extras: str) -> str:
+    """Return the command that installs extras for garage2usd as it is installed: in a checkout or from an index."""
+    from urllib.parse import urlsplit  # noqa: PLC0415 - only where an extra is missing
+    from urllib.request import url2pathname  # noqa: PLC0415
+
+    origin = json.loads(distribution("garage2usd").read_text("direct_url.json") or "{}")
+    place = Path(url2pathname(urlsplit(origin.get("url", "")).path))
+    if "url" not in origin or (
+        "dir_info" in origin and not place.is_dir()
+    ):  # from an index, or a checkout that is gone
+        return f"pip install 'garage2usd[{extras}]'"
+    if "dir_info" not in origin:  # a wheel, or a repository elsewhere
+        return f"pip install 'garage2usd[{extras}] @ {origin['url']}'"
+    option = "-e " if origin["dir_info"].get("editable") else ""
+    return f"pip install {option}'{'.' if place == Path.cwd() else place}[{extras}]'"
+
+
+def on_first_use(package: str, home: Mapping[str, str]) -> Callable[[str], object]:
+    """Make the ``__getattr__`` of a package; `home` maps its public names to modules."""
+
+    def load(name: str) -> object:
+        if name not in home:
+            raise AttributeError(f"module {package!r} has no attribute {name!r}")
+        return getattr(import_module(f"{package}.{home[name]}"), name)
+
+    return load

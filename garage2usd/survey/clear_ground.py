@@ -1,0 +1,195 @@
+"""Lanes from the clear ground of a survey: their medial axis where it has none, and their widths."""
+
+import math
+from collections import defaultdict
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import pairwise
+
+import networkx as nx
+import numpy as np
+import shapely
+
+from garage2usd.common.errors import ConfigError
+from garage2usd.garage import LaneGraph, Point
+from garage2usd.survey.survey import Survey, SurveyedLane
+
+_LEAST_CLEAR_M, _MOST_CLEAR_M = 2.0, 12.0
+_APART_M, _AXIS_M = 0.02, 0.08
+_COLUMN_M = 1.0
+_WIDTH_DIGITS = 4
+_SPACING_M = 0.5
+"""Distance in metres between the points of the ground's boundary whose Voronoi diagram approximates the axis."""
+_HALF_LANE_M = 1.3
+"""Least distance in metres of a lane's middle from stalls, columns and the boundary: half a lane."""
+_CLOSED_M = 10.0
+"""Half the width in metres of gaps between stalls that are ground of a survey without an outline."""
+_STALL_MARGIN_M = 0.05
+_SPUR = 2.0
+"""Greatest length of a branch that is left out, as a multiple of the clearance where it begins."""
+_STRAIGHT_M = 0.4
+_DIGITS = 3
+_JUNCTION = 3
+
+
+def with_clear_widths(network: LaneGraph, standing: shapely.Geometry) -> LaneGraph:
+    """Return a lane graph whose lanes are as wide as the ground between what stands beside them.
+
+    Parameters
+    ----------
+    network
+        The lane graph.
+    standing
+        Stalls, columns and walls, (x, z).
+
+    Notes
+    -----
+    The width is twice the distance of a stretch from what stands nearest beside it. The given width stays where that is
+    over twelve metres, on open ground, and where it is less than two, as centre lines of maps may cross stalls.
+    """
+    portals = {number for number, node in enumerate(network.nodes) if node.is_portal}
+    width_m: defaultdict[int, float] = defaultdict(float)
+    edges = []
+    for edge in network.edges:
+        if not portals & {edge.start, edge.end}:
+            ends = [network.nodes[number].position for number in (edge.start, edge.end)]
+            line = _longer(*ends)
+            beside = standing.intersection(line.buffer(_MOST_CLEAR_M, cap_style="flat"))
+            clear_m = math.inf if beside.is_empty else round(2 * beside.distance(line), _WIDTH_DIGITS)
+            if _LEAST_CLEAR_M <= clear_m <= _MOST_CLEAR_M:
+                edge = edge._replace(width_m=clear_m)  # noqa: PLW2901 - the same edge with its width
+            for number in (edge.start, edge.end):
+                width_m[number] = max(width_m[number], edge.width_m)
+        edges.append(edge)
+    # a door's road is as wide as the lane that it meets
+    edges = [
+        edge._replace(width_m=max(width_m[edge.start], width_m[edge.end]) or edge.width_m)
+        if portals & {edge.start, edge.end}
+        else edge
+        for edge in edges
+    ]
+    nodes = []
+    for number, node in enumerate(network.nodes):
+        side_m = width_m[number] or node.widths_m[0]
+        widths_m = _along_its_lane(network, number, side_m) if number not in portals else (side_m, side_m)
+        nodes.append(replace(node, widths_m=widths_m, sides_m=widths_m))
+    return LaneGraph(tuple(nodes), tuple(edges))
+
+
+def _longer(start: Point, end: Point) -> shapely.LineString:
+    """Return a stretch that is longer at both ends, as columns beside its ends count."""
+    share = _COLUMN_M / (math.dist(start, end) or 1.0)
+    off_x, off_z = share * (end[0] - start[0]), share * (end[1] - start[1])
+    return shapely.LineString([(start[0] - off_x, start[1] - off_z), (end[0] + off_x, end[1] + off_z)])
+
+
+def _along_its_lane(network: LaneGraph, number: int, side_m: float) -> tuple[float, float]:
+    """Return the extent of a node's ground along X and Z, which ends where that of the nodes beside it begins."""
+    node, halves_m = network.nodes[number], []
+    axes = set()
+    for other in network.beside[number]:
+        beyond = network.nodes[other]
+        away = [abs(one - two) for one, two in zip(beyond.position, node.position, strict=True)]
+        axes.add(0 if away[1] < _AXIS_M else 1 if away[0] < _AXIS_M else None)
+        halves_m.append(max(away) - beyond.widths_m[0] / 2 if beyond.is_portal else max(away) / 2)
+    if len(axes) != 1 or None in axes:
+        return side_m, side_m
+    along_m = round(min(side_m, 2 * min(halves_m) - _APART_M), _WIDTH_DIGITS)
+    return (along_m, side_m) if axes == {0} else (side_m, along_m)
+
+
+def with_medial_lanes(survey: Survey) -> Survey:
+    """Return a survey whose lanes are the medial axis of its ground, if it has none.
+
+    Raises
+    ------
+    ConfigError
+        If there is no ground that is wide enough between the stalls.
+
+    Notes
+    -----
+    The medial axis (Blum, 1967) is the set of places that are equally far from two parts of the boundary. It is
+    approximated by the edges of the Voronoi diagram of points on the boundary (Brandt and Algazi, 1992) that keep half
+    a lane from it; branches into corners are pruned. The ground is that inside the outline, else that of gaps between
+    stalls of up to 20 m.
+    """
+    if survey.lanes:
+        return survey
+    ground = _ground(survey)
+    axis = _axis(ground)
+    _prune(axis, ground)
+    lanes = tuple(SurveyedLane(points) for points in _branches(axis))
+    if not lanes:
+        raise ConfigError("lanes", "none", f"lanes, or {2 * _HALF_LANE_M:g} m of ground between stalls")
+    return replace(survey, lanes=lanes)
+
+
+def _ground(survey: Survey) -> shapely.Geometry:
+    """Return the ground between stalls, columns and blocks."""
+    stalls = shapely.union_all([ground.buffer(_STALL_MARGIN_M) for ground in survey.stall_polygons()])
+    if survey.outline is not None:
+        inside = shapely.Polygon(survey.outline)
+    else:
+        inside = stalls.buffer(_CLOSED_M, join_style="mitre").buffer(-_CLOSED_M, join_style="mitre")
+    return shapely.difference(inside, shapely.union_all([stalls, *survey.column_polygons(), *survey.solid_polygons()]))
+
+
+def _axis(ground: shapely.Geometry) -> "nx.Graph[Point]":
+    """Return the edges of the Voronoi diagram of the ground's boundary that keep half a lane from it."""
+    boundary = shapely.segmentize(ground.boundary, _SPACING_M)
+    points = np.unique(shapely.get_coordinates(boundary).round(_DIGITS), axis=0)
+    axis: nx.Graph[Point] = nx.Graph()
+    if len(points) < _JUNCTION:
+        return axis
+    edges = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(points), only_edges=True))
+    segments = [pair for line in edges for pair in pairwise(shapely.get_coordinates(line).round(_DIGITS).tolist())]
+    lines = shapely.linestrings(np.array(segments).reshape(-1, 2, 2))
+    shapely.prepare(ground)
+    is_inside = shapely.covered_by(lines, ground) & (shapely.distance(lines, ground.boundary) >= _HALF_LANE_M)
+    for (x, z), (end_x, end_z) in (segments[number] for number in np.flatnonzero(is_inside).tolist()):
+        if (x, z) != (end_x, end_z):
+            axis.add_edge((x, z), (end_x, end_z), length_m=math.dist((x, z), (end_x, end_z)))
+    return axis
+
+
+def _prune(axis: "nx.Graph[Point]", ground: shapely.Geometry) -> None:
+    """Remove branches into corners of the ground: those not much longer than the clearance at their beginning."""
+    while True:
+        spurs = []
+        for tip in [node for node in axis if axis.degree(node) == 1]:
+            branch, length_m = [tip], 0.0
+            while (
+                following := [node for node in axis[branch[-1]] if len(branch) < 2 or node != branch[-2]]  # noqa: PLR2004
+            ) and (len(branch) == 1 or axis.degree(branch[-1]) < _JUNCTION):
+                length_m += axis.edges[branch[-1], following[0]]["length_m"]
+                branch.append(following[0])
+            if axis.degree(branch[-1]) < _JUNCTION:
+                continue
+            clear_m = ground.boundary.distance(shapely.Point(branch[-1]))
+            if length_m < _SPUR * clear_m:
+                spurs.append((length_m, branch[:-1]))
+        if not spurs:
+            return
+        # the shortest first: what is left of a junction may then be one long branch
+        axis.remove_nodes_from(min(spurs)[1])
+
+
+def _branches(axis: "nx.Graph[Point]") -> Iterator[tuple[Point, ...]]:
+    """Yield the axis from junction to junction or end, with few points."""
+    ends = {node for node in axis if axis.degree(node) != 2}  # noqa: PLR2004 - in the middle of a branch
+    seen: set[frozenset[Point]] = set()
+    for start in [*sorted(ends), *sorted(axis)]:
+        for following in sorted(axis[start]):
+            if frozenset((start, following)) in seen:
+                continue
+            branch = [start, following]
+            seen.add(frozenset((start, following)))
+            while branch[-1] not in ends and branch[-1] != start:
+                ahead = next((node for node in sorted(axis[branch[-1]]) if node != branch[-2]), None)
+                if ahead is None:
+                    break
+                seen.add(frozenset((branch[-1], ahead)))
+                branch.append(ahead)
+            line = shapely.LineString(branch).simplify(_STRAIGHT_M)
+            if line.length > _HALF_LANE_M:
+                yield tuple((float(x), float(z)) for x, z in line.coords)
