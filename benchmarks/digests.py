@@ -36,8 +36,7 @@ from garage2usd.imports import import_layout
 from garage2usd.layout import Layout
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.pipeline import build
-from garage2usd.reading.content import stage_digest
-from garage2usd.reading.files import open_stage
+from garage2usd.reading.files import open_stage, stage_digest
 from garage2usd.sensors.slots import read_slots
 from garage2usd.view.drawing import to_svg
 from garage2usd.view.plan_picture import draw_plan

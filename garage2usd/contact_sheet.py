@@ -15,7 +15,7 @@ from garage2usd.common.output import check_file, publish_at, staging_folder, unf
 from garage2usd.common.package import VERSION, require
 from garage2usd.common.progress import Announce, Progress, silent, unheard
 from garage2usd.config import GarageConfig
-from garage2usd.config.look_text import look_in_words
+from garage2usd.config.look import look_in_words
 from garage2usd.config.outputs import AssetPlace, StageForm, TextureQuality
 from garage2usd.layout import Layout
 from garage2usd.pipeline import generate

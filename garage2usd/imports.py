@@ -23,7 +23,7 @@ from garage2usd.structure.building import Building
 from garage2usd.survey.clear_ground import with_medial_lanes
 from garage2usd.survey.reader import read_survey
 from garage2usd.survey.survey import Alignment, Survey, aligned
-from garage2usd.view.garage_pictures import draw_pictures
+from garage2usd.view.thumbnails import draw_pictures
 
 
 @without_collector()

@@ -42,8 +42,7 @@ from garage2usd.structure.building import Building
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneSquares
 from garage2usd.view.drawing import write_png
-from garage2usd.view.garage_pictures import draw_pictures
-from garage2usd.view.thumbnails import draw_structures
+from garage2usd.view.thumbnails import draw_pictures, draw_structures
 
 _LOG = logging.getLogger(__name__)
 _MOST_CHECKED_STALLS = 10_000

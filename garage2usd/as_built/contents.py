@@ -1,15 +1,15 @@
-"""Objects and lights of a stage, in metres, Y up."""
+"""Objects and lights of a stage, in metres, Y up, and the meshes of an object that is placed many times."""
 
 from collections.abc import Collection, Hashable, Iterable, Mapping
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
+from itertools import repeat
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Usd, UsdGeom, UsdPhysics, Vt
 
-from garage2usd.as_built.model import Model
 from garage2usd.as_built.shapes import Array, Body, MeshShape, Thing, box_shape
 from garage2usd.assets.light import USUAL_LAMP_RGB
 from garage2usd.common.errors import StageError
@@ -20,10 +20,38 @@ from garage2usd.scenes.values import READ_AT, metres_per_unit, metres_y_up, opin
 from garage2usd.scenes.walk import placed_objects
 from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY
 
+_DIGITS = 12
+"""Digits of a mesh's place in its object: what sines and cosines of half a turn have beyond is noise."""
 _FARTHEST_M = 1e6
 _CALIBRATED = "garage:light:luminance"
 """Attribute that marks lights written by this program, whose intensities are scaled."""
 _NOWHERE = "DistantLight"
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """Meshes of an object in its own coordinates, of which there may be many in a garage.
+
+    Attributes
+    ----------
+    bodies
+        The meshes, placed in the object.
+    """
+
+    bodies: tuple[Body, ...]
+
+    @cached_property
+    def _matrices(self) -> Array | None:
+        """Place of each mesh; None if all are in the axes of the object, as most are."""
+        matrices = np.round([body.matrix for body in self.bodies], _DIGITS).reshape(-1, 4, 4)
+        return None if (matrices == np.eye(4)).all() else matrices
+
+    def placed(self, matrix: Array) -> tuple[Body, ...]:
+        """Return the meshes of an object that a matrix places, for row vectors; float64, shape (4, 4)."""
+        places = repeat(matrix) if self._matrices is None else self._matrices @ matrix
+        return tuple(
+            Body(shape, place, touches) for (shape, _, touches), place in zip(self.bodies, places, strict=False)
+        )
 
 
 class PlacedLight(NamedTuple):

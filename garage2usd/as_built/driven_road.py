@@ -1,19 +1,33 @@
-"""The road through a garage as built, from portal to portal."""
+"""The road of a garage as built: its floor, level and sloping on ramps, its portals, and the sides of ramps."""
+# Over 300 lines: floors and sides of ramps are measured on the same meshes.
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 import shapely
+from numpy.typing import ArrayLike, NDArray
 
 from garage2usd.as_built.driven_ground import CAR_HEIGHT_M, driven_garage, rounded
 from garage2usd.as_built.level import BuiltLevel
 from garage2usd.as_built.openings import Door, is_bent
 from garage2usd.as_built.shapes import Array, Face, Thing
-from garage2usd.driving import BentFloor, DesignCar, DrivenRoad, Obstacles, Portal, Pose, RampFloor, heights_m
-from garage2usd.garage import LaneKind, LaneNode, Point
+from garage2usd.driving import (
+    BentFloor,
+    DesignCar,
+    DrivenRoad,
+    Obstacles,
+    Portal,
+    Pose,
+    RampFloor,
+    SlopedFloor,
+    heights_m,
+)
+from garage2usd.garage import LaneGraph, LaneKind, LaneNode, Point
+from garage2usd.garage.levels import LevelPlace
 
 _GATE, _RAMP = "barrier", "ramp"
 _ARM_FROM_M = 0.5
@@ -30,6 +44,8 @@ _FROM_DOOR_M = 0.3
 _DOOR_REACH_M, _RAMP_REACH_M = 1.5, 2.0
 _DIGITS = 4
 _AXES: tuple[Point, ...] = ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))
+BEYOND_TOP_M = 1.0
+"""Metres beyond the top of a ramp between levels up to which its floor reaches, level."""
 
 
 class Mouth(NamedTuple):
@@ -271,3 +287,39 @@ def _sides(thing: Thing, ramps: Sequence[RampFloor], height_m: float) -> Iterato
         # the ends of a slab that reaches up to the floor are in no car's way
         if over_m.min() < height_m and over_m.max() > _UNDER_FLOOR_M:
             yield np.round(ends, _DIGITS)
+
+
+@dataclass(frozen=True, eq=False)
+class DrivenFloor:
+    """The floor for driving, in metres, Y up.
+
+    Attributes
+    ----------
+    level_m
+        Height of the garage's floor.
+    ramps
+        Floors of its ramps.
+    """
+
+    level_m: float
+    ramps: tuple[SlopedFloor, ...]
+
+    @classmethod
+    def of_levels(
+        cls, levels: Sequence[LevelPlace], lanes: LaneGraph, things: Iterable[Thing]
+    ) -> "tuple[DrivenFloor, ...]":
+        """Find the floor of each level among the objects of all, by the paths of these; ramps belong to their foot."""
+        named = list(things)
+        floors = []
+        for number, level in enumerate(levels):
+            own = [thing for thing in named if thing.name.startswith(f"{level.path}/")]
+            ramps = floors_of_ramps(own)
+            if number:  # those of the top level lead to the street and go on
+                ramps = tuple(replace(ramp, end_m=float(ramp.runs_m[-1]) + BEYOND_TOP_M) for ramp in ramps)
+            floor_m = lanes.floor_m() if level.is_only else level.floor_m
+            floors.append(cls(floor_m, (*ramps, *bent_floors(own))))
+        return tuple(floors)
+
+    def heights_m(self, x_m: ArrayLike, z_m: ArrayLike) -> NDArray[np.float64]:
+        """Return the floor's heights at points; float64, their shape."""
+        return heights_m(self.ramps, x_m, z_m, level_m=self.level_m)

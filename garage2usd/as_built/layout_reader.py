@@ -4,8 +4,8 @@ from functools import lru_cache
 
 import numpy as np
 
+from garage2usd.as_built.contents import Model
 from garage2usd.as_built.level import BuiltLevel
-from garage2usd.as_built.model import Model
 from garage2usd.as_built.shapes import Body, MeshShape, Thing, turned_about_y
 from garage2usd.assets import Part
 from garage2usd.garage import Fault, LaneGraph, Stall

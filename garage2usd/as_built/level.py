@@ -1,29 +1,82 @@
-"""A level of a garage as built: lanes, stalls and objects, as far as its file has them; metres, Y up."""
+"""A level of a garage as built: lanes, stalls and objects, as far as its file has them, and circulation; metres."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.as_built.circulation import LaneCirculation, lane_circulation
 from garage2usd.as_built.openings import Door, Ramp, doors_of, ramps_of
 from garage2usd.as_built.shapes import Thing
-from garage2usd.as_built.solids import Solid, Solids
-from garage2usd.as_built.stall_grounds import StallGrounds
+from garage2usd.as_built.solids import Solid, Solids, StallGrounds
 from garage2usd.garage import Fault, LaneGraph, Point, Stall, StallUse
 from garage2usd.garage.levels import ONLY_LEVEL, LevelPlace
 from garage2usd.objects import CAR_LABELS
+from garage2usd.planning import measured_circulation
 from garage2usd.site.portals import outer_squares
 from garage2usd.structure.grid import Cell, Structure
 
 _MM2_PER_M2 = 1_000_000
 _LINE_M = 0.06
 """Half the width of a stall's painted line in metres; the line is centred on the stall's border."""
+
+
+class LaneRun(NamedTuple):
+    """A dead end with its branches, or a stretch of lanes without a junction.
+
+    Attributes
+    ----------
+    lanes
+        Names of its lane nodes, of a dead end from the deepest one on.
+    length_m
+        Its length from border to border.
+    """
+
+    lanes: tuple[str, ...]
+    length_m: float
+
+
+class LaneCirculation(NamedTuple):
+    """Circulation on the lanes of a garage.
+
+    Attributes
+    ----------
+    loops
+        Number of independent circuits.
+    dead_ends, stretches
+        The dead ends, and the stretches without a junction.
+    blocks
+        Names of the four lane nodes of each block of two by two, from its upper left to its lower right.
+    """
+
+    loops: int
+    dead_ends: tuple[LaneRun, ...]
+    stretches: tuple[LaneRun, ...]
+    blocks: tuple[tuple[str, ...], ...]
+
+
+def lane_circulation(structure: Structure) -> LaneCirculation:
+    """Measure the circulation on the lanes of a structure."""
+    found = measured_circulation(structure)
+    return LaneCirculation(
+        found.circulation.loops,
+        tuple(LaneRun(_names(run.squares), run.length_m) for run in found.dead_ends),
+        tuple(LaneRun(_names(run.squares), run.length_m) for run in found.stretches),
+        tuple(
+            _names([(row, col), (row, col + 1), (row + 1, col), (row + 1, col + 1)])
+            for row, col in found.circulation.blocks
+        ),
+    )
+
+
+def _names(squares: Iterable[tuple[int, int]]) -> tuple[str, ...]:
+    """Name the lane nodes on squares as `garage2usd.garage.LaneNode` does."""
+    return tuple(f"[{row}, {col}]" for row, col in squares)
 
 
 @dataclass(frozen=True, eq=False)

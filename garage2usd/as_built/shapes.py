@@ -9,8 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from garage2usd.as_built.convex_parts import are_dented, convex_outlines
-from garage2usd.as_built.outlines import Outlines, outlines_of
+from garage2usd.as_built.outlines import Outlines, are_dented, convex_outlines, outlines_of
 from garage2usd.layout.grounds import hulls_around
 from garage2usd.scenes.triangles import triangulated
 from garage2usd.structure.squares import joined

@@ -1,6 +1,6 @@
-"""Solid pieces of all objects that a car or a person can touch, in a spatial index."""
+"""Solid pieces of objects that a car can touch, and the ground of stalls, found by place."""
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import cached_property
 from typing import NamedTuple
 
@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from garage2usd.as_built.placed_pieces import lows_m, placed_pieces
 from garage2usd.as_built.shapes import Thing
-from garage2usd.layout.grounds import Grounds
+from garage2usd.garage import Stall
+from garage2usd.layout.grounds import Grounds, grounds_of
 from garage2usd.objects import KINDS, PIECE_LABELS
 
 HANGS_FROM_M = 1.0
@@ -19,6 +20,7 @@ _FLAT_M = 0.03
 _ROUNDING_M = 1e-4
 """Tolerance in metres of heights in a stage, which has single precision."""
 _NOT_SOLID = {kind.label for kind in KINDS if not kind.is_solid} | PIECE_LABELS
+_AT_HOME = 0.5
 
 
 class Solid(NamedTuple):
@@ -136,3 +138,42 @@ class Solids:
             float(self._low[index]),
             float(self._high[index]),
         )
+
+
+class StallGrounds:
+    """Spatial index of the ground of stalls.
+
+    Parameters
+    ----------
+    stalls
+        The stalls.
+    """
+
+    def __init__(self, stalls: Sequence[Stall]) -> None:
+        self._stalls = stalls
+
+    @cached_property
+    def polygons(self) -> Grounds:
+        """Polygon of each stall; shape (stalls,)."""
+        return grounds_of([stall.corners for stall in self._stalls])
+
+    @cached_property
+    def tree(self) -> shapely.STRtree:
+        """Spatial index of all stall polygons."""
+        return shapely.STRtree(self.polygons)
+
+    def home_of(self, ground: shapely.Polygon) -> Stall | None:
+        """Return the stall that contains more than half of a footprint."""
+        (home,) = self.homes_of(np.array([ground], dtype=object))
+        return home
+
+    def homes_of(self, grounds: Grounds) -> list[Stall | None]:
+        """Return for each footprint the stall that contains more than half of it."""
+        number, stall = self.tree.query(grounds, predicate="intersects")
+        areas = shapely.area(shapely.intersection(self.polygons[stall], grounds[number]))
+        most = (_AT_HOME * shapely.area(grounds)).tolist()
+        homes: list[Stall | None] = [None] * len(grounds)
+        for index, other, area in zip(number.tolist(), stall.tolist(), areas.tolist(), strict=True):
+            if area > most[index]:
+                homes[index], most[index] = self._stalls[other], area
+        return homes

@@ -6,18 +6,7 @@ from dataclasses import replace
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.layout_reader import level_of_layout
 from garage2usd.as_built.level import BuiltLevel
-from garage2usd.checks import (
-    access,
-    aisle,
-    circulation,
-    clearance,
-    consistency,
-    feasibility,
-    safety,
-    stall,
-    swept_path,
-    usd,
-)
+from garage2usd.checks import access, aisle, circulation, clearance, feasibility, safety, stall, swept_path, usd
 from garage2usd.checks.levels import findings_of_whole
 from garage2usd.checks.rule import (
     Finding,
@@ -61,7 +50,6 @@ RULES: tuple[Rule, ...] = tuple(
         access,
         safety,
         feasibility,
-        consistency,
         usd,
         swept_path,  # last, as it takes time that is allowed for it alone
     )

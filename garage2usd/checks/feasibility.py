@@ -1,8 +1,8 @@
-"""Rules of feasibility: each stall has a route from an entrance and to an exit on the lane graph."""
+"""Rules of feasibility and consistency: each stall has a route, and the file's lanes and stalls agree."""
 
 import math
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks.rule import Miss, RuleBook
@@ -136,3 +136,21 @@ def _search(starts: Iterable[int], ways: Sequence[Sequence[int]], level: BuiltLe
                 came_from[other] = node
                 queue.append(other)
     return came_from
+
+
+def _faults(name: str) -> Callable[[BuiltLevel, Profile], Iterator[Miss]]:
+    def find(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
+        for fault in level.faults:
+            if fault.rule == name:
+                yield Miss(fault.place, fault.position, fault.message)
+
+    return find
+
+
+for _name, _asks in (
+    ("lane-graph", "a stage has a lane graph whose nodes, edges and stalls fit together"),
+    ("stall-outline", "a stall's prim lies where the lane graph has its outline"),
+    ("plan-refused", "a garage can be built from a plan"),
+    ("report-stalls", "a report lists the stalls that its configuration and matrices give"),
+):
+    BOOK.rule(_name, asks=_asks)(_faults(_name))

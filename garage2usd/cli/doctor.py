@@ -95,7 +95,7 @@ def _garage(seed: int) -> tuple[str, list[str]]:
     from garage2usd.driving.trajectory import write_witness  # noqa: PLC0415
     from garage2usd.garage_sources import check  # noqa: PLC0415
     from garage2usd.pipeline import build  # noqa: PLC0415
-    from garage2usd.reading.content import stage_digest  # noqa: PLC0415
+    from garage2usd.reading.files import stage_digest  # noqa: PLC0415
     from garage2usd.structure.symmetry import plan_digest  # noqa: PLC0415
 
     height, width = _SIDES

@@ -86,7 +86,7 @@ def look(
       garage2usd look samples/hand_drawn.toml
       garage2usd look samples/recipes/looks.toml --seeds 0:48 --contact-sheet looks.png
     """  # noqa: D301 - click's mark for a block that is not wrapped
-    from garage2usd.config.look_text import look_text  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.config.look import look_text  # noqa: PLC0415 - keeps --help instant
     from garage2usd.look import drawn_look  # noqa: PLC0415
 
     if sheet is None:

@@ -2,11 +2,12 @@
 
 Each axis is given, drawn by the seed, or left at its default. None of them moves a stall, a column or a car.
 """
-# Over 300 lines: every axis of a look and its values are declared in one place.
+# Over 300 lines: a model for each axis of a look, and their text.
 
+import json
 import re
 from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field, ValidationInfo, field_validator
 
@@ -33,6 +34,14 @@ _COLOURS = {
     "blue": "#2b5fa8",
     "beige": "#c9b896",
 }
+_TOLD = (
+    ("floor", ("finish", "colour", "gloss")),
+    ("markings", ("pattern", "colour", "wear")),
+    ("columns", ("section", "guard")),
+    ("walls", ("finish",)),
+    ("lights", ("temperature_k",)),
+)
+"""Axes in the one-line summary, by group."""
 
 
 def _colour(value: str) -> str:
@@ -48,6 +57,7 @@ def _colour_or(*words: str) -> AfterValidator:
 
 
 Colour = Annotated[str, AfterValidator(_colour)]
+
 NaturalColour = Annotated[str, _colour_or(NATURAL)]
 """A colour, or 'natural' for the material's own."""
 
@@ -451,3 +461,27 @@ class LookConfig(Settings):
     def axes(self) -> tuple[str, ...]:
         """Full names of the drawn axes, in declaration order."""
         return self.drawn if isinstance(self.drawn, tuple) else ()
+
+
+def look_text(look: LookConfig) -> str:
+    """Write all axes of a look as TOML tables of a configuration, each with its value; none is left to the seed."""
+    tables = {name: group for name in type(look).model_fields if isinstance(group := getattr(look, name), Settings)}
+    textures = tables.pop("textures", None)
+    blocks = [] if textures is None else [_table("look", {"textures": getattr(textures, "folder")})]  # noqa: B009
+    blocks += [_table(f"look.{name}", group.model_dump(mode="json")) for name, group in tables.items()]
+    return "\n\n".join(blocks) + "\n"
+
+
+def look_in_words(look: LookConfig) -> str:
+    """Summarise a look in one line."""
+    values = look.model_dump(mode="json")
+    parts = (
+        " ".join(f"{values[group][axis]:g}" if axis.endswith("_k") else str(values[group][axis]) for axis in axes)
+        for group, axes in _TOLD
+    )
+    return ", ".join(parts).replace("_", " ") + " K"
+
+
+def _table(name: str, values: dict[str, Any]) -> str:
+    # strings, numbers and booleans are written alike in JSON and in TOML
+    return "\n".join([f"[{name}]", *(f"{key} = {json.dumps(value)}" for key, value in values.items())])

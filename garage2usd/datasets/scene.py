@@ -31,7 +31,7 @@ from garage2usd.planning import measured_circulation
 from garage2usd.report import area_figures, make_report, reported_links, write_report
 from garage2usd.stage import StageFormat, write_labels, write_stage
 from garage2usd.view.drawing import write_png
-from garage2usd.view.garage_pictures import draw_pictures
+from garage2usd.view.thumbnails import draw_pictures
 
 _FIGURE_DIGITS = 6
 _DIGITS = 8

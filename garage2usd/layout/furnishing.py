@@ -19,8 +19,7 @@ from garage2usd.layout.egress.cores import Core, crossings_to
 from garage2usd.layout.fittings import cones, speed_bumps, tube_lights
 from garage2usd.layout.floor.drainage import drains, puddles
 from garage2usd.layout.floor.panels import drawn_markings_of, floor_panels
-from garage2usd.layout.floor.repairs import floor_repairs
-from garage2usd.layout.floor.stains import floor_stains
+from garage2usd.layout.floor.stains import floor_repairs, floor_stains
 from garage2usd.layout.floor.stall_numbers import stall_numbers
 from garage2usd.layout.parking.car_details import number_plates, opened
 from garage2usd.layout.parking.designation import chargers

@@ -2,8 +2,7 @@
 
 from garage2usd.assets import Finish
 from garage2usd.config.look import LookConfig
-from garage2usd.look.axes import Axes
-from garage2usd.look.finishes import own_finishes
+from garage2usd.look.finishes import Axes, own_finishes
 from garage2usd.look.markings import drawn_markings, drawn_numbers, drawn_signs, paint_finishes
 from garage2usd.look.surfaces import (
     ceiling_finishes,

@@ -17,7 +17,7 @@ from garage2usd.config.look import (
     StallPattern,
     Wear,
 )
-from garage2usd.look.axes import Group
+from garage2usd.look.finishes import Group
 
 _WHITE, _CREAM, _GREY, _DARK_GREY = "#dedede", "#cfc8a8", "#a6a6a2", "#868682"
 _YELLOW, _DULL_YELLOW, _ORANGE, _BLUE = "#d8a62e", "#b0924a", "#d87822", "#3f6fb0"

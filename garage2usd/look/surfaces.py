@@ -23,8 +23,7 @@ from garage2usd.config.look import (
     WallFinish,
     WallsLook,
 )
-from garage2usd.look.axes import Group
-from garage2usd.look.finishes import tinted
+from garage2usd.look.finishes import Group, tinted
 
 _FINISHES = {
     FloorFinish.CONCRETE: 0.08,

@@ -6,8 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from garage2usd.as_built.driven_floor import BEYOND_TOP_M
-from garage2usd.as_built.driven_road import bent_floors
+from garage2usd.as_built.driven_road import BEYOND_TOP_M, bent_floors
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.ramp_line import Bend
 from garage2usd.common.errors import ConfigError

@@ -6,7 +6,7 @@ from typing import Any
 import shapely
 from pxr import Usd
 
-from garage2usd.as_built.stall_grounds import StallGrounds
+from garage2usd.as_built.solids import StallGrounds
 from garage2usd.garage import Stall
 from garage2usd.layout.grounds import Grounds
 from garage2usd.reading.whole_garage import garage_root

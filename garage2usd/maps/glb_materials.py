@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from garage2usd.scenes.base_colours import base_colour_of, normal_bands_of
 from garage2usd.scenes.pictures import Band, Bands, Picture, Pictures, factored
+from garage2usd.scenes.plain_surfaces import base_colour_of, normal_bands_of
 from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.surfaces import SurfaceLook
 from garage2usd.scenes.textures import Layout, Texture

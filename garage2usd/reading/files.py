@@ -1,12 +1,13 @@
-"""Stage files from untrusted sources, validated before USD opens them."""
+"""Stage files from untrusted sources, validated before USD opens them, and digests of what a stage holds."""
 
+import hashlib
 import re
 import stat
 import zipfile
 from collections.abc import Callable, Iterable
 from pathlib import Path, PurePosixPath
 
-from pxr import Ar, Sdf, Tf, Usd
+from pxr import Ar, Sdf, Tf, Usd, UsdUtils
 
 from garage2usd.common.documents import is_file
 from garage2usd.common.errors import StageError
@@ -22,6 +23,7 @@ _LEAST_S, _OPENING_S_PER_MB, _READING_S_PER_MB = 1.5, 4.0, 60.0
 _REASON_CHARACTERS = 300
 _NO_TEXT = "it holds bytes that are not text"
 _SAID = re.compile(r"at line \d+ in file \S+ : '(.*?)'(?= Error in |$)")
+_DIGEST_IN_NAME = re.compile(r"_[0-9a-f]{16}(?=\.usdc)")
 
 
 def open_stage(path: Path) -> Usd.Stage:
@@ -129,3 +131,19 @@ def _check_package(path: Path) -> None:
         if entry.filename in names:
             raise StageError(path, f"the entry {entry.filename!r} occurs twice")
         names.add(entry.filename)
+
+
+def stage_digest(path: Path, *, digits: int = 64) -> str:
+    """Digest the text of all layers of a stage and the bytes of its other files; hexadecimal digits of SHA-256.
+
+    Raises
+    ------
+    StageError
+        If the stage or one of its files cannot be read.
+    """
+    layers, assets, missing = UsdUtils.ComputeAllDependencies(str(path))
+    if missing or not layers:
+        raise StageError(path, f"cannot read {', '.join(missing) or 'it'}")
+    texts = [_DIGEST_IN_NAME.sub("", layer.ExportToString()).encode() for layer in layers]
+    sums = sorted(hashlib.sha256(data).hexdigest() for data in texts + [Path(asset).read_bytes() for asset in assets])
+    return hashlib.sha256("\n".join(sums).encode()).hexdigest()[:digits]

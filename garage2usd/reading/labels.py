@@ -1,4 +1,4 @@
-"""Labels of a stage's objects: the label table beside the stage, or the labels of its prims."""
+"""Labels of a stage's objects: the label table beside the stage, or the labels of its prims; class of number plates."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -12,11 +12,13 @@ from pxr import Usd
 from garage2usd.common.errors import StageError
 from garage2usd.objects import CLASSES, CLASSES_VERSION
 from garage2usd.reading.label_table import LARGEST_CLASS_ID, LARGEST_ID, SemanticClass, read_label_table
-from garage2usd.reading.number_plates import CAR_OF_PLATE, PLATE_TEXT
 from garage2usd.scenes.walk import placed_objects
 
+PLATE_TEXT = "garage:numberPlate:text"
+"""Attribute of the prim of a car's number plates: the text on both plates."""
+CAR_OF_PLATE = "garage:numberPlate:car"
+"""Relationship from the prim of number plates to the prim of their car."""
 _Id = TypeVar("_Id", bound=np.integer[Any])
-
 CITYSCAPES: dict[str, str] = {entry.label: entry.cityscapes for entry in CLASSES}
 """Name of the nearest Cityscapes class of each semantic class."""
 _NUMBERS = {entry.label: entry.number for entry in CLASSES}

@@ -11,7 +11,7 @@ import shapely
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.as_built.driven_floor import DrivenFloor
+from garage2usd.as_built.driven_road import DrivenFloor
 from garage2usd.as_built.garage import BuiltGarage, garage_of_stage
 from garage2usd.as_built.level import BuiltLevel
 from garage2usd.common.errors import ConfigError

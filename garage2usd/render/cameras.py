@@ -16,8 +16,8 @@ from garage2usd.sensors.rays.around_view import SEAM_M, AroundView
 from garage2usd.sensors.rays.birds_eye import Orthographic
 from garage2usd.sensors.rays.lenses import Fisheye, Pinhole
 from garage2usd.sensors.rays.lenses import Lens as SensorLens
-from garage2usd.sensors.rig.camera_effects import CameraEffects
 from garage2usd.sensors.rig.poses import Twist
+from garage2usd.sensors.rig.sensors import CameraEffects
 
 _EVERY = 48
 _MOST_FRAMES = 100_000

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdGeom, UsdLux, UsdShade
 
 from garage2usd.as_built.contents import read_contents
-from garage2usd.as_built.driven_floor import DrivenFloor
 from garage2usd.as_built.driven_ground import CAR_HEIGHT_M
+from garage2usd.as_built.driven_road import DrivenFloor
 from garage2usd.garage.levels import LevelPlace
 from garage2usd.reading.labels import owner_of
 from garage2usd.reading.lanes import read_lanes

@@ -1,19 +1,22 @@
 """Surfaces reduced to three pictures that lie alike: colour with opacity, finish, and normals."""
+# Over 300 lines: the reading of materials, and their pictures as formats for files take them.
 
 import io
 import math
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from garage2usd.scenes.base_colours import normal_bands_of
 from garage2usd.scenes.pictures import Band, Bands, Pictures, factored, has_sixteen_bits, resized
 from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.surfaces import Rgb, SurfaceLook, within
 from garage2usd.scenes.textures import Layout, Texture
 
+_DIRECTIONS = (2.0, 2.0, 2.0), (-1.0, -1.0, -1.0)
+"""Scale and bias from a picture's values to a normal, where 8 bits store (n + 1) / 2."""
 _LARGEST_PX, _MUCH_PX = 1024, 4096
 _KEPT_MODES, _KEPT_SUFFIXES = frozenset({"L", "RGB", "RGBA"}), {"PNG": ".png", "JPEG": ".jpg"}
 _WORD_TO_BYTE = 257
@@ -22,6 +25,55 @@ _REFLECTED = 0.04
 """Reflectance of a dielectric at normal incidence."""
 _SMOOTH_COAT = 0.05
 _SMALLEST = 1e-6
+
+
+class BaseColour(NamedTuple):
+    """Base colour of a surface: factors, and a texture multiplied by them.
+
+    Attributes
+    ----------
+    colour_rgb, opacity
+        0 to 1.
+    bands
+        Channels of the texture; the fourth is the opacity.
+    texture
+        Layout of the texture on the surface; None without a texture.
+    """
+
+    colour_rgb: Rgb
+    opacity: float
+    bands: Bands
+    texture: Texture | None
+
+
+def base_colour_of(surface: SurfaceLook, pictures: Pictures, remarks: Remarks) -> BaseColour:
+    """Combine a surface's colour and opacity; add a remark to `remarks` where they cannot be combined."""
+    colour, opacity = surface.colour_texture, surface.opacity_texture
+    factors, share = [min(part, 1.0) for part in surface.colour_rgb], surface.opacity
+    if colour and opacity and colour.layout != opacity.layout:
+        remarks.add("opacity textures that lie unlike the colour's are carried as their mean", opacity.file)
+        share, opacity = min(max(pictures.mean(opacity.band()), 0.0), 1.0), None
+    bands: Bands = (1.0, 1.0, 1.0)
+    if colour:
+        factors, bands = factored(colour.band(channel) for channel in range(3))
+    if opacity:
+        (share,), alpha = factored([opacity.band()])
+        bands += alpha
+    elif colour and surface.is_blended and pictures.has_alpha(colour.file):
+        bands += (1.0,)
+    red, green, blue = factors
+    return BaseColour((red, green, blue), share, bands, colour or opacity)
+
+
+def normal_bands_of(texture: Texture, remarks: Remarks) -> Bands:
+    """Return the bands of a normal map that stores (n + 1) / 2; add a remark if its scale and bias are not given."""
+    scale, bias = texture.scale[:3], texture.bias[:3]
+    if (scale, bias) == ((1.0,) * 3, (0.0,) * 3):
+        remarks.add("normal maps without scale and bias are read with those of bytes, 2 and -1", texture.file)
+        scale, bias = _DIRECTIONS
+    return tuple(
+        texture.band(channel)._replace(scale=scale[channel] / 2, bias=(bias[channel] + 1) / 2) for channel in range(3)
+    )
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from PIL import Image
 from garage2usd.common.randomness import Step, named_generator
 from garage2usd.sensors.rays.around_view import AroundView
 from garage2usd.sensors.rays.lenses import Lens
-from garage2usd.sensors.rig.camera_effects import CameraEffects
+from garage2usd.sensors.rig.sensors import CameraEffects
 
 Floats = NDArray[np.float64]
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])

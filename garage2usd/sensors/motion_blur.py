@@ -4,8 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.sensors.rays.lenses import Lens, Pinhole
-from garage2usd.sensors.rig.camera_effects import CameraEffects
 from garage2usd.sensors.rig.poses import Twist
+from garage2usd.sensors.rig.sensors import CameraEffects
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]

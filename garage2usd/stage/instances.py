@@ -16,7 +16,7 @@ from garage2usd.layout import Layout
 from garage2usd.objects import KINDS, Spec
 from garage2usd.objects.number_plate import KIND as NUMBER_PLATE
 from garage2usd.objects.number_plate import NumberPlateSpec
-from garage2usd.reading.number_plates import CAR_OF_PLATE, PLATE_TEXT
+from garage2usd.reading.labels import CAR_OF_PLATE, PLATE_TEXT
 from garage2usd.stage.arrangement import Arrangement
 from garage2usd.stage.authoring import (
     group_text,

@@ -1,4 +1,4 @@
-"""Small pictures of plans: thumbnails of squares, and the planner's learning with its best plans side by side."""
+"""Pictures of a garage by a build: the plan of each level, the learning curve, structures side by side, thumbnails."""
 
 from collections.abc import Collection, Iterator, Sequence
 from itertools import groupby
@@ -7,14 +7,16 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.config.site import DEFAULT_SIDE_M
 from garage2usd.garage import LaneKind, StallUse
+from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.objects.kind import rectangle
 from garage2usd.planning import measured_circulation
 from garage2usd.structure.grid import Cell, CellArray, Structure, edge_neighbour_count, outside_squares
-from garage2usd.view.drawing import Colour, Drawing, Line, Point, Region, Text
+from garage2usd.view.drawing import Colour, Drawing, Line, Point, Region, Text, to_image
 from garage2usd.view.plan_lanes import DEAD_END, FREE, LANDING, LANE_COLOUR
-from garage2usd.view.plan_picture import SOLID, STALL_COLOUR
+from garage2usd.view.plan_picture import SOLID, STALL_COLOUR, draw_plan
 from garage2usd.view.plan_sheet import PAPER
 
 _INK, _GRID, _PAPER = (32, 34, 38), (216, 214, 206), (250, 249, 246)
@@ -184,3 +186,51 @@ def _comb(rows: int, cols: int) -> list[Point]:
     """A single polyline along all borders of rows, back and forth."""
     ends = (0.0, float(cols))
     return [(ends[(row + end) % 2], float(row)) for row in range(rows + 1) for end in (0, 1)]
+
+
+def draw_pictures(
+    garage: Garage, *, learning_curve: bool = False, best_plans: int = 0, joint: str = "_"
+) -> dict[str, Image.Image]:
+    """Draw the plans of a garage, and the learning curve and the best plans of each level where they are asked for.
+
+    Parameters
+    ----------
+    garage
+        The garage.
+    learning_curve, best_plans
+        As for `garage2usd.build`.
+    joint
+        Stands between the name of a level and that of its picture.
+
+    Returns
+    -------
+    dict
+        The pictures by name: ``plan``, ``learning`` and ``best``; among several levels ``U1_plan`` and so on.
+
+    Raises
+    ------
+    ConfigError
+        If pictures of learning are asked for without learning.
+    """
+    for field, asked in (("learning_curve", learning_curve), ("best_plans", best_plans)):
+        if asked and not all(level.plan.archive for level in garage.levels):
+            raise ConfigError(field, asked, "only where lanes are learnt, not with a tape or lanes that are given")
+    return {
+        level.place.in_whole(name, joint=joint): picture
+        for level in garage.levels
+        for name, picture in _pictures(level, learning_curve=learning_curve, best_plans=best_plans).items()
+    }
+
+
+def _pictures(level: GarageLevel, *, learning_curve: bool, best_plans: int) -> dict[str, Image.Image]:
+    pictures = {"plan": to_image(draw_plan(level.layout))}
+    if learning_curve:
+        pictures["learning"] = draw_learning_curve(level.plan.learning_curve)
+    if best_plans:
+        pictures["best"] = draw_structures(
+            [
+                (entry.structure, f"{entry.score.value:.2f} {'polished' if entry.is_polished else 'learnt'}")
+                for entry in level.plan.archive[:best_plans]
+            ]
+        )
+    return pictures

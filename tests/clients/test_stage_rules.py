@@ -8,7 +8,7 @@ from support.sample_files import each_build
 from garage2usd.as_built.garage import garage_of_stage
 from garage2usd.as_built.stage_reader import level_of_stage
 from garage2usd.checks import findings_of
-from garage2usd.checks.consistency import BOOK as CONSISTENCY
+from garage2usd.checks.feasibility import BOOK as CONSISTENCY
 from garage2usd.checks.usd import BOOK
 from garage2usd.profiles import Profile
 

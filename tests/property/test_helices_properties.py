@@ -11,7 +11,7 @@ from support.sign_judge import signs_are_right
 
 from garage2usd import GarageConfig
 from garage2usd.as_built.contents import read_contents
-from garage2usd.as_built.driven_floor import DrivenFloor
+from garage2usd.as_built.driven_road import DrivenFloor
 from garage2usd.config.site import BuildingConfig
 from garage2usd.pipeline import generate
 from garage2usd.profiles import PROFILE_NAMES

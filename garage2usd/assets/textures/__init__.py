@@ -9,8 +9,7 @@ from garage2usd.assets.number_plates import bake_plate_ink, bake_plates
 from garage2usd.assets.stain_texture import bake_dirt, bake_repairs, bake_road_dust, bake_stains
 from garage2usd.assets.textures.ceilings import CEILING_FINISHES, CEILINGS, STEELS
 from garage2usd.assets.textures.floors import FLOOR_FINISHES, FLOORS, GLOSSES
-from garage2usd.assets.textures.paints import GUARDS, PAINTS, WEAR, WEAR_STEPS, wear_palette
-from garage2usd.assets.textures.pixels import Bakers, Pixels
+from garage2usd.assets.textures.paints import GUARDS, PAINTS, WEAR, WEAR_STEPS, Bakers, Pixels, wear_palette
 from garage2usd.assets.textures.walls import WALL_FINISHES, WALLS
 from garage2usd.config.outputs import TextureQuality
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from garage2usd.assets.fields import Field, clouds, grain, joint, noise, ramp, spots
-from garage2usd.assets.textures.pixels import Bakers, Pixels, distance_to, normal_map, packed, shaded
+from garage2usd.assets.textures.paints import Bakers, Pixels, distance_to, normal_map, packed, shaded
 from garage2usd.assets.textures.walls import sheet_tones
 
 _SHEETS_ACROSS, _SHEETS_ALONG = 3, 6

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from garage2usd.assets.fields import Field, cells, clouds, grain, joint, noise, ramp, spots, strokes, trowel_marks
-from garage2usd.assets.textures.pixels import Bakers, Pixels, distance_to, levels, normal_map, packed, shaded
+from garage2usd.assets.textures.paints import Bakers, Pixels, distance_to, levels, normal_map, packed, shaded
 
 _NEUTRAL = 1.0, 0.996, 0.985
 _GREY = 1.0, 1.0, 1.0

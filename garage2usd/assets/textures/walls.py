@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.assets.fields import Field, cells, clouds, grain, joint, noise, ramp, spots, strokes
-from garage2usd.assets.textures.pixels import Bakers, Pixels, distance_to, mixed_over, normal_map, packed, shaded
+from garage2usd.assets.textures.paints import Bakers, Pixels, distance_to, mixed_over, normal_map, packed, shaded
 
 # sheets of formwork, 2.7 m by 1.35 m, with the holes of their ties
 

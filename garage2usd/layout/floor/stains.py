@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from garage2usd.common.randomness import Step
@@ -17,13 +18,14 @@ from garage2usd.config import FittingsConfig
 from garage2usd.config.look import Dirt
 from garage2usd.garage import StallUse
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.placement import PlacedStall, Placement, edge_yaw_rad, of_spec, sum_of_yaws, to_world
+from garage2usd.layout.placement import PlacedStall, Placement, edge_yaw_rad, of_spec, placed, sum_of_yaws, to_world
 from garage2usd.layout.tiles import Tile, Tiles
 from garage2usd.objects.drain import DrainSpec
 from garage2usd.objects.floor_stain import DirtSpec, StainMark, StainSpec, TyreMarkSpec
 from garage2usd.objects.kind import Point, Spec
 from garage2usd.objects.panel import PanelSpec
 from garage2usd.structure.grid import Cell
+from garage2usd.structure.lane_graph import Square
 from garage2usd.structure.stalls import Edge
 
 _WEAR_LIFT_M = 0.0008
@@ -31,7 +33,6 @@ _CONCRETE_LIFT_M = 0.0012
 _TYRE_LIFT_M = 0.0016
 _OIL_LIFT_M = 0.002
 """Heights over the floor; stains that may overlap have different heights."""
-
 _SIZES_M = {
     StainMark.OIL: ((0.9, 0.9), (0.7, 0.7), (0.5, 0.5)),
     StainMark.DRIPS: ((0.7, 1.4),),
@@ -41,7 +42,6 @@ _SIZES_M = {
 }
 _VARIANTS = {StainMark.OIL: 6, StainMark.PATCH: 2, StainMark.CRACK: 2}
 _WEAR_VARIANTS = 2
-
 _ON_LANES: tuple[tuple[StainMark, float, float], ...] = (
     (StainMark.DAMP, 0.3, _CONCRETE_LIFT_M),
     (StainMark.CRACK, 0.6, _CONCRETE_LIFT_M),
@@ -57,7 +57,6 @@ _BRAKED_SHARE = 0.7
 _TURNED_SHARE = 0.35
 _LEAKED_SHARE = 0.85
 _DRIVEN_IN_SHARE = 0.5
-
 _HALF_GAUGE_M = 0.9
 """Distance from the middle of a pair of tyre marks to its outer border."""
 _BRAKE_LENGTHS_M = (2.4, 3.6)
@@ -70,9 +69,20 @@ _YAWS = 16
 _DRAWS = 5
 """Random numbers of each stain: presence, variant, size or yaw, and place across and along."""
 _PATCH_FROM_PAINT_M = 0.05
-
 Box = tuple[float, float, float, float]
 """Bounding box: least x and z, greatest x and z, metres from the middle of a square."""
+_LIFT_M = 0.0004
+"""Height over the floor, below all stains."""
+_SLOTS = ((StainMark.REPAIR, 0.3), (StainMark.SEAM, 0.85), (StainMark.SEAM, 0.7), (StainMark.SEAM, 0.5))
+"""Possible repairs of a square: mark, and share of the squares."""
+_TRIES, _REPAIR_DRAWS = 3, 4
+"""Places tried for each repair, and random numbers of each place."""
+_REPAIR_SIZES_M = {
+    StainMark.SEAM: ((1.0, 4.0), (1.1, 3.2), (0.8, 2.4)),
+    StainMark.REPAIR: ((1.4, 1.4), (1.1, 2.2), (2.4, 1.6), (0.8, 3.2)),
+}
+_REPAIR_VARIANTS = 4
+_QUARTER_TURN = np.pi / 2
 
 
 @dataclass
@@ -349,3 +359,58 @@ def _turned_box(spec: StainSpec | TyreMarkSpec, yaw_rad: float) -> Box:
     turned = [to_world(corner, (0.0, 0.0), yaw_rad) for corner in corners]
     xs, zs = zip(*turned, strict=True)
     return min(xs), min(zs), max(xs), max(zs)
+
+
+def floor_repairs(
+    floors: Iterable[Placement], draws: SquareDraws, drains: Iterable[Placement] = ()
+) -> Iterator[Placement]:
+    """Place sealed cracks and patches on the floor of each square, none over another, over a drain or an opening.
+
+    Parameters
+    ----------
+    floors
+        Floor panels of the squares, at most one on each. Patches avoid their markings, which cars wear off old cracks.
+    draws
+        Random numbers of each square.
+    drains
+        All drains.
+    """
+    numbers = draws.of_part(Step.FLOOR_STAINS, "repairs", len(_SLOTS), _TRIES, _REPAIR_DRAWS)
+    drained = _drains_by_square(drains)
+    for floor, panel in of_spec(floors, PanelSpec):
+        if floor.square is None:
+            continue
+        # in the coordinates of the panel, as all that follows
+        taken = [drain_box_on(floor, drain, spec) for drain, spec in drained.get(floor.square, [])]
+        openings = shapely.union_all([shapely.Polygon(opening) for opening in panel.openings])
+        half_x, half_z = panel.width_m / 2, panel.depth_m / 2
+        for number, ((mark, share), tries) in enumerate(zip(_SLOTS, numbers[floor.square].tolist(), strict=True), 1):
+            if tries[0][0] >= share:
+                continue
+            for there, turn, across, along in tries:
+                sizes = _REPAIR_SIZES_M[mark]
+                spec = StainSpec(mark, int(there * 1e3) % _REPAIR_VARIANTS, *sizes[int(there * 1e5) % len(sizes)])
+                yaw = drawn_yaw(turn) if mark is StainMark.SEAM else int(2 * turn) * _QUARTER_TURN
+                left, top, right, bottom = stain_box(spec, (0.0, 0.0), yaw)
+                room_x, room_z = 2 * half_x - (right - left), 2 * half_z - (bottom - top)
+                if min(room_x, room_z) < 0:
+                    continue
+                place = across * room_x - half_x - left, along * room_z - half_z - top
+                box = stain_box(spec, place, yaw)
+                if any(overlap(box, other) for other in taken) or openings.intersects(shapely.box(*box)):
+                    continue
+                if mark is StainMark.REPAIR and overlaps_paint(panel, box):
+                    continue
+                taken.append(box)
+                name = f"{mark.value.capitalize()}_{number}"
+                yaw = sum_of_yaws(yaw, floor.yaw_rad)
+                yield placed(name, spec, floor.to_world(place), height_m=_LIFT_M, yaw_rad=yaw, square=floor.square)
+                break
+
+
+def _drains_by_square(drains: Iterable[Placement]) -> dict[Square | None, list[tuple[Placement, DrainSpec]]]:
+    """Group the drains by square."""
+    found: dict[Square | None, list[tuple[Placement, DrainSpec]]] = {}
+    for drain, spec in of_spec(drains, DrainSpec):
+        found.setdefault(drain.square, []).append((drain, spec))
+    return found

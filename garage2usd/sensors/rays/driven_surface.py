@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.as_built.driven_floor import DrivenFloor
 from garage2usd.as_built.driven_ground import CAR_HEIGHT_M
+from garage2usd.as_built.driven_road import DrivenFloor
 from garage2usd.reading.labels import Labels
 from garage2usd.sensors.rays.ray_scene import read_ray_scene
 from garage2usd.sensors.rig.poses import y_up_to_stage

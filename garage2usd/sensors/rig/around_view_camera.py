@@ -11,8 +11,7 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.common.settings import Settings
 from garage2usd.config.vehicles import CarBody
 from garage2usd.sensors.rays.around_view import SECTORS, AroundView, Eye
-from garage2usd.sensors.rig.camera_effects import CameraEffects
-from garage2usd.sensors.rig.sensors import Camera
+from garage2usd.sensors.rig.sensors import Camera, CameraEffects
 
 _VIEW_FROM_SENSOR = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
 """Rotation from the view's axes (right, down, into the ground) to a sensor's (forward, left, up); columns are the

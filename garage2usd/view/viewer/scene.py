@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from garage2usd.garage.levels import LevelPlace
 from garage2usd.reading.lanes import Lanes
-from garage2usd.scenes.base_colours import base_colour_of
 from garage2usd.scenes.meshes import Triangles
 from garage2usd.scenes.pictures import ALPHA, Band, Bands, Pictures
+from garage2usd.scenes.plain_surfaces import base_colour_of
 from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.surfaces import Rgb, SurfaceLook
 from garage2usd.scenes.textures import Layout, Texture

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from garage2usd.assets.monotone_curve import MonotoneCurve
+from garage2usd.assets.car_shell import MonotoneCurve
 
 
 @pytest.mark.parametrize("heights", ["any", "rising", "level in places"])

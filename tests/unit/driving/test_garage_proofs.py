@@ -8,14 +8,12 @@ import networkx as nx
 import numpy as np
 import pytest
 import shapely
-from click.testing import CliRunner
 from pxr import Usd, UsdGeom
 from support.driving_simulation import World, drive_stalls, ground
 from support.sample_files import REPOSITORY
 from support.soak import soak_but
 
 import garage2usd
-from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
 from garage2usd.driving import DesignCar, Manoeuvre, Obstacles, prove_garage, prove_stalls
 from garage2usd.driving.layout_garage import layout_garage, object_name
@@ -188,15 +186,11 @@ def dropped():
 
 
 def test_the_plan_of_a_garage_that_fails_is_kept(tmp_path):
-    (tmp_path / "narrow.toml").write_text(
-        f'[site]\nstructure = """{NARROW["structure"]}"""\n'
-        f"[bay]\ncolumn_widths_m = 8.1\nrow_depths_m = {NARROW['bay']['row_depths_m']}\n"
-    )
-    ran = CliRunner().invoke(main, ["build", str(tmp_path / "narrow.toml"), "-o", str(tmp_path / "a" / "g.usdz")])
-    assert ran.exit_code == 1
+    config = garage2usd.GarageConfig(site={"structure": NARROW["structure"]}, bay=NARROW["bay"])
+    with pytest.raises(ConfigError) as caught:
+        garage2usd.build(config, tmp_path / "a" / "g.usdz")
     kept = [tmp_path / "a" / f"g_failed_plan.{suffix}" for suffix in ("json", "png")]
-    assert f"kept, as far as it was planned: {kept[0]}, {kept[1]}" in ran.output
-    assert sorted((tmp_path / "a").iterdir()) == kept
+    assert [*caught.value.kept] == sorted((tmp_path / "a").iterdir()) == kept
     matrices = json.loads(kept[0].read_text())
     assert matrices["S"] == NARROW["structure"].split()
     assert matrices["C"] == NARROW["bay"]["row_depths_m"]

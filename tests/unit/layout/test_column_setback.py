@@ -130,7 +130,7 @@ def test_build_and_report_name_the_columns_that_stay(tmp_path):
     )
     run = CliRunner().invoke(main, ["build", str(tmp_path / "g.toml"), "-o", str(tmp_path / "g.usda")])
     assert run.exit_code == 0, run.output
-    stay = json.loads((tmp_path / "g_report.json").read_text())["columns_at_mouths"]
+    stay = json.loads((tmp_path / "g_report.json").read_text())["levels"][0]["columns_at_mouths"]
     assert f"at the corner stay {len(stay)}: {', '.join(stay[:3])}" in run.output
 
 

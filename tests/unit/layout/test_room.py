@@ -71,7 +71,7 @@ def test_default_garages_need_no_proof(monkeypatch):
         generate(GarageConfig(seed=2, plan=QUICK, bay={**UNIFORM, "square_side_m": 5.4}))
 
 
-def test_what_cannot_be_driven_is_refused_and_leaves_no_file(tmp_path):
+def test_what_cannot_be_driven_is_refused_and_leaves_its_plan(tmp_path):
     (tmp_path / "g.toml").write_text(
         f'[site]\nstructure = """{TURNED_AWAY}"""\n'
         "[bay]\nrow_depths_m = [8.1, 8.1, 5.4, 3.2, 5.4, 8.1]\ncolumn_widths_m = 8.1\n"
@@ -81,7 +81,8 @@ def test_what_cannot_be_driven_is_refused_and_leaves_no_file(tmp_path):
     assert result.exit_code == 1
     assert "bay.row_depths_m" in result.output
     assert "not into Stall_r0" in result.output
-    assert not (tmp_path / "out").exists() or not list((tmp_path / "out").iterdir())
+    assert {file.name for file in (tmp_path / "out").iterdir()} == {"g_failed_plan.json", "g_failed_plan.png"}
+    assert "kept, as far as it was planned: " in result.output
 
 
 @pytest.mark.parametrize("side_m", [8.1, 5.4])

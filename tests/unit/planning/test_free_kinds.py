@@ -79,7 +79,7 @@ def test_sizes_are_drawn_for_the_kind_that_is_chosen():
 
 def test_a_report_gives_the_chosen_kind_without_choosing():
     garage = generate(GarageConfig(stalls=FREE, **SMALL))
-    report = make_report(config=garage.config, plan=garage.plan, layout=garage.layout, seconds={})
+    report = make_report(garage, seconds={})
     again = Report.model_validate_json(report.model_dump_json()).garage_config()
     assert not again.stalls.is_free
     assert generate(again).plan.structure == garage.plan.structure

@@ -12,6 +12,7 @@ from support.sample_files import REPOSITORY
 DATA_FILES = (
     "datasets/*.jinja",
     "datasets/*.json",
+    "assets/car_shapes.toml",
     "datasets/*.toml",
     "native/*.[ch]",
     "native/loops.so",

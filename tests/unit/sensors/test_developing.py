@@ -6,8 +6,8 @@ import pytest
 from garage2usd.common.errors import ConfigError
 from garage2usd.sensors.developing import develop, exposure_scale, sensed
 from garage2usd.sensors.rays.lenses import Pinhole
-from garage2usd.sensors.rig.camera_effects import CameraEffects
 from garage2usd.sensors.rig.rig import read_rig, rig_from_mapping
+from garage2usd.sensors.rig.sensors import CameraEffects
 
 LENS = Pinhole(size_px=(96, 64), centre_px=(48.0, 32.0), focal_px=(60.0, 60.0))
 PLAIN = CameraEffects(exposure="fixed", tone="linear")

@@ -7,9 +7,9 @@ from scipy.linalg import expm
 from garage2usd.common.errors import ConfigError
 from garage2usd.sensors.motion_blur import exposed_in_motion
 from garage2usd.sensors.rays.lenses import KannalaBrandt, Pinhole
-from garage2usd.sensors.rig.camera_effects import CameraEffects
 from garage2usd.sensors.rig.poses import Twist
 from garage2usd.sensors.rig.rig import read_rig, rig_from_mapping
+from garage2usd.sensors.rig.sensors import CameraEffects
 
 SIZE = 200, 120
 PINHOLE = Pinhole(size_px=SIZE, centre_px=(100.0, 60.0), focal_px=(150.0, 150.0))
