@@ -64,7 +64,7 @@ class PlacedPieces(NamedTuple):
 
 
 def lows_m(bodies: Sequence[Body]) -> NDArray[np.float64]:
-    """Return the least height in the world of each of many meshes; float64, shape (meshes,)."""
+    """Return the least height of each of many placed meshes of a garage as built; float64, shape (meshes,)."""
     matrices = _matrices(bodies)
     lows: NDArray[np.float64] = np.array([body.shape.lowest for body in bodies]) * matrices[:, 1, 1] + matrices[:, 3, 1]
     for index in np.flatnonzero(~are_upright(matrices)).tolist():

@@ -127,5 +127,5 @@ def across(low: float, high: float, below_m: float, above_m: float) -> list[Row]
 
 
 def at_left_depth(depth_m: float) -> Place:
-    """Position a distance behind the centre of a level cut, on the left."""
+    """Return the point of a car body's horizontal section at a distance behind its centre, on the left."""
     return lambda contour: -contour.arc_at_depth(depth_m)

@@ -29,7 +29,7 @@ _UNSPEAKABLE_BY_USD = "@\\"
 
 
 def can_say(path: str | Path) -> bool:
-    """True if USD and text formats can store a path: valid UTF-8 without control characters."""
+    """Return True if the path of an output can be stored in USD and text files: UTF-8 without control characters."""
     return _UNSPEAKABLE.search(str(path)) is None
 
 

@@ -473,7 +473,7 @@ def look_text(look: LookConfig) -> str:
 
 
 def look_in_words(look: LookConfig) -> str:
-    """Summarise a look in one line."""
+    """Summarise the settings of a look in one line."""
     values = look.model_dump(mode="json")
     parts = (
         " ".join(f"{values[group][axis]:g}" if axis.endswith("_k") else str(values[group][axis]) for axis in axes)

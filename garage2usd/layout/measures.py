@@ -53,7 +53,7 @@ def check_carriageways(grid: TileGrid) -> None:
 
 
 def check_clear_width(tile: Tile, clear_m: float, *, along_x: bool) -> None:
-    """Check the clear width of a square.
+    """Check the clear width of a lane square in a layout.
 
     Parameters
     ----------

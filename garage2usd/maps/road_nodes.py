@@ -143,7 +143,7 @@ def straight(start: Point, end: Point) -> ReferenceLine:
 
 
 def turn(start: Point, corner: Point, end: Point) -> ReferenceLine:
-    """Create a reference line that turns at a corner, on the largest arc that touches both sides.
+    """Create the reference line of a road that turns at a corner, on the largest arc that touches both sides.
 
     If the three points are collinear, the line is a single straight.
     """

@@ -111,7 +111,7 @@ class BicycleSpec(Spec, kind=KIND):
 
 
 def wheel_faces(radius_m: float, half_width_m: float, rim_m: float) -> tuple[list[Face], list[Face]]:
-    """Return the faces of a wheel's tyre and rim, two open rings around the X axis."""
+    """Return the faces of a bicycle wheel's tyre and rim, two open rings around the X axis."""
 
     def ring(inner: float, outer: float, half: float) -> list[Face]:
         middle = (inner + outer) / 2

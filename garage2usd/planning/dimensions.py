@@ -202,7 +202,7 @@ def lines_with_doors(structure: Structure) -> tuple[Mask, Mask]:
 
 
 def driven_squares(cells: NDArray[np.int8]) -> tuple[Mask, Mask]:
-    """Mark the lanes and portals on which cars drive along X, and along Z; a portal counts beside its lane."""
+    """Mark the squares that cars drive on along X, and along Z, and whose width is a lane's; portals count too."""
     lane, drivable = bordered(cells == Cell.LANE), bordered(cells >= Cell.LANE)
     here, here_lane = drivable[1:-1, 1:-1], lane[1:-1, 1:-1]
 

@@ -50,7 +50,7 @@ def _prims(parent: Sdf.PrimSpec) -> list[Sdf.PrimSpec]:
 
 
 def write_usdz(path: Path, files: Iterable[tuple[str, bytes]]) -> None:
-    """Write a package whose first file is the root layer.
+    """Write a stage as a USDZ package, whose first file is the root layer.
 
     Parameters
     ----------

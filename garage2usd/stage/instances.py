@@ -218,7 +218,7 @@ class TilePrototypes:
 def share_tiles(
     layout: Layout, arrangement: Arrangement, labels: Sequence[str], writer: InstanceWriter, folder: str
 ) -> TilePrototypes:
-    """Group equal parts of tiles (equal objects at equal places), and tiles with equal labels and parts.
+    """Group equal tiles and parts of tiles of a nested stage, so that they are instances of one prototype.
 
     Parameters
     ----------

@@ -82,7 +82,7 @@ def plan_digest(cells: CellArray) -> str:
 
 
 def levels_digest(levels: Sequence[CellArray]) -> str:
-    """Compute the SHA-256 digest, in hex, of the plans of all levels of a building.
+    """Compute a digest of the plans of all levels that is the same for rotated and reflected ones: SHA-256, in hex.
 
     Parameters
     ----------

@@ -352,7 +352,7 @@ def _hung(
 
 
 def level_plates(cores: Iterable[Core], well: Well) -> list[Placement]:
-    """Place a plate with the level's name beside the door of each stair core, on the side of its handle."""
+    """Place a sign with the level's name beside the door of each stair core, on the side of its handle."""
     across_m = _PLATE_FROM_DOOR_M + LEVEL_PLATE_WIDTH_M / 2
     return [
         placed(
