@@ -93,7 +93,7 @@ def draw_contact_sheet(
     progress: Progress = silent,
     announce: Announce = unheard,
 ) -> Path:
-    """Render each garage from its entrance and from above, with a caption; of several levels each by itself.
+    """Render each level of each garage from its entrance and from above, with a caption.
 
     Parameters
     ----------
@@ -136,7 +136,7 @@ def draw_contact_sheet(
     require("render", modules_of(find_blender()), without=WITHOUT_MODULE)
     check_file(output)
     if find_device(device, has_rays=False, blender=find_blender()).kind == CPU.kind:
-        device = Device.CPU  # so that Blender is not asked again for each picture
+        device = Device.CPU  # ask Blender once for all pictures
     with unfinished_folder(output, _key(garages, size_px, samples, device)) as work:
         cells: list[Path] = []
         for number, garage in enumerate(garages):
@@ -187,7 +187,7 @@ def _written(garage: SheetGarage, folder: Path) -> tuple[Path, list[_Level]]:
     place = folder / "stage"
     place.mkdir()
     stage = place / "garage.usdc"
-    # more is not seen in small pictures, and a flat stage of several levels has none of each level beside it
+    # small pictures show no finer textures, and a flat stage of several levels has no stage of each level
     plain = {"assets": AssetPlace.OWN, "texture_quality": TextureQuality.LOW, "form": StageForm.AUTO}
     made = generate(garage.config, plan=garage.plan, tape=garage.tape)
     write_stage(made, stage, config=garage.config.stage.model_copy(update=plain))

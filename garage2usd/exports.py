@@ -388,5 +388,5 @@ def _format_of(path: Path) -> str:
 
 
 def _stem_of(path: Path) -> str:
-    """Return a file's name without what says its format; empty if there is nothing else."""
+    """Return a file's name without the ending of its format; empty if there is no more to it."""
     return path.name[: -len(_AREAS)] if _format_of(path) == _AREAS else path.stem

@@ -136,9 +136,8 @@ def read_built(path: str | Path, *, profile: Profile | None = None, progress: Pr
         against = profile or load_profile(name if name in PROFILE_NAMES else DEFAULT_PROFILE)
         return BuiltSource(garage, against, DriveConfig())
     report = _report_in(path)
-    if (
-        report is None or len(report.levels) == 1
-    ):  # a plan of one level is read as it is, so that its faults become findings
+    # a plan of one level is read as it is, so that its faults become findings
+    if report is None or len(report.levels) == 1:
         plan, config = garage_of_plan(path, report=report, profile=profile)
         return BuiltSource(plan, profile or config.standard, config.maps.drive)
     made = generate(report.config, seed=report.seed, tape=report.tape, progress=progress)

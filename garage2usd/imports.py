@@ -1,4 +1,4 @@
-"""Import of layouts that others made: a garage in metres, without a grid, from a map or a drawing."""
+"""Import of existing layouts: a garage in metres, without a grid, from a map or a drawing."""
 
 import hashlib
 import math
@@ -35,7 +35,7 @@ def import_layout(
     proves: bool = True,
     progress: Progress = silent,
 ) -> Build:
-    """Make a garage of a layout that others made, and write its stage, plan, labels and report.
+    """Make a garage of an existing layout, and write its stage, plan, labels and report.
 
     Parameters
     ----------
@@ -43,24 +43,24 @@ def import_layout(
         A file: a Lanelet2 map or OpenStreetMap extract (``.osm``), OpenDRIVE (``.xodr``), GeoJSON (``.geojson``), a
         table of rectangles (``.csv``) or a drawing (``.toml``); or a survey.
     output
-        The stage's path; ``.usda``, ``.usdc`` or ``.usdz``. The other files go beside it, under its name.
+        Path of the stage; ``.usda``, ``.usdc`` or ``.usdz``. The other files are written beside it under its name.
     config
         Fittings, parking, look and seed; site, bay, stalls and plan do not apply. The default ones if left out.
     proves
-        True to prove for each stall that a car drives in and out, which the report then has, and to check the garage by
-        the rules that need these ways.
+        True to prove for each stall that a car drives in and out, to put the proofs into the report, and to check the
+        garage by the rules that need them.
     progress
-        Told how far long steps are.
+        Called with the progress of long steps.
 
     Returns
     -------
     Build
-        The garage and its files. `surveyed_floor` of it has what the garage lacks of the source.
+        The garage and its files. `surveyed_floor` returns the parts of the source that the garage lacks.
 
     Raises
     ------
     ConfigError
-        If the source or a setting cannot be used, or none of the stalls can be placed.
+        If the source or a setting is invalid, or none of the stalls can be placed.
     OutputError
         If the files cannot be written. They appear whole or not at all.
     """
@@ -94,21 +94,21 @@ def import_layout(
 
 
 def surveyed_floor(garage: Garage) -> SurveyedFloor:
-    """Return what an imported garage was laid out from: its survey, stalls, and the parts that it lacks."""
+    """Return the source of an imported garage: its survey, its stalls, and the parts that could not be placed."""
     floor = garage.layout.source
     assert isinstance(floor, SurveyedFloor)
     return floor
 
 
 def _origin(source: str | Path | Survey) -> Mapping[str, str]:
-    """Return the name of a file that is imported, and the digest of its bytes."""
+    """Return the name of an imported file and the digest of its bytes."""
     if isinstance(source, Survey):
         return {}
     return {"source": Path(source).name, "sourceDigest": hashlib.sha256(Path(source).read_bytes()).hexdigest()}
 
 
 def _survey_figures(garage: Garage, alignment: Alignment) -> SurveyFigures:
-    """Return what was imported, and what became of its parts."""
+    """Return the figures of an import for its report: source, frame, and parts that are missing or changed."""
     surveyed, lanes = surveyed_floor(garage), garage.lanes
     return SurveyFigures(
         source=garage.origin.get("source"),

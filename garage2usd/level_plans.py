@@ -44,7 +44,7 @@ class PlannedLevel(NamedTuple):
 
 
 def sites_and_tapes(config: GarageConfig, tape: str | None, attempt: int) -> tuple[LevelSites, list[str | None]]:
-    """Make the sites of the levels, and split the tape into theirs.
+    """Make the sites of all levels, and split a tape into the tapes of the levels.
 
     Ramps are read from the tape, or drawn, in each attempt at another place. Errors as for `generate`.
     """
@@ -64,7 +64,7 @@ def sites_and_tapes(config: GarageConfig, tape: str | None, attempt: int) -> tup
 
 
 def sites_of_plans(config: GarageConfig, plans: Sequence[Plan]) -> LevelSites:
-    """Make the sites that plans were made on, with the ramps where these plans have them.
+    """Make the sites of given plans, with the ramps at the places that the plans have.
 
     Raises
     ------
@@ -104,15 +104,16 @@ def plan_levels(
     config
         The settings of the garage.
     given
-        The plans of all levels, if they were made before.
+        Existing plans of all levels, if any.
     jobs
         Maximum number of levels that are planned at a time. The plans do not depend on it.
     progress
-        Told how far long steps are.
+        Called with the progress of long steps.
 
     Notes
     -----
-    Where R and C are chosen, lines along which only a lower level has an aisle are widened for it on all levels.
+    If R and C are chosen, a row or column of squares along which only a lower level has an aisle is widened on all
+    levels.
     """
 
     def level(number: int, on: Structure, bay: BayConfig, told: Progress = progress) -> PlannedLevel:
@@ -167,13 +168,13 @@ def _planned(site: Structure, config: GarageConfig, *, tape: str | None, progres
 
 
 def _is_on(plan: Plan, sites: LevelSites, level: int) -> bool:
-    """Return True if a plan has the obstacles, ramps and portals of the site of a level."""
+    """Return True if a plan has the same obstacles, ramps and portals as the site of a level."""
     cells, static = plan.structure.cells, sites.cells(level)
     return bool(cells.shape == static.shape and (np.where(cells == Cell.LANE, Cell.FREE, cells) == static).all())
 
 
 def _with_aisles(levels: list[Structure], bay: BayConfig) -> Structure:
-    """Return the top level with lines of squares wide enough for the aisles of all levels, where sides are chosen."""
+    """Widen the rows and columns of squares of the top level for the aisles of all levels, where R and C are chosen."""
     top = levels[0]
     sides = [top.row_depths_mm.copy(), top.column_widths_mm.copy()]
     for level in levels[1:]:
@@ -184,7 +185,7 @@ def _with_aisles(levels: list[Structure], bay: BayConfig) -> Structure:
 
 
 def _on_sides(plan: Plan, sides: Structure, bay: BayConfig, config: GarageConfig) -> Plan:
-    """Return a plan with the sides of another structure."""
+    """Return a plan with R and C of another structure."""
     structure = sides.with_cells(plan.structure.cells)
     if structure == plan.structure:
         return plan
@@ -192,7 +193,7 @@ def _on_sides(plan: Plan, sides: Structure, bay: BayConfig, config: GarageConfig
 
 
 def _fixed(bay: BayConfig, structure: Structure) -> BayConfig:
-    """Return the sizes with R and C given."""
+    """Return the settings with R and C of the top level."""
     sides = {
         "column_widths_m": tuple((structure.column_widths_mm / 1000).tolist()),
         "row_depths_m": tuple((structure.row_depths_mm / 1000).tolist()),

@@ -1,5 +1,5 @@
-"""The pipeline from a configuration to sites, plans, layouts, stage and files, for any number of levels."""
-# Over 300 lines: the whole road is told in one place, as far as the garage and as far as its files.
+"""The pipeline from a configuration to plans, layouts, a stage and its files, for any number of levels."""
+# Over 300 lines: all steps from a configuration to the files stand together.
 
 import logging
 import time
@@ -52,14 +52,14 @@ _PICTURES = ("plan", "learning", "best")
 
 @dataclass(frozen=True)
 class Judged:
-    """What a level misses of its profile by the rules that are quick (see `garage2usd.checks.check_layout`).
+    """Result of the quick rules on a level under its profile (see `garage2usd.checks.check_layout`).
 
     Attributes
     ----------
     findings
         The findings, errors first.
     unmet
-        The clauses that the level is not designed to: that it misses, or that nothing checks.
+        The clauses that the level violates, and those that no rule can check on it.
     """
 
     findings: tuple[Finding, ...]
@@ -77,18 +77,18 @@ class Build:
     stage, report, labels
         The stage, the JSON report, and the JSON table of all objects with their classes.
     pictures
-        The picture of each level's plan, the top one first, each with the learning curve and the best plans after it
-        where they were asked for.
+        Picture of the plan of each level, the top level first; if requested, the learning curve and the best plans of
+        the level follow it.
     asset_folder
-        Folder of the stage's own layers, and of its assets unless it shares them; None where it holds all that itself.
+        Folder of the stage's own layers, and of its assets unless they are shared; None if the stage is a single file.
     shared_assets
-        Folder of the assets that it shares with other stages; None where it has its own.
+        Folder of the assets that are shared with other stages; None if the assets are the stage's own.
     seconds
-        Seconds that each step took.
+        Duration of each step in seconds.
     judged
-        What each level misses of its profile; None for more than 10,000 stalls, which take longer.
+        Result of the quick rules on each level; None for more than 10,000 stalls, which would take too long.
     proofs
-        For each stall of an imported garage that takes cars, whether a car drives in and out, if that was asked for.
+        For each stall of an imported garage that takes cars, whether a car drives in and out; empty unless requested.
     """
 
     garage: Garage
@@ -104,7 +104,7 @@ class Build:
 
     @property
     def findings(self) -> tuple[Finding, ...] | None:
-        """The findings on all levels, errors first; among several levels places are those in the whole stage."""
+        """The findings on all levels, errors first; with several levels, places are paths in the whole stage."""
         if self.judged is None:
             return None
         found = [
@@ -116,7 +116,7 @@ class Build:
 
     @property
     def unmet(self) -> tuple[UnmetClause, ...] | None:
-        """The clauses that a level is not designed to; among several levels reasons begin with the level's name."""
+        """The clauses of `Judged.unmet` of all levels; with several levels, reasons begin with the level's name."""
         if self.judged is None:
             return None
         return tuple(
@@ -135,43 +135,42 @@ def generate(
     jobs: int = 1,
     progress: Progress = silent,
 ) -> Garage:
-    """Make a garage of one level or, by ``building.levels``, of several.
+    """Generate a garage of one level or, with ``building.levels``, of several levels.
 
     Parameters
     ----------
     config
-        Its settings; the default garage if left out.
+        Settings; the default garage if left out.
     seed
-        Takes the place of the configuration's seed.
+        Seed; overrides that of the configuration.
     tape
-        The tape of a plan, as its report has it: its lanes, directions and stalls are made again on the site instead of
-        learnt and drawn. Where it has lanes alone, the settings decide the rest. That of several levels has the ramps
-        and the lanes of each level.
+        Tape of a plan, from its report. Its lanes, directions and stalls are replayed on the site instead of being
+        learnt and drawn. If a tape has lanes alone, the settings decide the rest. The tape of several levels has the
+        ramps and the lanes of each level.
     plan
-        What was planned before with these settings and this seed, a plan for each level, which takes the place of tape
-        and learning.
+        Earlier plan for these settings and this seed, one for each level; replaces tape and learning.
     jobs
-        Maximum number of levels that are planned and laid out at a time, each in a fork of this process. The garage
-        does not depend on it.
+        Maximum number of levels that are planned and laid out at the same time, each in a fork of this process. The
+        garage does not depend on it.
     progress
-        Told how far long steps are.
+        Called with the progress of long steps.
 
     Raises
     ------
     ConfigError
-        If a setting cannot be used, or not together with several levels.
+        If a setting is invalid, or cannot be combined with several levels.
     GenerationError
-        If a random step found no valid result, such as a place for the ramps from and to which cars reach every stall;
+        If a random step finds no valid result, for example no place for the ramps over which cars reach every stall;
         names the step and the seed.
     UnreachableStallError
-        If stalls of a given structure have no route from an entrance and to an exit.
+        If a stall of a given structure has no route from an entrance, or none to an exit.
     """
     plans = [plan] if isinstance(plan, Plan) else plan
     return _generate(config or GarageConfig(), seed=seed, tape=tape, plans=plans, jobs=jobs, progress=progress)[0]
 
 
 def generate_plan(config: GarageConfig, *, progress: Progress = silent) -> Plan:
-    """Make a garage of one level as far as its plan, directions and stalls included; raises as `generate`."""
+    """Generate the plan of a garage of one level, with directions and stalls; raises as `generate`."""
     (planned,) = plan_levels(*_sites(config, None, None, 0), progress=progress)
     lane_squares_of(planned.plan, config)
     return planned.plan
@@ -189,33 +188,33 @@ def build(
     jobs: int = 1,
     progress: Progress = silent,
 ) -> Build:
-    """Make a garage and write its stage, the pictures of its plans, its labels and its report.
+    """Generate a garage and write its stage, the pictures of its plans, its labels and its report.
 
     Parameters
     ----------
     config, seed, tape, jobs, progress
         As for `generate`.
     output
-        The stage's path; ``.usda``, ``.usdc`` or ``.usdz``. Pictures, report, labels and assets go beside it, under its
-        name; the pictures of several levels with the name of each, ``_U1_plan.png``.
+        Path of the stage; ``.usda``, ``.usdc`` or ``.usdz``. Pictures, report, labels and assets are written beside it
+        and begin with its name; with several levels, pictures also have the name of their level, ``_U1_plan.png``.
     learning_curve
-        Whether to draw the return of each episode as well.
+        True to draw the return of each episode.
     best_plans
-        How many of the best plans of each level to draw side by side as well.
+        Number of the best plans of each level to draw side by side; 0 for no such picture.
 
     Raises
     ------
     ConfigError
-        If a setting cannot be used, the extension is unknown, or pictures of learning are asked for without learning.
+        If a setting is invalid, the extension is unknown, or pictures of learning are requested for a given plan.
     GenerationError, UnreachableStallError
         As `generate`.
     OutputError
-        If the files cannot be written. They appear whole or not at all.
+        If the files cannot be written. Either all files appear or none.
 
     Notes
     -----
-    Where the garage fails after its plan was made, ``garage_failed_plan.json`` keeps S, R and C of the plan, which
-    `check` reads, and ``garage_failed_plan.png`` shows it; the error names the files under ``kept``.
+    If generation fails after the lanes were planned, ``garage_failed_plan.json`` holds S, R and C of the plan, which
+    `check` reads, and ``garage_failed_plan.png`` shows it; the attribute ``kept`` of the error lists these files.
     """
     config = config or GarageConfig()
     path = checked_output(output, config)
@@ -233,7 +232,7 @@ def build(
 
 
 def checked_output(output: str | Path, config: GarageConfig) -> Path:
-    """Return the path of a stage that can be written, with what comes beside it; raises as `build`."""
+    """Check that a stage and the files beside it can be written, and return its path; raises as `build`."""
     path = Path(output)
     if path.suffix.lower() not in set(StageFormat) or not path.stem:
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
@@ -254,22 +253,22 @@ def written(
     report: Callable[[Sequence[Judged] | None], Mapping[str, Any]],
     progress: Progress = silent,
 ) -> Build:
-    """Write the files of a garage, whole or not at all.
+    """Write the files of a garage; either all of them appear or none.
 
     Parameters
     ----------
     garage
         The garage.
     path
-        The stage, as `checked_output` returned it.
+        Path of the stage, from `checked_output`.
     seconds
-        Seconds that each step took, to which those of this one are added.
+        Duration of each earlier step in seconds; the steps of writing are added.
     draw
-        Draws its pictures by name.
+        Function that returns the pictures by name.
     judge
-        Checks each level against its profile.
+        Function that checks each level against its profile.
     report
-        Returns the facts of its report, with what the levels miss.
+        Function that returns the content of the report, given the result of `judge`.
     progress
         As for `build`.
     """
@@ -293,7 +292,7 @@ def written(
         facts = staging / f"{path.stem}_report.json"
         facts.write_text(json_text(report(judged)), encoding="utf-8", newline="\n")
         progress("files", 0, 1)
-        # the stage comes last: where it stands, all of it does
+        # the stage is published last: once it exists, all other files do
         files = [*filter(None, [made.assets]), *drawn, labels, facts]
         place_of = {file: path.with_name(file.name) for file in files} | {made.stage: path}
         publish_at(place_of)
@@ -311,7 +310,7 @@ def written(
 
 
 def _names_beside(config: GarageConfig) -> Iterator[str]:
-    """Yield the names of the files that may come with a stage, after its stem and a line."""
+    """Yield the names of the files that may be written beside a stage, without ``STEM_``."""
     for place in level_places(config.building.levels, config.building.storey_m):
         for picture in _PICTURES:
             yield place.in_whole(f"{picture}.png", joint="_")
@@ -350,7 +349,7 @@ def _generate(
     lack = lacks[0]
     if is_given:
         raise ConfigError("tape", tape, f"ramps and lanes without {lack}")
-    # cars turn back at once on the way to some stalls, if there is the room
+    # routes on which cars turn back at once will do if the design car has room for them
     for garage in tight:
         if _is_driven_through(garage):
             return garage, seconds
@@ -372,7 +371,7 @@ def _made(
     jobs: int,
     progress: Progress,
 ) -> Garage:
-    """Plan and lay out all levels; the time that each step takes is added to `seconds`."""
+    """Plan and lay out all levels, and add the duration of each step to `seconds`."""
     with _timed(seconds, "site") as told:
         sites, config, tapes = _sites(config, tape, plans, attempt)
         rows, cols = sites.street.shape
@@ -390,7 +389,7 @@ def _made(
 
 @contextmanager
 def _telling_plans(structures: Sequence[Structure]) -> Iterator[None]:
-    """Let an error tell the plans of the levels of the garage that it ends."""
+    """Attach the plans of all levels to an error that ends the garage."""
     try:
         yield
     except Garage2UsdError as error:
@@ -401,7 +400,7 @@ def _telling_plans(structures: Sequence[Structure]) -> Iterator[None]:
 
 @contextmanager
 def _keeping_plans(path: Path) -> Iterator[None]:
-    """Write the plans that an error tells beside the stage that is not made."""
+    """Write the plans attached to an error beside the place of the stage."""
     try:
         yield
     except Garage2UsdError as error:
@@ -462,7 +461,7 @@ def _layout(
     number: int,
     progress: Progress,
 ) -> Layout:
-    """Lay out a level, with the truth about its stalls and the clutter that leaves them their drives."""
+    """Lay out a level: place its objects, prove its stalls, and add clutter beside the ways into them."""
     well = None if sites.ramps is None else make_well(sites.ramps, number, config)
     layout = lay_out(planned.plan.structure, graph, planned.config, well=well, egress=egress)
     layout = _driven(layout, planned.config, progress)
@@ -470,7 +469,7 @@ def _layout(
 
 
 def with_things(layout: Layout, config: GarageConfig, *, progress: Progress = silent) -> Layout:
-    """Return a layout with the truth beside cars over lines, and the clutter that leaves stalls their drives."""
+    """Return a layout with the stalls that misparked cars block, and clutter beside the ways into stalls."""
     layout = with_truth_of_misparked(layout, config, progress=progress)
     if config.clutter.is_any:
         layout = with_clutter(layout, config, cars=(DesignCar(), design_car(config.standard)), progress=progress)
@@ -478,7 +477,7 @@ def with_things(layout: Layout, config: GarageConfig, *, progress: Progress = si
 
 
 def _driven(layout: Layout, config: GarageConfig, progress: Progress) -> Layout:
-    """Return a layout with what is asked of stalls that no car gets into."""
+    """Mark, drop or refuse the stalls that no car gets into, as ``plan.unreachable_stalls`` says."""
     choice = config.plan.unreachable_stalls
     if choice.are_proven:
         layout = without_unreachable(layout, config, progress=progress)
@@ -489,9 +488,9 @@ def _driven(layout: Layout, config: GarageConfig, progress: Progress) -> Layout:
 
 
 def _unreached(garage: Garage, *, may_turn_back: bool) -> list[str]:
-    """Return the stalls that cars do not reach over the ramps, or from which none reaches the street.
+    """Return the stalls that cars cannot reach over the ramps, or from which they cannot reach the street.
 
-    The lane graph of each level is proven when it is built.
+    The routes on each level are proven earlier, when its lane graph is built.
     """
     return unreached_stalls(garage.joined, may_turn_back=may_turn_back) if garage.building.links else []
 
@@ -502,12 +501,12 @@ def _unreached_in_words(stalls: list[str]) -> str:
 
 
 def _is_driven_through(garage: Garage) -> bool:
-    """Return True if the design car drives from the street to the lowest level, and back."""
+    """Return True if the design car can drive from the street to the lowest level and back."""
     return DrivePlanner(garage_as_made(garage, source="a layout", kind="layout")).is_driven_through()
 
 
 def _judged(garage: Garage) -> tuple[Judged, ...] | None:
-    """Check each level against its profile; None for garages with too many stalls."""
+    """Check each level against its profile; return None for more than 10,000 stalls."""
     if sum(len(level.layout.stalls) for level in garage.levels) > _MOST_CHECKED_STALLS:
         return None
     found = [judged_layout(level.layout, level.config) for level in garage.levels]
@@ -520,7 +519,7 @@ def _counted(judged: Sequence[Judged]) -> str:
 
 @contextmanager
 def _timed(seconds: dict[str, float], step: str) -> Iterator[list[str]]:
-    """Add the time of a step to `seconds`, and log it with what the step decided, which the caller puts on the list."""
+    """Add the duration of a step to `seconds`, and log it with the decisions that the caller appends to the list."""
     start, told = time.perf_counter(), list[str]()
     yield told
     took = time.perf_counter() - start

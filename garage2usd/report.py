@@ -97,9 +97,9 @@ def make_report(
     learning
         Results of learning, for the plan of a single level without its archive.
     survey
-        What was imported.
+        Figures of an import; None for a generated garage.
     proofs
-        Proofs of stalls that were imported, if they were asked for.
+        Proofs of the stalls of an imported garage, if requested.
 
     Notes
     -----

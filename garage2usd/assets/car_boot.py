@@ -219,7 +219,7 @@ def open_boot_box(body: CarBody) -> tuple[float, float, float]:
 
 
 def with_rear_swung_up(part: Part, body: CarBody) -> Part:
-    """Number plates of a car, of which the rear one follows the open boot; each faces along Z."""
+    """Swing the rear number plate up with the open boot; each plate faces along Z."""
     moved = _swung(part, _boot(body))
     is_rear, looks_back = part.points[:, 2:] > 0, part.normals[:, 2:] > 0
     return replace(

@@ -122,7 +122,7 @@ def disc_patch(shell: Shell, middle: tuple[float, float], radius_m: float, *, re
 
 
 def across(low: float, high: float, below_m: float, above_m: float) -> list[Row]:
-    """Two rows with symmetric ends."""
+    """Two rows of a patch whose ends are symmetric to the middle of the car."""
     return [(low, at_x(-below_m), at_x(below_m)), (high, at_x(-above_m), at_x(above_m))]
 
 

@@ -80,7 +80,7 @@ class SideView:
     bed
         Shares of length between which a pickup's bed is open.
     upright_tail
-        Whether the tail is a tailgate between tall lamps, else the lamps lie wide under a boot lid or rear window.
+        True if the tail is a tailgate between tall lamps, else the lamps lie wide under a boot lid or rear window.
     rows
         Rows of seats.
     seats
@@ -102,15 +102,15 @@ class SideView:
     head, tail_lamps, grille, rim
         Designs of the lamps, the grille and the wheels.
     clad
-        Whether arches and sills have black plastic cladding.
+        True if arches and sills have black plastic cladding.
     rails
-        Whether the roof has rails.
+        True if the roof has rails.
     spoiler
-        Whether the roof extends over the rear window.
+        True if the roof extends over the rear window.
     soft_top
-        Whether the roof is made of cloth.
+        True if the roof is made of cloth.
     slides
-        Whether the rear doors are sliding doors.
+        True if the rear doors are sliding doors.
     """
 
     shoulder: tuple[tuple[float, float], ...]
@@ -144,7 +144,7 @@ class SideView:
 
 
 def _side_views() -> dict[str, SideView]:
-    """Read the shapes of all bodies; those of before a body in the file may be its base."""
+    """Read the shapes of all bodies; a body may be based on one that precedes it in the file."""
     text = resources.files(__package__).joinpath("car_shapes.toml").read_text(encoding="utf-8")
     fields: dict[str, dict[str, Any]] = {}
     for name, given in tomllib.loads(text).items():

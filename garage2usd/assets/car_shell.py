@@ -111,7 +111,7 @@ class Contour:
     line
         X and Z of its points; shape (points, 2).
     rear
-        Whether it cuts the tail.
+        True if the contour cuts the tail, False for the nose.
     """
 
     def __init__(self, line: NDArray[np.float64], *, rear: bool) -> None:

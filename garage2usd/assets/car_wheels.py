@@ -79,7 +79,7 @@ def steered_box(body: CarBody, steer_deg: float) -> tuple[float, float, float]:
 
 
 def _turned(part: Part, pose: Pose, before: Pose = _ORIGIN) -> Part:
-    """Move a part from a pose to another place, and turn it there by the yaw of that place."""
+    """Move a part from the pose `before` to another pose, turned by the yaw of that pose."""
     return replace(
         part,
         points=pose.placed(part.points.astype(np.float64) - before[:3]).astype(np.float32),

@@ -105,7 +105,7 @@ def dusty(asset: Asset, body: CarBody) -> Asset:
     faces = grid_quads(side[kept] + np.array((_DUST_LIFT_M, 0.0, 0.0))).reshape(-1, 4, 3)
 
     def project(corners: NDArray[np.float64], _normals: NDArray[np.float64]) -> NDArray[np.float64]:
-        # below the texture's upper edge, where it repeats
+        # stay below the upper edge of the texture, above which it would repeat
         most = _DUST_TOP * (MATERIALS["road_dust"].repeat_up_m or 1.0)
         high = np.clip(corners[:, 1] - shell.shape.clearance_m, 0.01, most)
         return np.stack([corners[:, 2], high], axis=1)
@@ -123,7 +123,7 @@ def lit(asset: Asset) -> Asset:
 
 
 def lamps_of(asset: Asset, end: str) -> list[Part]:
-    """Parts of a car that are its ``lamp_front`` or ``lamp_rear``, lit or not."""
+    """Head and tail lamps of a car: the parts with ``lamp_front`` or ``lamp_rear``, lit or not."""
     name = {"lamp_front": "HeadLamps", "lamp_rear": "TailLamps"}[end]
     own = {key for key, finish in asset.finishes.items() if finish.key == end} | {_LIT[end]}
     return [part for part in asset.parts if part.name == name or part.material in own]

@@ -48,13 +48,13 @@ class Figure(NamedTuple):
     build
         Factor on widths and depths.
     is_woman
-        Whether shoulders, waist and hips have a woman's proportions.
+        True if shoulders, waist and hips have a woman's proportions.
     outfit, top, bottom, shoes
         Type of the clothes, and the materials of top, bottom and shoes.
     skin, hair
         Materials of skin and hair.
     has_long_hair
-        Whether the hair falls down the back.
+        True if the hair falls down the back.
     """
 
     height_m: float

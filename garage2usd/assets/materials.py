@@ -100,7 +100,7 @@ class Material:
     roughness, metallic, opacity, clearcoat
         0 to 1.
     has_alpha
-        Whether the colour texture's alpha is the opacity.
+        True if the colour texture's alpha is the opacity.
     ior
         Index of refraction; None for the default.
     emissive_rgb

@@ -43,7 +43,7 @@ class Pose(NamedTuple):
 
     @property
     def single(self) -> "Pose":
-        """The pose as a layer holds it, in single precision."""
+        """The pose in single precision, as stored in a layer."""
         return Pose(*np.array(self, np.float32).tolist())
 
     def placed(self, points: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
@@ -133,7 +133,7 @@ class AreaLight:
     colour_rgb
         Linear colour of the light and of the glowing parts of the asset.
     is_round
-        Whether the light is a disc.
+        True if the light is a disc.
     """
 
     width_m: float

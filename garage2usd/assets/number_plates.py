@@ -144,7 +144,7 @@ class PlateStyle:
     meshes
         (mesh name, material) pairs: one mesh for both plates, or one each for front and rear.
     has_band
-        Whether a plate has a band on the left.
+        True if a plate has a band on the left.
     """
 
     characters: int

@@ -51,7 +51,7 @@ RULES: tuple[Rule, ...] = tuple(
         safety,
         feasibility,
         usd,
-        swept_path,  # last, as it takes time that is allowed for it alone
+        swept_path,  # last: it sets the limit of processor time for its own, slow work
     )
     for rule in module.BOOK.rules
 )
@@ -108,7 +108,7 @@ def judged_layout(
 ) -> tuple[list[Finding], tuple[UnmetClause, ...]]:
     """Check a layout as `check_layout` does, and return also the profile clauses that the garage does not meet.
 
-    With ways it proves too that a car drives into each stall, so that its findings are those of its stage.
+    If `with_ways` is set, it also proves that a car drives into each stall, so that the findings are those of a stage.
     """
     garage = level_of_layout(layout, source="", kind="report")
     left_out = usd.BOOK.rules if with_ways else _LONG

@@ -82,7 +82,7 @@ def _over_van_routes(level: BuiltLevel) -> Iterator[tuple[str, Point, float]]:
 @BOOK.rule("portal-count", "portals", asks="there are enough vehicle entrances and exits for the stalls")
 def _count(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     portals = level.lanes.portals("entrance", "exit")
-    # a level of several has those of the whole garage, and none of one kind is found by a rule of its own
+    # with several levels the portals of the whole garage count; another rule reports a missing entrance or exit
     if level.landings:
         return
     if profile.portals is None or not level.lanes.portals("entrance") or not level.lanes.portals("exit"):
@@ -188,7 +188,7 @@ def _accessible_count(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
 @BOOK.rule("accessible-width", "accessible_stall_width", "stall_width", asks="an accessible stall is wide enough")
 def _accessible_width(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     clause, common = profile.accessible_stall_width, profile.stall_width
-    # a width that no stall may have is found by the rule of all stalls
+    # if no stall may be that narrow, `stall-width` reports it
     if clause is None or (common is not None and common.amount >= clause.amount):
         return
     for stall in _accessible(level):

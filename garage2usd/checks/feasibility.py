@@ -70,7 +70,7 @@ def _lies_ahead_of_tip(mouth: Point, access: int, level: BuiltLevel) -> bool:
 def _routes(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
     entrances, exits = level.lanes.joined_portals("entrance"), level.lanes.joined_portals("exit")
     if not entrances or not exits or not level.has_whole_graph:
-        return  # that itself is found by other rules
+        return  # other rules report that
     reached = _reached(entrances, level.lanes.onward, level)
     left = _reached(exits, level.lanes.backward, level)
     for stall in level.stalls:
@@ -91,7 +91,7 @@ def _portal_routes(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
     ):
         for start in starts if goals and level.has_whole_graph else ():
             found = _reached([start], ways, level)
-            # stalls on the way are named by their own rule, and a portal without a lane by its own
+            # unreached stalls, and portals without a lane, are reported by other rules
             if found.isdisjoint(goals) and found.isdisjoint(served) and level.lanes.beside[start]:
                 node = level.lanes.nodes[start]
                 yield Miss(node.name, node.position, words)

@@ -262,7 +262,7 @@ def clauses_in_words(count: int, name: str) -> str:
 
 
 def found_in_words(findings: Sequence[Finding], clauses: int, name: str) -> str:
-    """Sum up a check: the number of clauses of a profile that were checked, and what was found by which rules."""
+    """Summarise a check: the number of checked clauses of a profile, and the findings by rule."""
     told = clauses_in_words(clauses, name)
     counts = Counter(finding.severity.value for finding in findings)
     parts = [f"{counts[key]} {word}{'' if counts[key] == 1 else 's'}" for key, word in _SEVERITIES if counts[key]]

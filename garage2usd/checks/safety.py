@@ -166,7 +166,7 @@ def _too_far(level: BuiltLevel, clause: Length | None, profile: Profile) -> Iter
     for number, own in stalls.items():
         doors = exits[number]
         if not doors:
-            if profile.personnel_exits is None:  # else that is found by the rule of their number
+            if profile.personnel_exits is None:  # else `personnel-exits` reports it
                 yield Miss(_name(number), None, "no door of a stair core is there to be reached")
             continue
         farthest = max(own, key=lambda stall: _nearest(stall.centre, doors))
@@ -231,7 +231,7 @@ for _mounted in MOUNTED:
 )
 def _spacing(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     hydrants = _places_of(level, _HYDRANT)
-    if profile.hydrant_spacing is None or len(hydrants) < 2:  # noqa: PLR2004 - one has no next one
+    if profile.hydrant_spacing is None or len(hydrants) < 2:  # noqa: PLR2004 - a single hydrant has no neighbour
         return
     apart = np.array([np.sort(distances_m(hydrant, hydrants))[1] for hydrant in hydrants])
     farthest = int(np.argmax(apart.round(6)))

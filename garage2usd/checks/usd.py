@@ -54,7 +54,7 @@ def _nested_rigid_bodies(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
     stage = level.stage
     if stage is None or not any(prim.HasAPI(UsdPhysics.RigidBodyAPI) for prim in _prims(stage)):
         return
-    # a body above an instance is seen from the instances' contents alone
+    # only instance proxies show that an instance lies below a rigid body
     for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
         if prim.HasAPI(UsdPhysics.RigidBodyAPI):
             above = prim.GetParent()
@@ -164,7 +164,7 @@ def _validation(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
     absolute = [path for path, _ in _absolute(level.stage)]
     for error in errors:
         message = usd_text(error.GetMessage)
-        # a path that is absolute, and so missing here, has a rule of its own
+        # another rule reports absolute paths
         if error.GetName() == _UNRESOLVED and any(path in message for path in absolute):
             continue
         sites = [str(site.GetPrim().GetPath()) for site in error.GetSites() if site.IsPrim()]

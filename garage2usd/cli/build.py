@@ -145,7 +145,7 @@ def build(
 
 
 def _earlier(ctx: click.Context, output: Path) -> frozenset[str]:
-    """Names of the files that are there before a build whose output is not given; none if it is given."""
+    """Names of the files that a build without a given output would replace; none if the output is given."""
     if ctx.get_parameter_source("output") is not ParameterSource.DEFAULT:
         return frozenset()
     return frozenset(file.name for file in output.parent.glob("*"))
@@ -159,7 +159,7 @@ def _say_replaced(earlier: frozenset[str], *files: Path) -> None:
 
 
 def _exports(output: Path, formats: str | None, settings: "MapsConfig") -> tuple[tuple[Path, ...], tuple[str, ...]]:
-    """Paths of the exports beside a stage, validated before the garage is made; a line on each that lacks its extra."""
+    """Validate the exports beside a stage; return their paths, and a line on each whose extra is missing."""
     if formats is None:
         return (), ()
     from garage2usd.exports import check_exports, without_lacking  # noqa: PLC0415 - most builds are not exported
@@ -198,7 +198,7 @@ def _describe(made: "Build") -> None:
 
 
 def _level(made: "Build", level: "GarageLevel") -> list[tuple[str, str]]:
-    """Tell of the only level: its squares, stalls, columns, cores and light."""
+    """Summarise a garage of one level: squares, stalls, columns, cores and light."""
     layout, counts = level.layout, level.layout.counts()
     rows, cols = layout.structure.shape
     return [
@@ -212,7 +212,7 @@ def _level(made: "Build", level: "GarageLevel") -> list[tuple[str, str]]:
 
 
 def _levels(made: "Build") -> list[tuple[str, str]]:
-    """Tell of each level in a line, of the ramps, and of all stalls."""
+    """Summarise several levels: a line for each, the ramps, and all stalls."""
     garage, lines = made.garage, list[tuple[str, str]]()
     for level in garage.levels:
         layout = level.layout
@@ -229,14 +229,14 @@ def _parts(layout: "Layout") -> str:
 
 
 def _scores(made: "Build") -> list[tuple[str, str]]:
-    """Tell the score of the plan of the only level, and what was learnt."""
+    """Summarise the score of the plan of the only level, and what learning and polish contributed."""
     score = made.garage.plan.score
     figures = f"N_S {score.stalls}, T_S {score.parking_time_squares:.2f} squares, U_S {score.unused_squares}"
     return [("score", f"{score.value:.2f} ({figures})"), *_learnt(made)]
 
 
 def _areas(layouts: "Sequence[Layout]") -> str:
-    """Tell the floor a stall of some levels, without and with ramps and obstacles."""
+    """Summarise the floor per stall, net and gross."""
     from garage2usd.report import area_figures  # noqa: PLC0415 - keeps --help instant
 
     net_m2, gross_m2 = area_figures(layouts).values()
@@ -244,7 +244,7 @@ def _areas(layouts: "Sequence[Layout]") -> str:
 
 
 def _planned(made: "Build") -> list[tuple[str, str]]:
-    """Tell what became of the plan's stalls, which cores, access aisles and turning stalls take some of."""
+    """Summarise how many of the planned stalls cores, access aisles and turning stalls replace."""
     layout, planned = made.garage.layout, made.garage.plan.score.stalls
     kept_free, for_cores = layout.kept_free_stalls, _displaced(layout)
     others = planned - layout.parking_stalls - kept_free - for_cores
@@ -275,7 +275,7 @@ def _scored(score: "Score", floor_m2: float) -> str:
 
 
 def _columns(made: "Build") -> list[tuple[str, str]]:
-    """How many columns beside lanes are set back from the mouths, and which stay."""
+    """Summarise the columns that are set back from the mouths of stalls, and those that cannot be."""
     layout, bay = made.garage.layout, made.garage.config.bay
     if not bay.column_setback_m:
         return []

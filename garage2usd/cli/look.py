@@ -133,7 +133,7 @@ def _garages(path: Path | None, numbers: tuple[int, ...] | None) -> Iterator["Sh
 
 
 def _is_recipe(path: Path) -> bool:
-    """Return whether a file is the recipe of a data set rather than a configuration."""
+    """Return True if a file is the recipe of a data set, False for a configuration."""
     from garage2usd.common.documents import read_toml  # noqa: PLC0415 - keeps --help instant
 
     if path.suffix.lower() == ".json":
@@ -141,4 +141,4 @@ def _is_recipe(path: Path) -> bool:
     try:
         return not _RECIPE_KEYS.isdisjoint(read_toml(path, field="CONFIG"))
     except ConfigError:
-        return False  # which `load_config` says better
+        return False  # `load_config` will raise a better error

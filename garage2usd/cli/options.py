@@ -104,13 +104,13 @@ def echo_table(lines: Iterable[tuple[str, str]]) -> None:
 
 
 def echo_notices(notices: Iterable[str]) -> None:
-    """Print what is not used of the user's files, or not represented by an export format, on standard error."""
+    """Print notices on standard error, on unused parts of the user's files or data that a format cannot represent."""
     for notice in notices:
         click.echo(notice, err=True)
 
 
 class _Told(logging.Handler):
-    """A handler of what is logged, which hands each line to a function."""
+    """A logging handler that passes each line to a function."""
 
     def __init__(self, say: Callable[[str], None]) -> None:
         super().__init__()
@@ -121,14 +121,14 @@ class _Told(logging.Handler):
 
 
 def log_steps(say: Callable[[str], None]) -> None:
-    """Hand each line that the package logs to a function: what each step decided, and how long it took."""
+    """Pass each line that the package logs to a function: decisions and duration of each step."""
     log = logging.getLogger("garage2usd")
     log.setLevel(logging.INFO)
     log.handlers[:] = [_Told(say)]
 
 
 def end_incomplete(lacking: Sequence[str]) -> None:
-    """Name the files that were not written for want of an extra, on standard error, and end with an exit code of 3."""
+    """Name the files whose extra is missing on standard error, and end with exit code 3."""
     for line in lacking:
         click.echo(f"Error: {line}", err=True)
     if lacking:

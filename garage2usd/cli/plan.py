@@ -105,7 +105,7 @@ def plan(
 
 
 def _drawings(garage: "Garage", number: str | None, marks: "Mapping[str, Sequence[Mark]]") -> "dict[str, Drawing]":
-    """Draw each level, with the route to a stall and the marks on it; of several levels also the section."""
+    """Draw the plan of each level with the route to a stall and findings; with several levels, also the section."""
     from garage2usd.view.plan_picture import (  # noqa: PLC0415
         draw_plan,
         find_stall,
@@ -140,7 +140,7 @@ def _marks(path: Path, garage: "Garage") -> "dict[str, list[Mark]]":
 
 
 def _level_of(place: str, levels: "Sequence[GarageLevel]") -> str:
-    """Return the name of the level that a path in the stage, a stall or a square is on, else that of the top one."""
+    """Return the name of the level of a prim path, stall or square; the top level if the place names none."""
     parts = place.split("/")
     return next((level.name for level in levels if level.name in parts), levels[0].name)
 

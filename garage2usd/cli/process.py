@@ -40,7 +40,7 @@ def open_streams() -> None:
     A standard output that accepts no more data raises `OutputError`; data for a failed standard error or for closed
     streams is lost.
     """
-    for number in range(_ERROR + 1):  # else the next file gets the number, and what libraries print goes into it
+    for number in range(_ERROR + 1):  # else the next opened file would receive what libraries print
         try:
             os.fstat(number)
         except OSError:
@@ -114,9 +114,9 @@ class _File(io.FileIO):
     Parameters
     ----------
     descriptor
-        Of the file, which stays open.
+        Descriptor of the file, which stays open.
     is_needed
-        Whether it is an error if it takes no more.
+        True to raise an error if the file accepts no more data.
     """
 
     def __init__(self, descriptor: int, *, is_needed: bool) -> None:
@@ -127,7 +127,7 @@ class _File(io.FileIO):
         """Write bytes; after an error, discard them and all buffered ones."""
         size = memoryview(data).nbytes
         try:
-            return super().write(data) if size else 0  # click tries with nothing whether a stream takes text
+            return super().write(data) if size else 0  # click writes nothing to test if a stream takes text
         except OSError as error:
             with suppress(OSError):
                 nothing = os.open(os.devnull, os.O_WRONLY)

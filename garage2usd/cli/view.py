@@ -41,7 +41,7 @@ def view(*, path: Path, port: int, no_browser: bool) -> None:
             click.echo(f"{path.name} at {server.url}")
             scene = read_scene(stage, path)
             server.show(scene)
-            # not before: the browser would inherit the limits of a process that reads a stage
+            # before the browser starts, which would inherit the limits of a process that reads a stage
             lift()
             if not no_browser:
                 threading.Thread(target=webbrowser.open, args=(server.url,), daemon=True).start()

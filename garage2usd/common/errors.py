@@ -204,7 +204,7 @@ def _bare(value: object) -> object:
         return value.value
     if isinstance(value, Path):
         return str(value)
-    for to_plain in ("tolist", "model_dump"):  # of arrays, and of settings
+    for to_plain in ("tolist", "model_dump"):  # methods of arrays and of settings
         if hasattr(value, to_plain) and not isinstance(value, type):
             return _bare(getattr(value, to_plain)())
     if isinstance(value, Mapping):

@@ -41,7 +41,7 @@ def check_name(path: Path, *, of_layer: bool = False) -> None:
     path
         The file.
     of_layer
-        Whether USD must be able to store the name too.
+        True if USD must be able to store the name too.
 
     Raises
     ------
@@ -326,8 +326,8 @@ def _make_folder(folder: Path) -> list[Path]:
 
 
 def _replace(copy: Path, place: Path, old: Path) -> None:
-    """Move a file or folder to its place, and keep what stood there as `old`; if it fails, the place is as before."""
-    is_refused = not copy.is_dir() and place.is_dir() and not place.is_symlink()  # a file in a folder's place
+    """Move a file or folder to its place, and keep the previous one as `old`; on failure the place is unchanged."""
+    is_refused = not copy.is_dir() and place.is_dir() and not place.is_symlink()  # a file cannot replace a folder
     if is_refused or (not copy.is_dir() and _is_linked(place, old)):
         try:
             persistently(lambda: copy.replace(place))
@@ -347,7 +347,7 @@ def _replace(copy: Path, place: Path, old: Path) -> None:
 
 
 def _is_linked(place: Path, old: Path) -> bool:
-    """Link a file that stands at `place` to `old`, if there are links, so that one stands at `place` at any moment."""
+    """Link the file at `place` to `old`, so that `place` is never empty; return False if links are not possible."""
     if not place.is_file() or place.is_symlink():
         return False
     try:
@@ -358,7 +358,7 @@ def _is_linked(place: Path, old: Path) -> bool:
 
 
 def _put_back(place: Path, old: Path) -> bool:
-    """Restore what stood at a place, or nothing; whether that could be done."""
+    """Restore the previous file or folder at a place, or leave it empty if there was none; return True on success."""
     try:
         if not (old.is_symlink() or old.exists()):
             _remove(place)

@@ -105,9 +105,9 @@ def installation_of(extras: str) -> str:
     place = Path(url2pathname(urlsplit(origin.get("url", "")).path))
     if "url" not in origin or (
         "dir_info" in origin and not place.is_dir()
-    ):  # from an index, or a checkout that is gone
+    ):  # installed from an index, or from a checkout that is gone
         return f"pip install 'garage2usd[{extras}]'"
-    if "dir_info" not in origin:  # a wheel, or a repository elsewhere
+    if "dir_info" not in origin:  # installed from a wheel or a remote repository
         return f"pip install 'garage2usd[{extras}] @ {origin['url']}'"
     option = "-e " if origin["dir_info"].get("editable") else ""
     return f"pip install {option}'{'.' if place == Path.cwd() else place}[{extras}]'"

@@ -34,7 +34,7 @@ def attribute_docstrings(cls: type) -> dict[str, str]:
 def _declared(cls: type) -> dict[str, str]:
     try:
         source = inspect.getsource(cls)
-    except (OSError, TypeError):  # a class of C, or one without a file
+    except (OSError, TypeError):  # a class that is written in C, or has no file
         return {}
     (declaration,) = ast.parse(textwrap.dedent(source)).body
     if not isinstance(declaration, ast.ClassDef):
@@ -90,7 +90,7 @@ def validated(model: type[Model], settings: Mapping[str, Any], *, within: str = 
     Raises
     ------
     ConfigError
-        With the setting, its value and the allowed values.
+        If a value is invalid; names the setting, its value and the allowed values.
     """
     try:
         return model(**settings)
@@ -141,7 +141,7 @@ def config_error(error: ValidationError, model: type[Settings], *, within: str =
         return ConfigError(place, cause.value, cause.allowed)
     if finding["type"] == "missing":
         needed = [key for group in holders for key, field in group.model_fields.items() if field.is_required()]
-        is_key = keys[-1] in needed  # and not a number that a row lacks
+        is_key = keys[-1] in needed  # else a row lacks a number
         return ConfigError(
             place, "nothing", f"a value; {'.'.join(keys[:-1])} needs {', '.join(needed)}" if is_key else "a value"
         )
@@ -150,7 +150,7 @@ def config_error(error: ValidationError, model: type[Settings], *, within: str =
 
 
 def _first(error: ValidationError) -> "tuple[ErrorDetails, list[ErrorDetails]]":
-    """Return the first error and the others; one of a key that is missing yields to one of a misspelt key beside it."""
+    """Return the most useful error and the others; a misspelt key comes before a missing key beside it."""
     finding, *others = error.errors(include_url=False)
     if finding["type"] == "missing":
         unknown = (other for other in others if other["type"] == "extra_forbidden")
@@ -186,7 +186,7 @@ def _kinds(model: type[BaseModel]) -> tuple[Any, ...]:
 def _allowed_by_all(
     finding: "ErrorDetails", others: "Sequence[ErrorDetails]", models: Sequence[type[BaseModel]]
 ) -> str:
-    """Describe the allowed values of all branches of a union, each in an error of its own."""
+    """Describe the allowed values of a union, whose branches each have an error."""
     same = (other for other in others if other["loc"][:-1] == finding["loc"][:-1])
     return " or ".join(dict.fromkeys(_allowed(each, models) for each in (finding, *same)))
 
@@ -222,7 +222,7 @@ _COUNT = re.compile(r"\w+ should have (at (?:least|most) \d+ \w+).*")
 def _allowed(finding: "ErrorDetails", models: Sequence[type[BaseModel]] = ()) -> str:
     """Describe the allowed values at the place of an error; `models` are the ones that may stand there."""
     said = _IN_WORDS.get(finding["type"])
-    if said is None or finding["msg"].endswith((" an object", " array")):  # of JSON
+    if said is None or finding["msg"].endswith((" an object", " array")):  # words of JSON schema
         return _COUNT.sub(r"\1", finding["msg"].removeprefix("Value error, ").removeprefix("Input should be "))
     keys = dict.fromkeys(key for group in models for key in group.model_fields) if said == "a table" else {}
     return f"{said} with the keys {', '.join(keys)}" if 0 < len(keys) <= _MOST_NAMED else said

@@ -124,7 +124,7 @@ class GarageConfig(Settings):
         return GarageConfig(**{**{name: getattr(self, name) for name in type(self).model_fields}, "seed": seed})
 
     def remarks(self) -> tuple[str, ...]:
-        """Say in a line each which of the user's textures are used for what, and what of textures and cars is not used.
+        """Describe the use of the user's textures, and the unused parts of textures and car models, in lines.
 
         Raises
         ------

@@ -120,7 +120,7 @@ def _design(profile: Profile, given: _Sections) -> Iterator[tuple[str, str, Any]
         ("site", "min_portal_distance_cells"): _portal_cells(profile, given, grid_m or length_m, exits),
     }
     if (grid_m or side_m != DEFAULT_SIDE_M) and "square_side_m" not in given["bay"]:
-        # a side length from the profile forces a uniform grid only if its clause on columns does
+        # a side length from the profile forces a uniform grid only if it comes from the clause on columns
         yield "bay", "dimensioned", grid_m is None
     for (section, key), value in chosen.items():
         allowed = _within(section, key, value)

@@ -464,7 +464,7 @@ class LookConfig(Settings):
 
 
 def look_text(look: LookConfig) -> str:
-    """Write all axes of a look as TOML tables of a configuration, each with its value; none is left to the seed."""
+    """Write a look as TOML tables of a configuration, with the values that the seed drew."""
     tables = {name: group for name in type(look).model_fields if isinstance(group := getattr(look, name), Settings)}
     textures = tables.pop("textures", None)
     blocks = [] if textures is None else [_table("look", {"textures": getattr(textures, "folder")})]  # noqa: B009

@@ -15,7 +15,7 @@ _IN_WORDS = {Channel.NORMAL: "normals"}
 
 
 class NamedPicture(NamedTuple):
-    """A picture, the part of its path that a remark shows, and the part of its name that tells its map."""
+    """A picture, its path in remarks, and the part of its name that identifies its map."""
 
     path: Path
     shown: str
@@ -33,7 +33,7 @@ class ChosenMap(NamedTuple):
 
     @property
     def kind(self) -> tuple[int, ...]:
-        """Sort key of all that the name tells, best first."""
+        """Sort key by the name, best first."""
         return (self.band is not None, self.is_turned, *self.order)
 
 
@@ -52,7 +52,7 @@ class MapChoice(NamedTuple):
     unused: list[tuple[str, str]]
 
     def in_words(self) -> str:
-        """Say which file is used for what, and which files are not used."""
+        """Describe the use of each file, and list the files that are not used."""
         uses: dict[str, list[str]] = {}
         for channel, chosen in self.maps.items():
             turned = {Channel.NORMAL: " (green down)", Channel.ROUGHNESS: " (inverted)"}.get(channel, "")
@@ -72,8 +72,8 @@ def choose_maps(files: Sequence[NamedPicture], *, field: str, normals: str | Non
 
     A map of the same material as the colour is preferred to others, then a map of its own to a packed one, roughness to
     gloss, green upwards to downwards, base colour to diffuse; then the newest version, the first LOD and number, the
-    largest in pixels, PNG. `normals` is the direction of green in the chosen normals, 'gl' up or 'dx' down, in place of
-    what their name says.
+    largest in pixels, PNG. `normals` is the direction of green in the chosen normals, 'gl' up or 'dx' down, instead
+    of that of their name.
 
     Raises
     ------
@@ -105,7 +105,7 @@ def choose_maps(files: Sequence[NamedPicture], *, field: str, normals: str | Non
 def _found(
     named: Sequence[tuple[NamedPicture, MapName]], *, field: str
 ) -> tuple[dict[Channel, list[ChosenMap]], set[str]]:
-    """Find the files of each channel, and those that lack the transparency that their name tells of."""
+    """Find the files of each channel, and the files without the transparency that their name announces."""
     found: dict[Channel, list[ChosenMap]] = {channel: [] for channel in Channel}
     others: dict[Channel, NamedPicture] = {}
     lacking = set[str]()
@@ -159,7 +159,7 @@ def _best(found: Sequence[ChosenMap], channel: Channel, *, field: str, of: tuple
 
 
 def _reasons(name: MapName, maps: dict[Channel, ChosenMap]) -> list[str]:
-    """Say why a picture is not used, beside quantities that none is used for."""
+    """Explain why a picture is not used."""
     if not name.meaning:
         return ["its name tells no map"]
     return [
@@ -170,7 +170,7 @@ def _reasons(name: MapName, maps: dict[Channel, ChosenMap]) -> list[str]:
 
 
 def _facts(path: Path) -> tuple[int, bool]:
-    """Number of pixels of a picture, and whether it has transparency; (0, True) for one that use will refuse."""
+    """Number of pixels of a picture, and True if it has transparency; (0, True) for an unreadable picture."""
     # imported on use: few garages have own textures
     from PIL import Image  # noqa: PLC0415
 

@@ -95,7 +95,7 @@ _WEAK, _SHORT = ("metal", "rough"), 3
 
 
 class MapName(NamedTuple):
-    """A texture map as its file name tells it.
+    """A texture map, as read from its file name.
 
     Attributes
     ----------
@@ -104,7 +104,7 @@ class MapName(NamedTuple):
     meaning
         The quantities in words; empty if the name is not recognised.
     others
-        Those that no surface uses, such as height.
+        Quantities that no surface uses, such as height.
     of
         Words of the name before and after the map's, without resolution, format and version: the name of the material.
     order
@@ -131,7 +131,7 @@ def read_map_name(stem: str, materials: Collection[tuple[str, ...]] = ()) -> Map
     """Read the name of a texture map, from its file stem.
 
     Words are divided by punctuation and capitals: ``Concrete034_1K-JPG_NormalGL``. `materials` has names of materials
-    as in `MapName.of`: of ``rusty_metal_rough`` with the material ``("rusty", "metal")`` roughness is told alone.
+    as in `MapName.of`: with the material ``("rusty", "metal")``, ``rusty_metal_rough`` names roughness only.
     """
     words = _words(stem)
     readings = _readings(words if len(stem) > 1 else [])
@@ -164,7 +164,7 @@ def _words(stem: str) -> list[str]:
 
 
 class _Reading(NamedTuple):
-    """One way to read a name: quantities, words that name the material, words after the map's, and the map's word."""
+    """A possible reading of a name: quantities, words for the material, words after the map, and the map's word."""
 
     kinds: tuple[str, ...]
     rest: tuple[str, ...]
@@ -173,7 +173,7 @@ class _Reading(NamedTuple):
 
 
 def _readings(words: list[str]) -> list[_Reading]:
-    """List the ways to read a name: as that of no map, then with most words for quantities first."""
+    """List the possible readings of a name: first as no map, then those with most words for quantities."""
     none = _Reading((), tuple(words))
     end = len(words)
     while end and not _last(words[:end]):
@@ -203,7 +203,7 @@ def _readings(words: list[str]) -> list[_Reading]:
 
 
 def _last(words: list[str]) -> tuple[str, str, int] | None:
-    """Meaning of the last words, the words joined, and their number; None if they tell no quantity."""
+    """Quantity that the last words name, the words joined, and their number; None if they name none."""
     if not words or words[-1][0].isdigit():
         return None
     for count in range(min(_MOST_JOINED, len(words)), 0, -1):
@@ -227,7 +227,7 @@ def _are_packed(kinds: list[str]) -> bool:
 
 
 def _channels(kinds: tuple[str, ...], word: str, *, is_down: bool) -> tuple[tuple[Channel, int | None, bool], ...]:
-    """Channels of a map of some quantities, whose last word is given."""
+    """Channels of a map that stores some quantities, given its last word."""
     if word in _UNITY_MASKS:
         return _OF_UNITY
     if _OF_LETTERS.fullmatch(word):

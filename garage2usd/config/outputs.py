@@ -160,7 +160,7 @@ class SumoConfig(Settings):
     areas: ParkingAreas = ParkingAreas.BAY
     """Which stalls are one parking area: of a bay (``"bay"``), of a row (``"row"``), or each stall (``"stall"``)."""
     badges: bool = True
-    """Whether only vehicles with the badge of its use (attribute ``parkingBadges``) may park in a stall that is
+    """True if only vehicles with the badge of its use (attribute ``parkingBadges``) may park in a stall that is
     accessible, for EVs or for motorcycles."""
 
 

@@ -104,7 +104,7 @@ class OwnCar(CarBody):
     outlines
         Convex outlines (x, z) in metres of the body and, if known, of the mirrors.
     remarks
-        A line for each kind of part or property of the model that is not taken, or not as it is.
+        Lines on the parts and properties of the model that are ignored or changed, one for each kind.
     """
 
     path: str

@@ -102,8 +102,8 @@ class SarsaParameters(NamedTuple):
     starts: int
 
 
-# 'paper' follows the prototype, as the paper prints no values; 'tuned' was tuned on the gates G1 to G3 of
-# benchmarks/gates.py, and is measured on others too
+# 'paper' has the values of the prototype, as the paper gives none; 'tuned' was tuned on the gates G1 to G3 of
+# benchmarks/gates.py, and measured on other gates too
 _PAPER = SarsaParameters(
     alpha=0.1,
     gamma=0.95,

@@ -247,7 +247,7 @@ class BuildingConfig(Settings):
 
 
 def check_one_level(building: BuildingConfig) -> None:
-    """Refuse several levels in a configuration whose given lanes are read as they are.
+    """Refuse several levels in a configuration that gives the lanes.
 
     Raises
     ------

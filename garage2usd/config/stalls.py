@@ -105,7 +105,7 @@ class StallsConfig(Settings):
     runs: tuple[GivenRun, ...] = ()
     """Stalls that are given instead of drawn."""
     only_runs: bool = False
-    """Whether all stalls are given, so that squares outside `runs` have none."""
+    """True if all stalls are given, so that squares outside `runs` have none."""
 
     @model_validator(mode="after")
     def _some_of_each(self) -> Self:

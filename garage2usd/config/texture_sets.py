@@ -64,7 +64,7 @@ class MapFile(NamedTuple):
     band
         Index of red, green, blue or transparency; None for red to blue, or for a grey image.
     is_turned
-        Whether the values are inverted: gloss instead of roughness, or a normal map whose green points down.
+        True if the values are inverted: gloss instead of roughness, or a normal map whose green points down.
     """
 
     path: str
@@ -128,12 +128,12 @@ def read_texture_sets(folder: TextureFolder) -> tuple[TextureFolder, dict[Role, 
 
 
 def texture_remarks(folder: TextureFolder) -> tuple[str, ...]:
-    """Say which files of a folder are used for what, and which are not used; raises as `read_texture_sets`."""
+    """Describe the use of the files of a texture folder, and list unused ones; raises as `read_texture_sets`."""
     return _contents(folder.folder).remarks
 
 
 class _Contents(NamedTuple):
-    """Texture sets of a folder, and a line on the files of each role and on those of none."""
+    """Texture sets of a folder, and a remark on the files of each role and on the other files."""
 
     sets: dict[Role, TextureSet]
     remarks: tuple[str, ...]
@@ -200,7 +200,7 @@ def _files(folder: Path) -> Iterator[Path]:
 
 
 def _above(files: list[Path], folder: Path) -> Path:
-    """Folder to which remarks on the files of a role refer: that of the role if it holds all, else the whole one."""
+    """Folder to which paths in remarks are relative: that of the role if it holds all files, else the whole folder."""
     firsts = {path.relative_to(folder).parts[0] for path in files}
     only = folder / min(firsts)
     return only if len(firsts) == 1 and only.is_dir() else folder
@@ -230,7 +230,7 @@ def _sizes(folder: Path) -> dict[Role, _RoleSizes]:
 
 
 def _role_of(path: Path, folder: Path) -> tuple[Role | None, str]:
-    """Role of a file, by its folder or the beginning of its name; without a role the reason if it is a picture.
+    """Role of a file, by its folder or the beginning of its name; without a role, the reason if the file is a picture.
 
     Raises
     ------

@@ -127,7 +127,7 @@ def workers(*, count: int | None = None, scheduler: str | None = None) -> Iterat
         return
     settings = {
         "distributed.worker.daemon": True,
-        # no memory limit: a worker needs 1 GB for 20 x 30 squares, and must not be stopped for the use of others
+        # no memory limit: a worker needs 1 GB for 20 x 30 squares, and must not be stopped because others use memory
         "distributed.worker.memory.terminate": False,
         "distributed.worker.memory.pause": False,
         # intervals of Dask's measurements for its dashboard, up to a hundred per second in each process
@@ -150,7 +150,7 @@ def workers(*, count: int | None = None, scheduler: str | None = None) -> Iterat
     ):
         wanted = count or dask.system.CPU_COUNT
         cluster.scale(wanted)
-        # which also replaces workers that are lost while they start, but looks for the first time after a second
+        # also replaces workers that are lost while they start; its first look is after a second
         cluster.adapt(minimum=wanted, maximum=wanted)
         try:
             client.wait_for_workers(1, timeout=_START_S)

@@ -37,7 +37,7 @@ class Compared:
     values
         Values of the data set, ascending; float64, shape (n,). Empty for shares.
     counts
-        Count of each category of a quantity told by shares, weighted where it has a measure (metres of lanes).
+        Count of each category of a quantity given by shares; metres for lanes.
     """
 
     published: PublishedFigure
@@ -46,7 +46,7 @@ class Compared:
 
     @property
     def count(self) -> int:
-        """Number of values, or of things that are counted; metres for lanes."""
+        """Number of values, or of counted objects; metres for lanes."""
         return len(self.values) if self.published.distribution else round(sum(self.counts.values()))
 
     @property
@@ -64,8 +64,9 @@ class Compared:
     def distance(self) -> float | None:
         """Distance between data set and published figure; None where the data set has no value.
 
-        Of a distribution the Kolmogorov-Smirnov distance, from 0 to 1; where it is known in part, to the nearest one
-        that agrees with it. Of shares the greatest difference of a category, in points (0 to 100).
+        For a distribution, the Kolmogorov-Smirnov distance, from 0 to 1; for one that is known in part, the distance
+        to the nearest distribution that agrees with it. For shares, the greatest difference of a category in points
+        (0 to 100).
         """
         if not self.count:
             return None

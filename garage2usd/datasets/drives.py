@@ -107,7 +107,7 @@ def record_drives(
     Returns
     -------
     tuple of Path
-        A file for each drive beside the stage, ``<stem>.drive_0.zip``: what `garage2usd.recordings.record` writes.
+        A file for each drive beside the stage, ``<stem>.drive_0.zip``, with the files of `recordings.record`.
     """
     names = [proof.stall for proof in proofs if proof.way_in is not None]
     drawn = generator(seed, Step.DRIVES).permutation(len(names))[: config.count].tolist()
@@ -124,7 +124,7 @@ def record_drives(
                 scale=config.scale,
                 samples=config.samples,
                 seed=seed % _SEEDS,
-                device=Device.CPU,  # whose bytes are the same on every worker
+                device=Device.CPU,  # gives the same bytes on every worker
                 pictures=config.pictures,
                 slots=config.slots or None,
                 birds_eye=config.birds_eye,

@@ -107,7 +107,7 @@ def make_dataset(
     check_formats(f".{name}" for name in recipe.make.exports)
     check_writable(folder)
     _check_folder(recipe, folder, resume=resume)
-    from garage2usd.datasets.cluster import workers  # noqa: PLC0415 - it brings Dask, for which no refusal waits
+    from garage2usd.datasets.cluster import workers  # noqa: PLC0415 - refusals need no Dask
 
     with workers(count=worker_count, scheduler=scheduler) as pool:
         with writing(folder):
@@ -234,8 +234,8 @@ def _plan_figures(row: ManifestRow, drawn: DrawnPlan, recipe: Recipe) -> PlanFig
 
 def _finish(recipe: Recipe, folder: Path, plans: Sequence[DrawnPlan], rows: Sequence[ManifestRow]) -> None:
     """Write manifest, card and page of the data set; the checksums come last, as a mark of completion."""
-    from garage2usd.contact_sheet import SHEET_SUFFIXES  # noqa: PLC0415 - it brings USD, for which no refusal waits
-    from garage2usd.datasets.page import write_page  # noqa: PLC0415 - it brings Matplotlib likewise
+    from garage2usd.contact_sheet import SHEET_SUFFIXES  # noqa: PLC0415 - refusals need no USD
+    from garage2usd.datasets.page import write_page  # noqa: PLC0415 - nor Matplotlib
 
     store(folder / PLAN_FILE, table_bytes(plan_table(plans)))
     store(folder / TABLE_FILE, table_bytes(manifest_table(rows)))

@@ -51,7 +51,7 @@ def _planned(recipe: Recipe, number: int, attempt: int) -> DrawnPlan:
 
 def _plan_fields(config: GarageConfig, recipe: Recipe) -> dict[str, Any]:
     """Plan a garage; return the fields of its `DrawnPlan`."""
-    if recipe.difficulty or config.building.levels > 1:  # which ways over ramps and difficulty take the layout for
+    if recipe.difficulty or config.building.levels > 1:  # routes over ramps and difficulty need the layout
         garage = generate(config)
         plans, level = garage.plans, rated(*garage.levels).level if recipe.difficulty else None
     else:

@@ -48,7 +48,7 @@ class Quantity(StrEnum):
 
     @property
     def categories(self) -> tuple[str, ...]:
-        """Categories of a quantity that is told by shares; empty for a distribution of numbers."""
+        """Categories of a quantity that is given by shares; empty for a distribution of numbers."""
         return _CATEGORIES.get(self, ())
 
 
@@ -81,7 +81,7 @@ class Quantiles(Settings):
         return np.interp(values, self.values, self.shares)
 
     def quantile(self, share: float) -> float | None:
-        """Return the quantile of a share; None outside the known ones."""
+        """Return the value below which a share of the distribution lies; None outside the known quantiles."""
         if not self.shares[0] <= share <= self.shares[-1]:
             return None
         return float(np.interp(share, self.shares, self.values))
@@ -139,7 +139,7 @@ class Uniform(_Range):
 
 
 class Between(_Range):
-    """A range of which the ends alone are published."""
+    """A published range without a distribution between its ends."""
 
     def quantile(self, _share: float) -> float | None:
         """Return None: no quantile is known."""
@@ -216,7 +216,7 @@ class PublishedFigure(Settings):
 
     @property
     def distribution(self) -> Quantiles | Uniform | LogNormalFigure | Between | None:
-        """The distribution, or what is known of it; None for shares."""
+        """The distribution, or its known quantiles or range; None for shares."""
         return self.quantiles or self.uniform or self.log_normal or self.between
 
 

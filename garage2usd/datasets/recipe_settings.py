@@ -118,5 +118,5 @@ def even_place(seed: int, group: str, number: int, *, index: int) -> float:
     """
     step = math.isqrt(_PRIMES[index] << 2 * _PLACE_BITS)
     start = derived_seed(seed, Step.SETTINGS, zlib.crc32(group.encode())) << 1
-    bits = 53  # of a float, so that no place is rounded up to 1
+    bits = 53  # bits of a float, so that no place is rounded up to 1
     return ((start + number * step) % (1 << _PLACE_BITS) >> _PLACE_BITS - bits) / (1 << bits)

@@ -105,7 +105,7 @@ def _lane_metres(lanes: LaneGraph) -> tuple[float, float]:
 
 
 def _nose_out(layout: Layout) -> Iterator[bool]:
-    """Yield for each car in a perpendicular stall whether it stands nose out."""
+    """Yield True for each car in a perpendicular stall that stands nose out, False for the others."""
     rows = layout.cars_in_stalls().tolist()
     for stall, row in zip(layout.quads, rows, strict=True):
         if row >= 0 and stall.takes_cars and stall.kind is StallKind.PERPENDICULAR:
@@ -227,7 +227,7 @@ def _write_files(garage: Garage, place: Path, make: MakeConfig, assets: Path | N
     stage = None
     if make.stage and make.self_contained:
         stage = folder / f"{stem}{StageFormat.USDZ}"
-        with TemporaryDirectory(dir=folder) as room:  # it is written in an empty folder
+        with TemporaryDirectory(dir=folder) as room:  # USD needs an empty folder to write a package
             packed = Path(room) / stage.name
             write_stage(garage, packed, own=f"{stem}.")
             packed.replace(stage)

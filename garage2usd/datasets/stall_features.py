@@ -30,7 +30,7 @@ class StallFeatures:
     clearance_m
         Least distance of the car from all obstacles on both drives, at most 1 m; None without proven drives.
     is_clear_when_full
-        Whether the drives are free of collisions with a car in every other stall, in addition to the parked ones; None
+        True if the drives are free of collisions with a car in every other stall, in addition to the parked ones; None
         without proven drives.
     aisle_width_m
         Clear width between the columns on both sides of the lane at the stall's entry.

@@ -86,7 +86,7 @@ def verify_dataset(
     made = [row for row in rows if not row.error]
     shards = sorted({row.shard for row in made})
     tasks = [_Task(name, tuple(row for row in made if row.shard == name)) for name in shards]
-    from garage2usd.datasets.cluster import workers  # noqa: PLC0415 - it brings Dask, for which no refusal waits
+    from garage2usd.datasets.cluster import workers  # noqa: PLC0415 - refusals need no Dask
 
     with workers(count=worker_count, scheduler=scheduler) as pool:
         for number, (_, found) in enumerate(pool.each(_of_shard, tasks, folder, recipe), 1):

@@ -57,7 +57,7 @@ def assembled(stalls: Iterable[Stall], lanes: LaneGraph, standing: Iterable[Stan
     Parameters
     ----------
     stalls
-        All stalls. Those for motorcycles are obstacles: the car's proof is none for them.
+        All stalls. Those for motorcycles are obstacles, as no car is proven to enter them.
     lanes
         The lanes.
     standing
@@ -136,13 +136,13 @@ def without_unreachable(layout: Layout, config: GarageConfig, *, progress: Progr
                 layout = layout.source.again(asked, unreachable=unreachable)
             return replace(layout, undecided=frozenset(undecided))
         undecided.update(proof.stall for proof in proofs if proof.outcome is Outcome.UNDECIDED)
-        # a charger, an access aisle or a car that went elsewhere may stand in another's way
+        # chargers, access aisles and cars that moved elsewhere may now block other stalls
         unreachable |= found
         layout = layout.source.again(config, unreachable=unreachable)
 
 
 def with_truth_of_misparked(layout: Layout, config: GarageConfig, *, progress: Progress = silent) -> Layout:
-    """Return the layout with proven reachability of the stalls next to misparked cars.
+    """Return the layout with a proof for each stall beside a misparked car: reachable or blocked.
 
     Parameters
     ----------
@@ -285,7 +285,7 @@ def refuse_undrivable(
     Raises
     ------
     ConfigError
-        With the setting of the aisle's width and the stalls without manoeuvres.
+        If manoeuvres are missing; names the setting of the aisle's width and the stalls.
     """
     every = max(1, -(-len(tight) // _MOST_TRIED))
     garage = layout_garage(layout)

@@ -194,6 +194,6 @@ def _moved(into: Floats, signs: Floats, curvatures: Floats, rates: Floats, yaws:
         into, signs, curvatures, rates, yaws = (values[bends] for values in (into, signs, curvatures, rates, yaws))
         at = into[:, None] / 2 * (1 + GAUSS)
         heading = np.pi / 2 + yaws[:, None] + signs[:, None] * at * (curvatures[:, None] + rates[:, None] * at / 2)
-        # not by a product of matrices, for which a BLAS library wakes threads that then wait for more
+        # a sum, because a product of matrices would wake the threads of a BLAS library
         moved[bends] = signs * into / 2 * (elementary.turned(heading) * WEIGHTS).sum(axis=1)
     return moved

@@ -353,10 +353,10 @@ class _Growth:
                 places = list(self._roadmap.spots(walk[-1], self._grain, is_back=self._is_back))
                 portal = walk[-1][0 if self._is_back else 1]
                 if portal in self._portals:
-                    # rather straight through the door, by a place in line with it
+                    # prefer to drive straight through the door, over a spot in line with it
                     self._offer(portal, origin, over_m + _EDGE_COST_M, walk[:-1])
                     places += self._roadmap.door_spots(self._portals[portal])
-                # a long straight between spots is put together of short ones
+                # short straights between spots make up this long one
                 if origin is not None and len(walk) > 1 and self._roadmap.is_straight(walk):
                     continue
                 for spot, pose in places:

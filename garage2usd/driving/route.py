@@ -146,7 +146,7 @@ class Router:
             chain(ways(self._limits, each), ways(further, together), ways(further, each)),
             ways(further, together, find_guided_way),
         )
-        # a coarse look at all ways of a round comes before a fine one at any
+        # test all ways of a round coarsely before testing any of them finely
         for found in rounds:
             kept: list[Manoeuvre] = []
             for grain in GRAINS:

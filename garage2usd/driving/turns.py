@@ -71,7 +71,7 @@ class Steering:
         way = easing_m[:, None] / 2 * (1 + GAUSS)
         easing = easing_m / 2 * (elementary.turned(0.5 * self.sharpness_per_m2 * way**2) * WEIGHTS).sum(axis=1)
         eased = peak * easing_m / 2
-        # twice the projection of the first half onto the chord
+        # the chord is twice the projection of the first half of the turn onto it
         half_turn = peak * arc_m / 2
         half_arc = np.divide(2 * elementary.sin(half_turn / 2), peak, out=np.zeros_like(peak), where=peak > 0)
         first_half = easing + half_arc * elementary.turned(eased + half_turn / 2)
@@ -95,7 +95,7 @@ def _scanned(
     Nearly all paths turn by a quarter or not at all.
     """
     low, high = max(-_MOST_RAD, turned_rad - _MOST_RAD), min(_MOST_RAD, turned_rad + _MOST_RAD)
-    # where the path changes form, so that no root lies unseen between two of the same sign
+    # include the angles at which the path changes form, so that no pair of roots is missed
     steps = np.linspace(low, high, math.ceil((high - low) / _SCAN_RAD))
     scan = np.unique(np.concatenate([steps, [0.0, turned_rad]]))
     return scan, steering.chords(scan), elementary.turned(-scan), steering.chords(turned_rad - scan)
@@ -118,7 +118,7 @@ def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple
             yield (Piece(Gear.FORWARD, across.real),) if across.real > 0 else ()
         return
 
-    # about turns lead to the left or to the right
+    # a turn by 180 degrees may go to the left or to the right
     both = (turned, -turned) if math.pi - abs(turned) < _SAME_RAD else (turned,)
     found = [pieces for each in both for pieces in _turning(across, each, steering)]
     yield from sorted(found, key=lambda pieces: sum(piece.length_m for piece in pieces))

@@ -203,7 +203,7 @@ def find_way_by_steps(
         found = task.look(straight_m, effort)
         headings = np.unique(task.goals[:, 0])
         if found.outcome < 0 and len(headings) > 1:
-            # a lane that is out of reach may draw the search away from another one: each direction for itself
+            # an unreachable lane may divert the search from a reachable one, so search for each direction alone
             each = []
             for heading in headings:
                 each.append(task.look(straight_m, effort, only=heading))
@@ -255,7 +255,7 @@ class _LocalTask:
     touched: Int64s
 
     def look(self, straight_m: float, effort: int, *, only: float | None = None, guided_by: int | None = None) -> Found:
-        """Run the search for any goal, or for the goals of one heading; a guided one with some number of headings."""
+        """Run the search for any goal or those of one heading; `guided_by` is the number of headings of a guide."""
         goals = self.goals if only is None else self.goals[self.goals[:, 0] == only]
         headings = guided_by or HEADINGS
         task = Task(

@@ -156,7 +156,7 @@ class LaneGraph:
         for number, node in enumerate(self.nodes):
             (x, z), height = node.position, node.height_m
             graph.add_node(number, kind=node.kind, x_m=x, z_m=z, height_m=height, level=node.level)
-        # the order of the arcs decides between equal routes: from each node on down first, then right
+        # among equal routes the first arc wins: down before right at each node
         for (start, end), edge in sorted(self.arcs.items(), key=lambda arc: (min(arc[0]), -max(arc[0]))):
             one, other = self.nodes[start], self.nodes[end]
             graph.add_edge(

@@ -16,8 +16,8 @@ GARAGE_NAME, LEVELS_NAME = "Garage", "Levels"
 """Names of the prim of a garage, and of the prim below it that holds its levels where there are several."""
 _DECIMALS = 6
 LEAST_TURN_BACK_M = 7.3
-"""Least distance in metres between the middle lines of two aisles from one of which a car turns into the other at once:
-twice the radius of the design car's rear axle with steering, less what it moves to the sides of both aisles."""
+"""Least distance in metres between the middle lines of two aisles for a car to turn from one straight into the other:
+twice the radius of the design car's rear axle with steering, less its shifts to the sides of both aisles."""
 _TURN_SIN = 0.5
 
 
@@ -48,11 +48,11 @@ class LevelPlace(NamedTuple):
         return name if self.is_only else f"{self.name}{joint}{name}"
 
     def own_name(self, name: str) -> str:
-        """Return the name within the level of its stall that has a name in the whole garage."""
+        """Return the name of a stall within its level, given its name in the whole garage; inverse of `in_whole`."""
         return name.removeprefix(self.in_whole(""))
 
     def path_in_whole(self, place: str) -> str:
-        """Return the path in the whole stage of a prim of the level's own; any other place after the level's name."""
+        """Return the path in the whole stage of a prim of the level; other places get the level's name in front."""
         if self.is_only:
             return place
         root = f"/{self.path.split('/')[1]}"
@@ -278,7 +278,7 @@ def unreached_stalls(joined: JoinedLevels, *, may_turn_back: bool) -> list[str]:
 
 
 def _on_level(stall: Stall, name: str, level: int, first: int) -> Stall:
-    """Return a stall of a level as one of the building."""
+    """Return a stall of a level with its id, number and access node in the whole building."""
     prefixed = ("number", "blocked_by")
     facts = tuple((fact, f"{name}/{value}" if fact in prefixed else value) for fact, value in stall.facts)
     return replace(stall, name=f"{name}/{stall.name}", access=stall.access + first, facts=facts, level=level)

@@ -100,7 +100,7 @@ class CoilLine:
         corner, block
             Extents along u and v of the corner square, in whose middle the straights cross, and of the whole block.
         width_m, beside_m
-            Width between the walls, and what the walls take beside it.
+            Width between the walls, and thickness of the walls.
         """
         last_u, first_v = corner[0] / 2, corner[1] / 2
         room = min(block[0] - last_u, block[1] - first_v) - width_m / 2 - beside_m
@@ -144,7 +144,7 @@ class CoilLine:
         return CoilPlaces(mid_u + self.radius_m * sin + before, mid_v - self.radius_m * cos - after, cos, sin)
 
     def foot(self, u_m: ArrayLike, v_m: ArrayLike) -> tuple[Floats, Floats]:
-        """Return the distances along the line of the nearest places on it to points, and how far inwards these lie."""
+        """Project points onto the line: distances along it, and offsets towards the inside of the turn."""
         away_u, away_v = np.asarray(u_m) - self.middle[0], np.asarray(v_m) - self.middle[1]
         start, end = self.bends_m
         angle = np.mod(elementary.arctan2(away_u, -away_v), math.tau)

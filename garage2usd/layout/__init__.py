@@ -1,5 +1,5 @@
-"""From squares to metres: every object of a garage as a placement, free of any file format."""
-# Over 300 lines: the value and the one function that makes it, in the order of what lies on what.
+"""The layout of a level: every object with its place in metres, independent of file formats."""
+# Over 300 lines: the layout and the one function that makes it of a plan.
 
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -52,50 +52,49 @@ __all__ = [
 
 
 _ORDINAL_BITS = 16
-"""Of the number of a stall on its square."""
+"""Bits for the number of a stall on its square in `Layout._stall_keys`."""
 
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """Every object of a garage with its place.
+    """Every object of a level with its place.
 
     Attributes
     ----------
     structure
-        Its tiles, which are the squares of a plan, or those by which the floor of a survey is cut.
+        Tiles of the stage: the squares of a plan, or the pieces into which the floor of a survey is cut.
     source
-        The plan or survey that it was laid out from.
+        The plan or survey that was laid out.
     placements
-        All objects: tiles in reading order, then the building's.
+        All objects: those of tiles in reading order, then those of the building.
     stalls
-        All stalls in reading order, as their placements are.
+        All stalls in reading order, which is also the order of their placements.
     ceiling_height_m
         Height of the ceiling's underside.
     illuminance
-        How bright its floor is.
+        Illuminance of lanes and stalls.
     cores
         The stair cores.
     compartments
         Number of each square's fire compartment, from 1; 0 outside and on obstacles. int32, shape (rows, cols).
     look
-        How it looks, with what its seed draws of it.
+        Look of the level, with the values that the seed drew.
     unreachable
-        Names of the stalls that are marked or left out.
+        Names of the stalls that no car gets into; they are marked or left out.
     undecided
-        Those of them for which the search for ways ended at its bound.
+        Names of those unreachable stalls whose path search ended at its bound.
     well
-        The ramps to other levels of the building; None without any.
+        The ramps to other levels of the building; None in a building of one level.
     shafts
         The shafts of lower levels' stair cores that have no door on this level.
     reaching
-        Name of the stall of each car whose body stands over a line, and of the one beside that it reaches into.
+        For the stall of each car that stands over a line, the name of the adjacent stall that the car reaches into.
     misparked
-        Names of the stalls of those that are misparked, as far over that the next stall may be blocked.
+        Names of the stalls of misparked cars, which stand so far over a line that they may block the adjacent stall.
     held_back
-        Names of the stalls whose cars stand between their lines, as others would lack the room.
+        Names of the stalls whose cars stand between the lines, because others need the room beside them.
     blocked
-        Name of each stall that the design car is proven not to get into, as a car that is misparked reaches there, and
-        of the stall of that car; known of a garage that is generated.
+        For each stall that a misparked car is proven to block, the name of that car's stall; empty until it is proven.
     """
 
     structure: Structure
@@ -118,7 +117,7 @@ class Layout:
 
     @property
     def matrices(self) -> Structure | None:
-        """S, R and C; None for a garage without a grid, whose squares are tiles of the floor alone."""
+        """S, R and C of the plan; None for a survey, which has no grid."""
         return self.source.matrices
 
     @property
@@ -128,12 +127,12 @@ class Layout:
 
     @cached_property
     def quads(self) -> tuple[Stall, ...]:
-        """The stalls as those of the neutral garage, in the order of `Layout.stalls`, with the facts of a stage."""
+        """The stalls in the form of `garage2usd.garage`, in the order of `Layout.stalls`, with occupancy."""
         stalls, occupied = tuple(self.stalls), self.are_occupied().tolist()
         return tuple(stall_quads(stalls, self.source.access(stalls), self.lane_graph, self.blocked, occupied))
 
     def node_squares(self) -> NDArray[np.int32]:
-        """Return the (row, col) by which files name each lane node; int32, shape (nodes, 2)."""
+        """Return the (row, col) that names each lane node in files; int32, shape (nodes, 2)."""
         return self.source.node_squares()
 
     def counts(self) -> dict[str, int]:
@@ -142,34 +141,34 @@ class Layout:
         return {kind.name: count for kind, count in zip(KINDS, counts, strict=True)}
 
     def plates_of_cars(self) -> Iterator[tuple[int, int, str]]:
-        """Rows in `placements` of the number plates of each car and of the car, and what is to be read on them."""
+        """Yield the rows in `placements` of the number plates of each car and of the car, and the text on them."""
         objects, (plates, cars) = self.placements, self.cars_with_plates()
         texts = [shape.text if isinstance(shape, NumberPlateSpec) else "" for shape in objects.specs]
         read = (texts[spec] for spec in objects.spec[plates].tolist())
         return zip(plates.tolist(), cars.tolist(), read, strict=True)
 
     def cars_with_plates(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Rows in `placements` of the number plates of all cars, and of the car of each; shape (plates,)."""
+        """Rows in `placements` of all number plates, and of the car that each belongs to; shape (plates,)."""
         plates = self.placements.rows_of("number_plate")
         return plates, self._cars_at(self.placements.square[plates], self.placements.ordinal[plates])
 
     def cars_in_stalls(self) -> NDArray[np.intp]:
-        """Row in `placements` of the car or motorbike in each stall, -1 where none stands; shape (stalls,)."""
+        """Row in `placements` of the car or motorbike in each stall, -1 for an empty stall; shape (stalls,)."""
         return self._cars_at(self.stalls.square, self.stalls.ordinal)
 
     def parked_motorbikes(self) -> NDArray[np.intp]:
-        """Rows in `placements` of the motorbikes in stalls, apart from those that stand about; shape (n,)."""
+        """Rows in `placements` of the motorbikes parked in stalls, without those of the clutter; shape (n,)."""
         rows = self.placements.rows_of("motorbike")
         parked: NDArray[np.intp] = rows[self.placements.square[rows, 0] >= 0]
         return parked
 
     def are_occupied(self) -> NDArray[np.bool_]:
-        """Whether a vehicle stands in each stall: its own, or a misparked one that blocks it; bool, shape (stalls,)."""
+        """True for each stall with a parked vehicle, or blocked by a misparked one; bool, shape (stalls,)."""
         occupied: NDArray[np.bool_] = self.cars_in_stalls() >= 0
         return occupied | np.isin(self.stalls.names(), list(self.blocked)) if self.blocked else occupied
 
     def _cars_at(self, square: NDArray[np.integer[Any]], ordinal: NDArray[np.integer[Any]]) -> NDArray[np.intp]:
-        """Row in `placements` of the vehicle at each of some stalls, by squares and numbers there; -1 without one."""
+        """Row in `placements` of the vehicle in the stall with each square and ordinal; -1 for an empty stall."""
         rows = np.concatenate([self.placements.rows_of("car"), self.parked_motorbikes()])
         cars = self._stall_keys(self.placements.square[rows], self.placements.ordinal[rows])
         order = np.argsort(cars)
@@ -179,22 +178,22 @@ class Layout:
         return np.where(keys[found] == wanted, rows[found], -1)
 
     def _stall_keys(self, square: NDArray[np.integer[Any]], ordinal: NDArray[np.integer[Any]]) -> NDArray[np.int64]:
-        """A number for each stall by its square and number there."""
+        """Encode the square and ordinal of each stall as one integer."""
         row, col = square.T.astype(np.int64)
         keys: NDArray[np.int64] = (row * self.structure.shape[1] + col) << _ORDINAL_BITS | ordinal
         return keys
 
     @property
     def parking_stalls(self) -> int:
-        """How many stalls cars park in: what is told as the number of stalls everywhere.
+        """Number of stalls that cars park in: the number of stalls in reports, plans and data sets.
 
-        Stalls that are kept free, as access aisles and for turning, are not among them.
+        Stalls that are kept free, such as access aisles and turning stalls, do not count.
         """
         return int(self.stalls.takes_cars.sum())
 
     @property
     def landings(self) -> frozenset[tuple[int, int]]:
-        """(row, col) of the squares at heads and feet of ramps between levels: portals of S that lead to no street."""
+        """(row, col) of the landings of ramps between levels, which are portals of S but do not lead to the street."""
         return frozenset(self.well.landings) if self.well else frozenset()
 
     @property
@@ -208,7 +207,7 @@ class Layout:
         return sum(not STALL_USES[use].is_parked_in for use in self.stalls.use.tolist())
 
     def uses_in_words(self) -> str:
-        """How many stalls are for what, those that cars park in first, then those for motorcycles."""
+        """Describe the uses of stalls with their numbers: for cars, then for motorcycles, then kept free."""
         counts = Counter(STALL_USES[use] for use in self.stalls.use.tolist())
         for_motorcycles = counts.pop(StallUse.MOTORCYCLE, 0)
         told = [
@@ -221,11 +220,11 @@ class Layout:
         return "; kept free: ".join(filter(None, told))
 
     def columns_at_mouths(self) -> tuple[str, ...]:
-        """Names of the columns on corners between stalls and lanes, which are not set back from the mouths."""
+        """Names of the columns between stalls and lanes that are not set back from the mouths of stalls."""
         return corner_columns(self.structure, self.of_kind("column"))
 
     def of_kind(self, kind: str) -> tuple[Placement, ...]:
-        """All objects of one kind, by its name."""
+        """Return all objects of a kind, given by name."""
         return tuple(self.placements.at(self.placements.rows_of(kind)))
 
 
@@ -241,40 +240,34 @@ def lay_out(
     well: Well | None = None,
     egress: Egress | None = None,
 ) -> Layout:
-    """Place every object of a garage.
+    """Place every object of a planned level.
 
     Parameters
     ----------
     structure
         A complete structure.
     graph
-        Its lane graph, with every stall reached.
+        Lane graph of the structure, which reaches every stall.
     config
-        Sizes, fittings, parking and seed.
+        Settings: sizes, fittings, parking and seed.
     unreachable
-        Names of stalls that cars do not get into: left out where ``plan.unreachable_stalls`` is ``drop``, else hatched
-        and kept free.
+        Names of the stalls that cars do not get into. With ``plan.unreachable_stalls = "drop"`` they are left out, else
+        hatched and kept free.
     held_back
-        Names of stalls whose cars do not stand over a line, as others would lack the room.
+        Names of the stalls whose cars must not stand over a line, because others need the room beside them.
     kept_clear
-        The ground (x, z) that cars need on their ways into stalls and out; without it nothing stands about, whatever
-        ``clutter`` says.
+        Ground (x, z) that cars need on their ways into stalls and out; without it no clutter is placed.
     open_boots
-        Names of the stalls whose cars have their boots open.
+        Names of the stalls whose cars have open boots.
     well
-        The ramps to other levels.
+        The ramps to other levels; None in a building of one level.
     egress
         Fire compartments and stair cores; planned for this level alone if left out.
-
-    Returns
-    -------
-    Layout
-        Tiles and what belongs to them in reading order, then the building's objects.
 
     Raises
     ------
     ConfigError
-        If a lane or a door is too narrow for cars, a stall that is named is not there or takes no car, or all are
+        If a lane or a door is too narrow for cars, a named stall does not exist or takes no car, or all stalls are
         left out.
     """
     bay, fittings, look = config.bay, config.fittings, drawn_look(config.look, config.seed)
@@ -333,7 +326,7 @@ def _draws(grid: TileGrid, config: GarageConfig) -> SquareDraws:
 
 
 def _left_out(cores: Iterable[Core], config: GarageConfig, unreachable: Collection[str]) -> set[str]:
-    """Names of the stalls that make room for cores, and of those that cars do not get into if these are dropped."""
+    """Return the names of the stalls in place of which cores stand, and of unreachable stalls that are dropped."""
     is_dropped = config.plan.unreachable_stalls is UnreachableStalls.DROP
     return {name for core in cores for name in core.stalls}.union(unreachable if is_dropped else ())
 
@@ -346,7 +339,7 @@ def _used_stalls(
     unreachable: Collection[str],
     no_ways_out: Collection[Square],
 ) -> tuple[PlacedStall, ...]:
-    """All stalls, each with its use."""
+    """Return all stalls, each with its use."""
     stalls = tuple(
         replace(stall, use=StallUse.UNREACHABLE) if stall.name in unreachable else stall
         for stall in stalls_of(grid, graph)
@@ -367,6 +360,6 @@ def _used_stalls(
 
 
 def _foot_exits(grid: TileGrid, cores: Iterable[Core], no_ways_out: Collection[Square]) -> list[Point]:
-    """Where people leave on foot, (x, z): the doors of the stair cores, or the first exit where there is none."""
+    """Return the exits on foot, (x, z): the doors of the stair cores or, without cores, the first exit for cars."""
     exits = [square for square in grid.structure.where(Cell.EXIT) if square not in no_ways_out]
     return [core.door_m for core in cores] or [grid.tiles[square].middle_m for square in exits[:1]]

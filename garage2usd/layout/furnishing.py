@@ -64,18 +64,18 @@ def with_signs_of(country: Country, parts: Iterable[Iterable[Placement]]) -> Ite
 
 @dataclass(frozen=True, eq=False)
 class Floor:
-    """A floor of a building in metres: of a plan, whose squares are its tiles, or of a survey, which has none.
+    """A floor of a building in metres, of a plan or of a survey.
 
     Attributes
     ----------
     tiles
-        Its pieces: lanes, portals, stalls and free ground.
+        Pieces of the floor: lanes, portals, stalls and free ground.
     lanes
         Its lane graph.
     stalls
         Its stalls.
     quads
-        The same as those of the neutral garage.
+        The stalls in the form of `garage2usd.garage`.
     shell, pillars, blocks
         Its outer walls with closed doors, its columns, and its obstacles and stair cores.
     ceilings, beams
@@ -87,9 +87,9 @@ class Floor:
     draws
         Random numbers of each tile.
     laid
-        Returns the floor's own panels for those of its tiles, in their order.
+        Function from the panels of the pieces to those of the floor: for a survey, cut at its tiles.
     well
-        The ramps to other levels; None without any.
+        The ramps to other levels; None in a building of one level.
     """
 
     tiles: Tiles
@@ -110,19 +110,19 @@ class Floor:
 
     @property
     def squares(self) -> TileGrid | None:
-        """Its tiles where these are the squares of a plan."""
+        """The tiles if they are the squares of a plan; else None."""
         return self.tiles if isinstance(self.tiles, TileGrid) else None
 
 
 class Furnishing(NamedTuple):
-    """What is put into a floor.
+    """The objects placed on a floor.
 
     Attributes
     ----------
     objects
-        All objects in groups, made as they are taken: tiles in reading order, then those of the building.
+        All objects in groups, made on iteration: those of tiles in reading order, then those of the building.
     illuminance
-        How bright the floor is.
+        Illuminance of lanes and stalls.
     reaching, misparked
         As in `garage2usd.layout.Layout`.
     """
@@ -151,7 +151,7 @@ def furnished(  # noqa: PLR0915 - a statement or two for each kind of object
     config
         Fittings, parking and seed.
     look
-        Its look, with what its seed draws of it.
+        Look of the level, with the values that the seed drew.
     held_back, kept_clear, open_boots
         As for `garage2usd.layout.lay_out`.
     """

@@ -26,11 +26,11 @@ class FloorArea(NamedTuple):
     gross_m2: float
 
     def per_stall(self, stalls: int) -> "FloorArea":
-        """Return the shares of each of some stalls; infinite without any."""
+        """Return the net and gross area per stall; infinite without stalls."""
         return FloorArea(*(area / stalls if stalls else math.inf for area in self))
 
     def in_words(self) -> str:
-        """Tell both of a stall: ``27.4 m2 a stall net, 31.0 gross``."""
+        """Describe the area per stall: ``27.4 m2 a stall net, 31.0 gross``."""
         return f"{self.net_m2:.1f} m2 a stall net, {self.gross_m2:.1f} gross"
 
 

@@ -1,4 +1,4 @@
-"""Where the floor of a layout comes from: a plan on squares, or the survey of a garage that exists."""
+"""Source of a layout: a plan on squares, or the survey of an existing garage."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class FloorSource:
-    """What a floor was laid out from, and how files name its parts.
+    """Source of a floor: a plan or a survey, and the names of its parts in files.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class FloorSource:
 
     @property
     def again(self) -> "Callable[..., Layout]":
-        """Lays the same floor out again, with the settings and further arguments of `garage2usd.layout.lay_out`."""
+        """Lay out the same floor again, with settings and further arguments as for `garage2usd.layout.lay_out`."""
         raise NotImplementedError
 
     @property
@@ -53,7 +53,7 @@ class FloorSource:
         raise NotImplementedError
 
     def node_squares(self) -> NDArray[np.int32]:
-        """Return the (row, col) by which files name each lane node; int32, shape (nodes, 2)."""
+        """Return the (row, col) that names each lane node in files; int32, shape (nodes, 2)."""
         raise NotImplementedError
 
     def kinds_of_squares(self) -> dict[str, int]:
@@ -96,12 +96,12 @@ class PlannedFloor(FloorSource):
 
     @property
     def again(self) -> "Callable[..., Layout]":
-        """Lays the same plan out again."""
+        """Lay out the same plan again."""
         return partial(self.laid_out, self.matrices, self.lane_squares, well=self.well, egress=self.egress)
 
     @property
     def area(self) -> FloorArea:
-        """The floor without and with obstacles."""
+        """Area of the floor without obstacles, and with them."""
         ground = ~outside_squares(self.matrices.cells)
         for square in self.well.squares if self.well else ():
             ground[square] = True

@@ -1,4 +1,4 @@
-"""Tiles: pieces of a floor in metres with what lies around them, and the squares of a plan as such pieces."""
+"""Tiles: pieces of a floor in metres with their surroundings, of which the squares of a plan are one kind."""
 # Over 300 lines: what a piece of floor is asked, and the squares of a plan that answer it.
 
 from collections import Counter
@@ -45,13 +45,13 @@ class Tile:
     Attributes
     ----------
     square
-        (row, col), or another pair of numbers by which the piece is known.
+        (row, col) of a square, or another pair of numbers that identifies the piece.
     cell
-        What it is, as in S.
+        Kind of the piece, as in S.
     x_m, z_m
-        Its centre.
+        Centre of the piece.
     width_m, depth_m
-        Extent along its own axes, which are X and Z unless it is turned.
+        Extents along the own axes of the piece, which are X and Z unless it is turned.
     drivable
         For each `Edge`, whether cars cross it.
     stall_mouths
@@ -143,7 +143,7 @@ class StallPlace(NamedTuple):
 
 
 class Tiles:
-    """The pieces of a floor: what the placers of objects along lanes, at stalls and on free ground work on.
+    """The pieces of a floor, on which objects are placed along lanes, at stalls and on free ground.
 
     Attributes
     ----------
@@ -179,7 +179,7 @@ class Tiles:
         return bool(places) and all(place.row.shape.kind is StallKind.PERPENDICULAR for place in places)
 
     def openings(self, tile: Tile) -> tuple[Polygon, ...]:  # noqa: ARG002 - squares ask it
-        """Outlines in a free piece's own coordinates where its floor is that of stalls; none without squares."""
+        """Outlines of the stalls on a free piece, whose panels replace its floor; none without squares."""
         return ()
 
     def is_bare(self, tile: Tile) -> bool:

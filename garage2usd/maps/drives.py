@@ -78,7 +78,7 @@ class Drive:
 
 @dataclass(frozen=True)
 class _Part:
-    """A path on one level, or the way over a ramp between two.
+    """A part of a drive: the path on one level, or over a ramp between two levels.
 
     Attributes
     ----------
@@ -231,7 +231,7 @@ class DrivePlanner:
         )
 
     def _to_street(self, level: int, kind: LaneKind, street: _Street) -> tuple[Portal, ...]:
-        """Return the portals of a level that lead towards the street: of the top level, the chosen ones."""
+        """Return the portals of a level that lead towards the street; on the top level, the chosen entrance or exit."""
         return self._ends(level, kind, from_above=True) if level else street[kind]
 
     def _below(self, level: int) -> frozenset[str]:
@@ -248,7 +248,7 @@ class DrivePlanner:
     def _led(
         self, level: int, portal: Portal, part: _Part, street: _Street, *, is_in: bool
     ) -> tuple[list[_Part], Portal]:
-        """Lead a path on from a level's landing to the street, or from the street to it."""
+        """Extend a path from a level's landing to the street, or from the street to the landing."""
         parts, end = [part], portal
         for upper in range(level - 1, -1, -1):
             planner = self._on(upper)
@@ -277,7 +277,7 @@ class DrivePlanner:
         return parts, end
 
     def _over_ramp(self, upper: int, one: Pose, other: Pose, landings: tuple[str, str]) -> _Part:
-        """Return the way over the ramp below a level, between poses on its landings, or at its top."""
+        """Return the path over the ramp below a level, between poses on its landings."""
         nodes = self._garage.lanes.nodes
         for line in self._garage.ramp_lines:
             ends = [nodes[number] for number in (line.nodes[0], line.nodes[-1])]
@@ -309,7 +309,7 @@ class DrivePlanner:
             elif not part.is_ramp:
                 upper = ramps[-1].level if ramps else None
                 if len(ramps) > 1:
-                    # the ramps from above and below lie over one another: they change at the foot of the upper one
+                    # ramps to both levels overlap in plan; switch between them at the foot of the upper one
                     is_down = ramps[1].level == part.level
                     foot_m = self._ramp_m(part.level) + _BEYOND_FOOT_M
                     change_m = along + foot_m if is_down else end - foot_m
@@ -352,7 +352,7 @@ class DrivePlanner:
 
 
 def _portals_asked(field: str, number: int | None, portals: Sequence[Portal]) -> tuple[Portal, ...]:
-    """Return the entrance or exit of a number from 1 on, or all of them.
+    """Return the entrance or exit of a number, counted from 1; all of them for None.
 
     Raises
     ------
@@ -367,7 +367,7 @@ def _portals_asked(field: str, number: int | None, portals: Sequence[Portal]) ->
 
 
 def _unknown_stall(asked: str, stalls: Collection[Stall], found: Sequence[str]) -> ConfigError:
-    """Make the error on a stall that no stall, or several are called; it lists the painted numbers."""
+    """Return the error for a stall name that matches no stall, or several; it lists the painted numbers."""
     if found:
         return ConfigError("stall", asked, f"a number that is painted once, or else a name: {', '.join(found)}")
     known = spans_in_words(str(stall.number or stall.name) for stall in stalls)
@@ -388,7 +388,7 @@ def _round(bend: Bend, one: Pose, other: Pose) -> tuple[Piece, ...]:
     (x, z), (in_x, in_z), (out_x, out_z) = bend.crossing, bend.way_in, bend.way_out
     sign = 1.0 if bend.is_left else -1.0
     low, high = bend.radius_m / 2, bend.radius_m
-    for _ in range(_HALVINGS):  # the circle of the clothoids has its middle where that of the bend is
+    for _ in range(_HALVINGS):  # until the circle between the clothoids is concentric with the bend
         radius = (low + high) / 2
         _, aside = _middle_of(radius)
         low, high = (low, radius) if aside > bend.radius_m else (radius, high)
@@ -409,7 +409,7 @@ def _round(bend: Bend, one: Pose, other: Pose) -> tuple[Piece, ...]:
 
 
 def _middle_of(radius: float) -> tuple[float, float]:
-    """Return how far ahead and aside of a clothoid's start the middle of the circle lies that it leads into."""
+    """Return the centre of the circle that a clothoid leads into: distances ahead and aside of its start."""
     end = Path(Pose(0.0, 0.0, 0.0), (Piece(Gear.FORWARD, _EASING_M, 0.0, 1 / radius),)).end
     # at yaw 0 a car looks along -Z, with its left at -X
     turned = _EASING_M / (2 * radius)

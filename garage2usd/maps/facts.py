@@ -63,7 +63,7 @@ class StallFacts:
         return self.stalls[found[0]] if len(found) else None
 
     def facts(self, stall: Stall) -> dict[str, Any]:
-        """Return the facts of a stall for every mention of it."""
+        """Return the facts of a stall that every mention of it has: id, number, use and occupancy."""
         named = {"id": stall.name} if stall.number is None else {"id": stall.name, "number": stall.number}
         by = stall.blocked_by
         is_blocked = by is not None and any(of.name == by for of in self._car_of)

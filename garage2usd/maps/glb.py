@@ -104,7 +104,7 @@ def write_glb(
         extras |= {} if stall is None else {"stall": level.stalls.facts(stall)}
         if is_rigid:
             above, inverse_above = node_of.get(placed.path.rpartition("/")[0], (level.node, level.inverse))
-            place = placed.matrix if inverse_above is None else placed.matrix @ inverse_above  # goes with what it is of
+            place = placed.matrix if inverse_above is None else placed.matrix @ inverse_above  # moves with its object
             node = glb.add_node(placed.path, place, mesh=mesh_of(placed), above=above, extras=extras)
             if placed.label not in PIECE_LABELS:
                 node_of[placed.path] = node, inverse
@@ -129,7 +129,7 @@ def write_glb(
 
 
 class _Level(NamedTuple):
-    """A level of a garage of several levels; or all of a garage, where `path` is empty.
+    """A level of a garage of several levels, or the whole garage if `path` is empty.
 
     Attributes
     ----------
@@ -153,7 +153,7 @@ class _Level(NamedTuple):
         return path.startswith(f"{self.path}/")
 
     def own(self, place: Matrix) -> Matrix:
-        """Return a transform to the scene as one to the space of the level's node."""
+        """Convert a transform to the scene into one to the space of the level's node."""
         return place if self.inverse is None else place @ self.inverse
 
 
@@ -247,7 +247,7 @@ class _Looks:
                         alike.setdefault(key, []).append(own)
             elif not part.prim.HasAPI(UsdLux.LightAPI):
                 left_out.append((f"prims of the type {kind} are left out", part))
-        # cars of other paints are the same meshes, which are thus joined and written once
+        # cars of different paints then share joined meshes, which are written once
         pieces = [
             Piece(self._joined(tuple(group)), surfaces[surface], is_faceted)
             for (surface, _, is_faceted, _), group in alike.items()

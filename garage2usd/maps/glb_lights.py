@@ -81,7 +81,7 @@ def _form(light: LightSource, path: str, remarks: Remarks) -> dict[str, Any]:
     if light.kind in _FLAT and light.width_m * light.height_m > 0:
         remarks.add("flat lights shine as spots, as strongly as straight ahead", path)
     outer = math.radians(light.cone_deg)
-    # a whole half space falls off as what is flat does
+    # a cone of 180 degrees falls off like a flat light
     softness = 1.0 if light.cone_deg == _HALF_ROUND_DEG else light.softness
     return {"type": "spot", "spot": {"innerConeAngle": outer * min(1 - softness, _EDGE), "outerConeAngle": outer}}
 

@@ -201,7 +201,7 @@ class _Material:
             "metallicFactor": shortest([metallic])[0],
             "roughnessFactor": shortest([roughness])[0],
         }
-        # 1 is what glTF takes where nothing is said
+        # 1 is the default of glTF
         reflection = {name: value for name, value in reflection.items() if value not in (1.0, [1.0] * 4)}
         if base.texture:
             reflection["baseColorTexture"] = self._info(base.bands, base.texture, is_srgb=True)
@@ -216,7 +216,7 @@ class _Material:
         roughness, metallic = surface.roughness, surface.metallic
         if rough and metal and rough.layout != metal.layout:
             metallic, metal = self._mean(metal, "metallic textures that lie unlike the roughness's"), None
-        # a factor of 0 makes a channel say nothing
+        # a factor of 0 makes a channel irrelevant
         green: Band | float | None = 1.0 if roughness else None
         blue: Band | float | None = 1.0 if metallic else None
         if rough:
@@ -247,7 +247,7 @@ class _Material:
         band, strength = texture.band(), 1.0
         if 0 <= band.scale <= 1 and abs(band.scale + band.bias - 1) < _SAME:
             band, strength = band._replace(scale=1.0, bias=0.0), band.scale
-        self._made["occlusionTexture"] = self._info((band, None, None), texture)  # glTF takes it from red
+        self._made["occlusionTexture"] = self._info((band, None, None), texture)  # glTF reads occlusion from red
         if strength != 1:
             self._made["occlusionTexture"]["strength"] = shortest([strength])[0]
 

@@ -88,7 +88,7 @@ def primitive_of(mesh: Triangles, *, sets: Sequence[int], normals_set: int | Non
 
 
 def beside(smooth: Primitive, faceted: Primitive) -> Primitive:
-    """Merge a faceted primitive's vertices with those of a smooth one; vertices of its own follow.
+    """Merge a faceted primitive's vertices with those of a smooth one; vertices that the latter lacks follow.
 
     Both have the same kinds of arrays, except for the normals.
     """
@@ -216,7 +216,7 @@ def places_of(matrices: Matrices) -> list[dict[str, list[float]]]:
     -----
     A mirrored matrix gets a negative scale along X.
     """
-    from scipy.spatial.transform import Rotation  # noqa: PLC0415 - all who import this module would wait for it
+    from scipy.spatial.transform import Rotation  # noqa: PLC0415 - slow to import, and not always needed
 
     scales = np.linalg.norm(matrices[:, :3, :3], axis=2)
     axes = matrices[:, :3, :3] / scales[:, :, None]
@@ -232,7 +232,7 @@ def places_of(matrices: Matrices) -> list[dict[str, list[float]]]:
     places: list[dict[str, list[float]]] = [{} for _ in matrices]
     for name, values, usual in properties:
         for node in np.flatnonzero((values != usual).any(axis=1)).tolist():
-            places[node][name] = (values[node] + 0.0).tolist()  # no minus before a zero
+            places[node][name] = (values[node] + 0.0).tolist()  # avoids -0
     return places
 
 

@@ -34,7 +34,7 @@ class Bound:
     points
         Ids of the points of the polyline along the road.
     places
-        Their positions.
+        Positions of the points.
     """
 
     road: Road
@@ -157,7 +157,7 @@ def _steps(length_m: float, step_m: float, least_m: float) -> int:
 
 
 def _runs_around(run_m: float, before_m: float, step_m: float, speed: float) -> Iterator[float]:
-    """Yield distances along a road near `run_m`, first those up to a step behind the point before, then others."""
+    """Yield distances along a road near `run_m`: first those within a step of the previous point, then others."""
     yield run_m
     aside_m = _ASIDE_M / max(speed, _LEAST_M)
     runs = [run_m - aside_m * number for number in range(1, math.ceil((run_m - before_m) / aside_m))]

@@ -72,7 +72,7 @@ def add_stops(osm: OsmFile, level: BuiltLevel, lanes: Sequence[LaneBounds]) -> d
     for thing in _things(level):
         touched = sorted(by_place.query(thing.outline, predicate="intersects").tolist())
         crossed = [(index, across) for index in touched if (across := _across(lanes[index], thing)) is not None]
-        if touched and not crossed:  # a raised arm, folded before the middle of the lane
+        if touched and not crossed:  # a raised and folded arm does not reach the middle of the lane
             index = max(touched, key=lambda index: by_place.geometries[index].intersection(thing.outline).area)
             crossed = [(index, _beside(lanes[index], thing))]
         for index, across in crossed:

@@ -87,7 +87,7 @@ class Feet:
         """Outlines of the stalls for cars and of their access areas."""
 
     def before(self, mouths: Floats, ahead: Floats) -> list[tuple[int, ...]]:
-        """Find the points of the lane bound before stall entries, from right to left; none if all lanes are ramps.
+        """Find the points of the lane bound in front of stall entries, from right to left; none if all lanes are ramps.
 
         Parameters
         ----------
@@ -145,7 +145,7 @@ class Feet:
         reach_m = _MOST_ASIDE * shapely.distance(lines[nearest], starts)
         rays = shapely.linestrings(np.stack([shapely.get_coordinates(starts), corners + reach_m[:, None] * ahead], 1))
         corner, crossed = self._tree.query(rays, predicate="intersects")
-        # where none is crossed, the way leads to the nearest
+        # without a crossed line, aim at the nearest one
         missed = np.setdiff1d(np.arange(len(corners)), corner)
         aims = np.concatenate([shapely.intersection(lines[crossed], rays[corner]), lines[nearest[missed]]])
         corner, line = np.concatenate([corner, missed]), np.concatenate([crossed, nearest[missed]])
@@ -185,7 +185,7 @@ def _along(line: shapely.LineString, run_m: float) -> Place:
 def stall_points(osm: OsmFile, level: BuiltLevel) -> list[_StallPoints]:
     """Add the corners of all stalls and the ends of their parking spaces to a map, before all other points."""
     corners_of: Floats = map_points([stall.corners for stall in level.stalls]).reshape(-1, 4, 2)
-    # along the car: from mouth to rear, and in a parallel stall from one side to the other
+    # along the car: from mouth to rear or, in a parallel stall, from side to side
     first = np.array([int(stall.kind is StallKind.PARALLEL) for stall in level.stalls], dtype=np.intp)
     order = (first[:, None] + np.arange(4)) % 4
     along: Floats = np.take_along_axis(corners_of, order[:, :, None], axis=1)
@@ -239,7 +239,7 @@ def add_lots(osm: OsmFile, lanes: Sequence[LaneBounds], feet: Feet) -> None:
     Autoware parks only if car and goal lie within one lot, so lots include the lanes.
     """
     level = grounds_of([lane.ground for lane in lanes if lane.is_level])
-    # lanes cross each other; stalls and what is before them share whole sides, by which they are joined far sooner
+    # stalls and the ground before them share whole sides, which makes their union much faster than that of lanes
     are_apart = shapely.coverage_is_valid(feet.grounds)
     stalls = shapely.coverage_union_all(feet.grounds) if are_apart else shapely.union_all(_valid(feet.grounds))
     ground = shapely.union(*_valid([shapely.union_all(_valid(level)), stalls]), grid_size=_GRID_M)
@@ -262,7 +262,7 @@ def _outline(osm: OsmFile, ground: shapely.Polygon) -> list[int]:
 
 
 def _without_spikes(points: Sequence[int]) -> list[int]:
-    """Return the points of a ring without repeated ones and without ways to a point and back."""
+    """Return the points of a ring without repetitions and without spikes."""
     ring: list[int] = []
     for point in points:
         if ring and point == ring[-1]:
@@ -271,7 +271,7 @@ def _without_spikes(points: Sequence[int]) -> list[int]:
             ring.pop()
         else:
             ring.append(point)
-    while len(ring) > 1 and (ring[0] in ring[-2:] or ring[1] == ring[-1]):  # where the ring begins
+    while len(ring) > 1 and (ring[0] in ring[-2:] or ring[1] == ring[-1]):  # likewise at the start of the ring
         if ring[1] == ring[-1]:
             del ring[0]
         else:

@@ -234,7 +234,7 @@ class RoadPlaces:
                 self._of_stall[stall] = road
             else:
                 x, y = map_point(stall.outwards)
-                # along the mouth, in the same direction for stalls that face each other
+                # direction of the mouth, the same for stalls that face each other
                 along = max((round(-y, 6) + 0.0, round(x, 6) + 0.0), (round(y, 6) + 0.0, round(-x, 6) + 0.0))
                 without.setdefault((stall.access, along), []).append(stall)
         for (number, along), beside in without.items():

@@ -176,7 +176,7 @@ def _add_lanes(element: ET.Element, road: Road, settings: MapsConfig) -> None:
         elif number in road.lanes:
             lane = child(child(section, side), "lane", id=str(number), type="driving", level="false")
             _add_lane(lane, road, number)
-            # beside that of the road, which SUMO does not read
+            # SUMO ignores the road's speed
             child(lane, "speed", sOffset=0, max=settings.speed_limit_km_h, unit="km/h")
 
 

@@ -102,7 +102,7 @@ def write_scenario(
 def _positions(trajectory: Trajectory) -> list["xosc.WorldPosition"]:
     """Convert the trajectory's states to world positions; a nose that points up has a negative pitch."""
     places = map_points(np.stack([trajectory.x_m, trajectory.z_m], axis=1)).tolist()
-    # unbroken, so that what is interpolated between two of them takes the short way round
+    # headings without jumps of a full turn, so that players interpolate the short way round
     headings = (math.pi / 2 + trajectory.yaw_rad).tolist()
     return [
         xosc.WorldPosition(_number(x), _number(y), _number(height), _number(heading), _number(-pitch), 0.0)

@@ -91,7 +91,7 @@ class OsmFile:
         return tuple(number for number, before in zip(numbers, [None, *numbers], strict=False) if number != before)
 
     def place(self, point: int) -> Place:
-        """Return the position of an OSM point, its height over the floor."""
+        """Return the position of an OSM point, with its height over the floor."""
         x, y, z = self._places[point]
         return x, y, z - self.floor_m
 

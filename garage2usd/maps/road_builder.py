@@ -82,7 +82,7 @@ class _Builder:
                 self._portal(node)
         inner = [node for node in self._nodes if not node.is_portal]
         sides = ((opening.is_one_way, node, opening) for node in inner for opening in node.openings)
-        # what is driven in both directions comes first: it takes a node that lies between the two kinds
+        # two-way aisles first: they own a node between a two-way and a one-way aisle
         for _, node, opening in sorted(sides, key=lambda side: side[0]):
             self._aisle(node, opening)
         for node in inner:
@@ -206,7 +206,7 @@ class _Builder:
         start, end = entered.inside(entered.inset_m), left.inside(left.inset_m)
         corner = None
         if node.far_from(entered) is not left:
-            # along the middle of the lane, which turns tighter or wider than a line in the middle of both roads
+            # along the middle of the lane, whose bend is tighter or wider than that of the road's middle line
             inwards = -entered.outwards[0], -entered.outwards[1]
             start = _beside(start, inwards, first.centre_m(RIGHT))
             end = _beside(end, left.outwards, last.centre_m(RIGHT))
@@ -261,7 +261,7 @@ class _Builder:
             return Neighbour(junction_of[meeting.node], is_junction=True), {}
         for other, other_at_start in self._ends[meeting]:
             if other is not road:
-                # the same lane goes on in a road of the same direction, the other one in a road that comes towards it
+                # lane numbers keep their sign between roads of the same direction, and change it between opposite ones
                 sign = 1 if at_start != other_at_start else -1
                 lanes = {lane: sign * lane for lane in road.lanes if sign * lane in other.lanes}
                 return Neighbour(other.number, at_start=other_at_start), lanes

@@ -57,7 +57,7 @@ class ParkingLane(NamedTuple):
         return f"{'-' if self.number == RIGHT else ''}{self.road.number}_0"
 
     def position_m(self, s_m: float) -> float:
-        """Return the distance from the beginning of the lane of a place along its road."""
+        """Convert a distance along the road to a distance from the beginning of the lane."""
         return s_m if self.number == RIGHT else self.road.line.length_m - s_m
 
 
@@ -112,7 +112,7 @@ class ParkingLanes:
         return too_short, distance_m, lane.road.number, lane.number
 
     def _nearest(self, lane: ParkingLane, place: NDArray[np.float64]) -> tuple[float, float]:
-        """Return the distance along the road of a lane's point nearest to a place, and the distance between both."""
+        """Project a place onto a lane: distance along the road, and distance from the lane."""
         runs, points = self._line(lane)
         start, along = points[:-1], np.diff(points, axis=0)
         length2 = (along**2).sum(axis=1)
@@ -134,7 +134,7 @@ class ParkingLanes:
 
 
 def driven_lanes(networks: Iterable[Network]) -> set[tuple[int, int]]:
-    """Find the lanes on a way from an entrance to an exit; all lanes if there is none of either.
+    """Find the lanes on routes from an entrance to an exit; all lanes if there is no entrance or no exit.
 
     Parameters
     ----------
@@ -320,7 +320,7 @@ def _add_space(element: ET.Element, stall: Stall, floor_m: float) -> None:
 
 
 def _write_configuration(network_file: Path, road_file: str) -> None:
-    """Write netconvert's configuration, by which lanes are as long as the map's roads and coordinates are the map's."""
+    """Write netconvert's configuration, which keeps the lengths of roads and the coordinates of the map."""
     root = ET.Element("netconvertConfiguration")
     options = {
         "input": {"opendrive-files": road_file},

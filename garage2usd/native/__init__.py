@@ -44,7 +44,7 @@ __all__ = [
     "using",
 ]
 
-# Arrays for C carry the type of their numbers as a note of our own: `NDArray` differs inside from NumPy to NumPy.
+# Annotations of arrays for C name the element type, as the internals of `NDArray` differ between versions of NumPy.
 Bools = Annotated[NDArray[np.bool_], np.dtype(np.bool_)]
 Int8s = Annotated[NDArray[np.int8], np.dtype(np.int8)]
 Int32s = Annotated[NDArray[np.int32], np.dtype(np.int32)]
@@ -53,7 +53,7 @@ UInt64s = Annotated[NDArray[np.uint64], np.dtype(np.uint64)]
 Float32s = Annotated[NDArray[np.float32], np.dtype(np.float32)]
 Float64s = Annotated[NDArray[np.float64], np.dtype(np.float64)]
 
-# Fields of named tuples that have two or three dimensions carry their number too; all others have one.
+# Array fields of named tuples also name the number of dimensions if it is two or three.
 BoolTable = Annotated[Bools, 2]
 Int8Table = Annotated[Int8s, 2]
 Int32Table = Annotated[Int32s, 2]
@@ -94,7 +94,7 @@ def load(path: Path = LIBRARY) -> ctypes.CDLL:
     library, expected = ctypes.CDLL(str(path)), digest_of(path.parent)
     try:
         compiled = (ctypes.c_char * len(expected)).in_dll(library, "sources_digest").raw.decode()
-    except ValueError:  # a library from before there was a digest
+    except ValueError:  # an old library without a digest
         compiled = "none"
     if compiled != expected:
         raise RuntimeError(
@@ -175,7 +175,7 @@ def packed(kind: type, value: Any) -> bytes:  # noqa: ANN401 - a named tuple
 
 
 class _Field(NamedTuple):
-    """A field of a named tuple: the number type and the dimensions of an array, or a named tuple, or neither."""
+    """Layout of a field of a named tuple: type and dimensions of an array, a nested named tuple, or a plain number."""
 
     dtype: np.dtype[Any] | None
     dimensions: int
@@ -225,7 +225,7 @@ def _fields(kind: type) -> tuple[_Field, ...]:
 def _address(dtype: np.dtype[Any], array: np.ndarray[Any, Any]) -> int:
     """Return the address of an array's first number."""
     if array.dtype == dtype:
-        try:  # a third of the time of NumPy's own answer; it takes no gaps and only what may be written
+        try:  # takes a third of the time of NumPy's own function, but only for contiguous, writable arrays
             return _address_of(_first_byte(array.data))
         except (TypeError, ValueError):
             if array.size == 0:

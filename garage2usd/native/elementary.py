@@ -92,7 +92,7 @@ def power(base: F, exponent: F) -> F:
 def _of(function: int, first: F, second: F | None = None) -> F:
     """Evaluate a function of `elementary.c`; arrays are broadcast."""
     if isinstance(first, int | float) and (second is None or isinstance(second, int | float)):
-        # the two zeros are equal keys: of the first number their results differ in the sign, of the second in nothing
+        # 0 and -0 are equal keys of the cache, so a first argument of 0 is not cached: its sign matters
         return (_remembered if first else _elementary)(function, first, 0.0 if second is None else second)
     given = (first,) if second is None else np.broadcast_arrays(first, second)
     copies = [np.array(values, np.float64, order="C") for values in given]
@@ -109,7 +109,7 @@ def _elementary(function: int, first: float, second: float) -> float:
 
 @lru_cache(maxsize=8192)
 def _remembered(function: int, first: float, second: float) -> float:
-    """Evaluate a function of numbers that come again: a garage has few angles and many objects."""
+    """Evaluate a function with a cache, as a garage has few different angles and many objects."""
     return _elementary(function, first, second)
 
 

@@ -97,7 +97,7 @@ class CoilSpec(Spec, kind=RampSpec.kind):
         return np.stack([self.turn * v, self._heights + over_m, u], axis=1)
 
     def _lengths_m(self, inwards_m: float, runs_m: Floats) -> Floats:
-        """Return the lengths of a line beside the middle line up to places along this one."""
+        """Return the lengths along a parallel of the middle line, up to the stations of the middle line."""
         steps = np.diff(self._places.beside(inwards_m), axis=0)
         lengths = np.concatenate([[0.0], np.cumsum(np.sqrt((steps * steps).sum(axis=1)))])
         return np.interp(runs_m, self._runs, lengths)
@@ -109,7 +109,7 @@ class CoilSpec(Spec, kind=RampSpec.kind):
         over_m: tuple[float | Floats, float | Floats],
         towards: Sequence[float],
     ) -> list[Face]:
-        """Return the triangles between two lines along the helix; the first ones face roughly a direction."""
+        """Return the triangles between two lines along the helix; `towards` decides the side that they face."""
         one, other = self._points(inwards_m, over_m[0]), self._points(other_m, over_m[1])
         faces = [
             np.array(face)

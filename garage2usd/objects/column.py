@@ -184,7 +184,7 @@ class ColumnSpec(Spec, kind=KIND):
         """Return the outer and the inner line of each rubber corner of a column."""
         x, z = self.halves_m
         inner = self._ring(x, z)
-        # each bevel, from +Z towards +X, with the legs before and after it
+        # for each bevel, from +Z towards +X, with the legs on both sides of it
         found = []
         for first in (0, 2, 4, 6):
             lines = []
@@ -193,7 +193,7 @@ class ColumnSpec(Spec, kind=KIND):
                 before, after = np.array(ring[first - 1]), np.array(ring[(first + 2) % len(ring)])
                 legs = [ends[0] + _along(ends[0], before), *ends, ends[1] + _along(ends[1], after)]
                 lines.append([(float(a), float(b)) for a, b in legs])
-            # a leg ends squarely, over the same place of the side
+            # cut the leg at a right angle to the side
             for end, at in ((0, 1), (-1, 2)):
                 axis = int(np.argmin(np.abs(np.subtract(lines[0][at], lines[0][end]))))
                 point = list(lines[1][end])
@@ -256,7 +256,7 @@ def _around(radius_m: float) -> Callable[[NDArray[np.float64], NDArray[np.float6
     def project(corners: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
         x, y, z = corners.T
         facing = np.arctan2(normals[:, 0], normals[:, 2])
-        # near the angle of its face, so that none spans the seam
+        # unwrap angles near that of the face, so that no face spans the seam
         angle = facing + (np.arctan2(x, z) - facing + np.pi) % (2 * np.pi) - np.pi
         is_level = np.abs(normals[:, 1]) > 1 / 2
         return np.stack([np.where(is_level, x, angle * radius_m), np.where(is_level, -z, y)], axis=1)

@@ -179,7 +179,7 @@ class StainSpec(Spec, kind=KIND):
 
 @dataclass(frozen=True)
 class DirtSpec(StainSpec):
-    """A floor stain on a square of a lane that wheels made lighter or darker; its mark is one of wear."""
+    """Wear of a lane square by wheels, lighter or darker than the floor; its mark is a pattern of wear."""
 
     dirt: Dirt
 

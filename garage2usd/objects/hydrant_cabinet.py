@@ -94,7 +94,7 @@ def _brackets() -> list[Face]:
     for x in (0.01, 0.26):
         left, right = x - _BRACKET_HALF_M, x + _BRACKET_HALF_M
         faces += box_faces((left, _FOOT_M - 0.008, 0.0), (right, _FOOT_M, _BRACKET_M))
-        # its ends lie within the upper leg and off the wall, as an edge of both legs would be one of four faces
+        # it overlaps the upper leg and is off the wall, because a common edge of both would belong to four faces
         faces += box_faces((left, _FOOT_M - _BRACKET_M, 0.0005), (right, _FOOT_M - 0.004, 0.008))
         web = [(0.008, -0.008), (_BRACKET_M, -0.008), (0.008, -_BRACKET_M)]
         for side in (-0.004, 0.004):
@@ -149,7 +149,7 @@ def _fittings(at_pipe: tuple[float, float, float]) -> list[Part]:
         [(top, 0.012), (top + 0.05, 0.012), (top + 0.051, 0.05), (top + 0.066, 0.05)], segments=16
     )
     reel_y, reel_z = _FOOT_M + _HEIGHT_M - 0.29, _SHEET_M + 0.03
-    # turns of flat hose: a groove between each and the next
+    # turns of flat hose with grooves between them
     turns = [(depth, _REEL_M - at * 0.033) for at in range(6) for depth in (0.065, 0.058)]
     section = [(0.0, 0.0), (0.0, _REEL_M), *turns, (0.058, 0.0)]
     coils = moved(level_lathe_faces(section, segments=20), (0.08, reel_y, reel_z))

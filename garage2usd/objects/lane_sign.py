@@ -46,7 +46,7 @@ class LaneSignSpec(Spec, kind=KIND):
         half, middle = self.height_m / 2, -self.top_m - self.height_m / 2
         rods: list[Face] = []
         for x in (-half * 0.6, half * 0.6):
-            # down into the board, whose upper border may be round
+            # the rods reach into the board, whose upper border may be round
             rods += box_faces((x - _ROD_M, -self.top_m - half * 0.3, -_ROD_M), (x + _ROD_M, 0.0, _ROD_M))
         return Asset((*self._board(half, middle), make_part("Rods", rods, "steel_dark")))
 

@@ -1,4 +1,4 @@
-"""Signs of levels that hang from the ceiling: where a ramp leads, and which level this is."""
+"""Hanging signs with the name of a level: the one that a ramp leads to, or the present one."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -30,7 +30,7 @@ _ARROW_DEG = {"up": 0.0, "right": 90.0, "down": 180.0, "left": -90.0}
 
 
 class Heading(StrEnum):
-    """The direction of the arrow on a level sign; up stands for straight ahead too."""
+    """The direction of the arrow on a level sign; up also means straight ahead."""
 
     LEFT = "left"
     UP = "up"

@@ -141,7 +141,7 @@ def _level(shape: shapely.Geometry) -> shapely.Geometry:
 
 
 def _is_sheet(shape: shapely.Geometry) -> bool:
-    """True if a face of a shape is left, which corners of adjacent stalls that differ by micrometres may take."""
+    """True if a shape has a face left after cutting; micrometres between corners of adjacent stalls may leave none."""
     if shape.area > _SURE_M2:
         return True
     corners = np.round(level_triangles(shape), WELD_DECIMALS) if shape.area > 0 else np.empty((0, 3, 2))

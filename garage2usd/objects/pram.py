@@ -42,7 +42,7 @@ class PramSpec(Spec, kind=KIND):
         )
         cover = loft_faces([rectangle_ring(0.2, 0.25, y=0.762, z=0.245), rectangle_ring(0.16, 0.21, y=0.80, z=0.245)])
         angles = np.radians(np.linspace(0.0, 112.0, 7))
-        # the hood opens to the handle's far side: half rings that turn about the cot's edge
+        # the hood consists of half rings that turn about the edge of the cot, and opens away from the handle
         hood = [
             np.stack(
                 [

@@ -53,7 +53,7 @@ class WallSpec(Spec, kind=KIND):
         faces += box_faces((-half, 0, -self.thickness_m), (half, self.height_m, 0), without="f")
 
         def from_top(corners: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
-            # around the edges of the inner face, and the formwork begins at the top
+            # continue the texture of the inner face around its edges, and align the formwork with the top
             is_upright = np.abs(normals[:, 1]) < 1 / 2
             shift = np.stack([half * normals[:, 0], -self.height_m * is_upright], axis=1)
             laid: NDArray[np.float64] = along_main_axis(corners, normals) + shift

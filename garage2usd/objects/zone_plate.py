@@ -95,7 +95,7 @@ class ColumnPlatesSpec(Spec, kind=KIND):
         front, right, back, left = self.sides_m or (self.column_size_m / 2,) * len(self.sides)
         middles = (0.0, front), (right, 0.0), (0.0, -back), (-left, 0.0)
         share, radius = (_BENT_SHARE, front) if self.is_round else (_SHARE, None)
-        # a side is as wide as the two beside it are apart
+        # the width of a side is the distance between the two adjacent sides
         widths = (right + left, front + back) * 2
         return tuple(
             Plate(zone, middle, yaw, round(share * width, 6), radius)

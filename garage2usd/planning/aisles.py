@@ -1,4 +1,4 @@
-"""Sarsa over aisles: the agent sweeps the site and decides on whole aisles instead of squares. In C, `aisles.c`."""
+"""Sarsa over aisles: the agent sweeps the site and decides on whole aisles instead of squares; in C (`aisles.c`)."""
 
 from itertools import pairwise, product
 from typing import NamedTuple
@@ -35,15 +35,15 @@ class Runs(NamedTuple):
     Attributes
     ----------
     first, length
-        int64, shape (runs,): the first square and how many there are.
+        int64, shape (runs,): the first square, and the number of squares.
     ahead
         int64, shape (runs,): the run of the next line that lies beside most of it, or -1.
     turned
         int64, shape (2,): where the runs along rows end and those along columns end.
     spines
         int64, shape (2, K, M): for each direction sets of runs across it that may join its aisles, filled up with -1.
-        Where loops are asked for a set is a ladder's rails and cross-aisles; else one run that leads straight away
-        from a portal, or one of some spread over the site.
+        If loops are required, a set has the rails and cross-aisles of a ladder; else it is one run, which leads
+        straight away from a portal or is one of several spread over the site.
     """
 
     first: Int64s
@@ -91,7 +91,7 @@ def runs_of(ground: Ground) -> Runs:
 
 
 def _ladders(ground: Ground, runs: Runs) -> Int64s:
-    """Sets of spines that join the aisles at both ends and so often between that no stretch is too long.
+    """Sets of spines that join the aisles at both ends, and in between so that no stretch is too long.
 
     Beside rails at the ends of the whole site there are sets with one at each side of the contour.
     """
@@ -141,7 +141,7 @@ def _sides(ground: Ground, runs: Runs, direction: int) -> tuple[Int64s, Int64s]:
 
 
 def _rails(knots: list[int], *, stretch: int, more: int) -> list[int]:
-    """Lines for spines at the knots, first come first served where these are too close, and evenly between them.
+    """Lines for spines at the knots, without those too close to an earlier one, and evenly spaced between them.
 
     As many lie between two knots as keep the stretches short enough, and `more`, where there is room for that many.
     """
@@ -159,7 +159,7 @@ def _rails(knots: list[int], *, stretch: int, more: int) -> list[int]:
 
 
 def _single_spines(ground: Ground, runs: Runs) -> Int64s:
-    """Each a run that leads straight away from a portal, or one of some spread over the site."""
+    """Single spines: runs that lead straight away from a portal, and some spread over the site."""
     first, length, turned = runs.first.tolist(), runs.length.tolist(), runs.turned.tolist()
     spines = np.full((2, len(ground.portals) + _SPREAD_SPINES), -1)
     for index, portal in enumerate(ground.portals.tolist()):
@@ -193,7 +193,7 @@ class Room(NamedTuple):
     tape
         int8, shape (runs,): the options again, as an archive keeps them.
     profiles
-        int64: what lies behind each square of a run.
+        int64: profile of the squares behind each square of a run.
     counts, ahead
         int64, shapes (9,) and (4,): how often a run has each profile, and each number of free squares ahead.
     laid
@@ -226,7 +226,7 @@ def new_room(ground: Ground, runs: Runs) -> Room:
 
 
 def new_values() -> Float64s:
-    """Values of the options by state when nothing is learnt yet: hopes that make the agent try each."""
+    """Initial values of the options by state, optimistic so that the agent tries each."""
     return np.full((_STATES, OPTIONS), _OPTIMISTIC)
 
 
@@ -246,16 +246,15 @@ def learn_aisles(
     last: int,
     enough: int,
 ) -> int:
-    """Run the episodes from `first` to below `last`; returns how many decisions were taken.
+    """Run the episodes from `first` to below `last`; return the number of decisions.
 
-    With `enough` plans in the archive none is valued any more, as where nothing but what is learnt is asked for.
+    Once the archive has `enough` plans, no further plans are valued, for runs that need the learnt values only.
 
     Notes
     -----
     `schedule` holds epsilon and alpha, each followed by its factor after an episode; both are moved on.
     ``q(S_t, A_t) += alpha (R_{t+1} + gamma q(S_{t+1}, A_{t+1}) - q(S_t, A_t))`` as over squares, with options for
-    actions: what becomes of a run. Direction, and the run that joins the aisles across, take turns.
-    The reward is the increment of ``k_1 N_S + k_3 U_S``, per square of the run. What stays apart is joined by
-    repair.
+    actions: the use of a run. The direction and the run that joins the aisles across alternate. The reward is the
+    increment of ``k_1 N_S + k_3 U_S`` per square of the run. Lanes that stay separate are joined by repair.
     """
     raise NotImplementedError

@@ -60,19 +60,19 @@ def improve(
     hottest: float,
     coldest: float,
 ) -> float:
-    """Improve the feasible lanes in `board.cells` by flips, each judged by the whole plan; the value of the best.
+    """Improve the feasible lanes in `board.cells` by flips, each judged by the whole plan; return the best value.
 
-    The best lanes are left in `board.cells`. First every line without traffic takes the side that pays best.
+    The best lanes are left in `board.cells`. At first, every line without traffic gets the side with the best value.
 
     Parameters
     ----------
     ground, board, sizes, room, random
         The site, its lanes, the sides of its squares, the workspace, and the state of the random numbers.
     passes
-        Passes of hill climbing, by flips of one square or of two side by side; it ends at a local optimum.
+        Greatest number of passes of hill climbing, by flips of one square or two adjacent ones; it ends at an optimum.
     flips
-        Flips of simulated annealing, which follows. Where sides are chosen, some moves give a line without traffic
-        another side. Plans with fewer faults are better, whatever their value.
+        Flips of simulated annealing, which follows hill climbing. If sides are chosen, some moves change the side of a
+        line without traffic. Plans with fewer faults are better, whatever their value.
     hottest, coldest
         Temperature of annealing at first and at last, in stalls.
     """
@@ -90,7 +90,7 @@ def anneal_flips(
     coldest: float,
     refresh: int,
 ) -> float:
-    """Anneal the feasible lanes in `board.cells` by flips, each judged by the squares around it; the value of the best.
+    """Anneal the feasible lanes in `board.cells` by flips, each judged by the squares around it; return the best value.
 
     The best lanes are left in `board.cells`; `best_cells` is workspace of the same shape.
 
@@ -134,7 +134,7 @@ class TrialMove(NamedTuple):
     tally
         int64, shape (6,): stalls, time, unused squares, faults of labels, blocks, squares too long.
     change
-        int64, shape (6,): what a move adds to them.
+        int64, shape (6,): change of these figures by a move.
     """
 
     label: Int8s
@@ -192,7 +192,7 @@ def anneal_labels(
     prices: tuple[float, float, float, float],
     refresh: int,
 ) -> float:
-    """Anneal the feasible lanes in `board.cells` under the rules by labelled moves; leaves the best, returns its value.
+    """Anneal the feasible lanes in `board.cells` under the rules by labelled moves; return the best value.
 
     Parameters
     ----------

@@ -87,7 +87,7 @@ def ground_of(site: Structure, *, bay: BayConfig, plan: PlanConfig) -> Ground:
     widths = np.broadcast_to(site.column_widths_mm, site.shape)
     squares = np.flatnonzero(flat == Cell.FREE)
     capacity = np.pad(capacity_by_edges(site, bay), [(PADDING, PADDING), (PADDING, PADDING), (0, 0)])
-    # a turning stall lost, where rules leave no dead end that is so long
+    # dead ends lose a turning stall only if the rules allow such long ones
     keeps_turning_stalls = plan.dead_ends is DeadEnds.STANDARD and plan.circulation_mode is CirculationMode.ALLOW
     entrances, exits = np.flatnonzero(flat == Cell.ENTRANCE), np.flatnonzero(flat == Cell.EXIT)
     return Ground(
@@ -106,7 +106,7 @@ def ground_of(site: Structure, *, bay: BayConfig, plan: PlanConfig) -> Ground:
 
 
 def lanes_of(structure: Structure, ground: Ground) -> Lanes:
-    """Read the lanes of a structure on the same site."""
+    """Read the lanes of a structure, which has the same site as the ground."""
     flat = np.pad(structure.cells, PADDING, constant_values=Cell.OBSTACLE).ravel()
     lanes: Lanes = flat[ground.squares] == Cell.LANE
     return lanes
@@ -145,10 +145,10 @@ class Board(NamedTuple):
     hops
         int32: squares driven from the nearest entrance to a lane.
     near
-        int32: least `hops` of the lanes beside a free square, 0 at a portal that touches a lane; `mark_network` takes
-        it for marks.
+        int32: least `hops` of the lanes beside a free square, 0 at a portal that touches a lane; `mark_network` stores
+        marks in it.
     state
-        int32: what `survey` last told of each lane.
+        int32: state of each lane by the last `survey`.
     queue
         int64: room for breadth-first searches.
     tally
@@ -243,8 +243,8 @@ class Archive(NamedTuple):
     lanes
         bool, shape (size, padded): by square of the padded matrix.
     tapes
-        int8, shape (size, steps): actions from the square `starts`, `lengths` of them; of an agent over aisles what
-        became of each run, with the choice of direction and spine as `starts`.
+        int8, shape (size, steps): the `lengths` actions from the square `starts`; for an agent over aisles, the use of
+        each run, with the choice of direction and spine as `starts`.
     starts, lengths
         int64, shape (size,).
     in_use

@@ -35,7 +35,7 @@ class CirculationRules(NamedTuple):
     Attributes
     ----------
     is_asked
-        Whether there are any rules.
+        True if there is any rule.
     dead_end_squares
         R1: rounds of pruning within which every dead end is gone.
     asks_loop
@@ -79,9 +79,9 @@ def rules_of(plan: PlanConfig, *, squares: int) -> CirculationRules:
 
     Notes
     -----
-    The costs are those with which 96 % of the plans that learning keeps on the gates obey the rules: three stalls for
-    a lane too deep or a block, five for the lack of a loop. R4 is asked for from about 20 x 20 squares on: on smaller
-    sites hardly a stretch is too long.
+    With these costs 96 % of the plans that learning keeps on the gates obey the rules: three stalls for a lane too
+    deep or a block, five for the lack of a loop. R4 is required from about 20 x 20 squares on; on smaller sites hardly
+    any stretch is too long.
     """
     asks_loops = plan.circulation_mode is CirculationMode.LOOPS
     forbids_dead_ends = plan.dead_ends is DeadEnds.FORBID
@@ -352,7 +352,7 @@ def _dead_ends(structure: Structure, found: Circulation) -> Iterator[Run]:
     depth: dict[Square, tuple[int, int]] = {}
     trees: dict[Square, list[Square]] = {}
     pruned: list[Square] = [(row, col) for row, col in np.argwhere(found.rounds > 0).tolist()]
-    # a lane is pruned after all that hang on it, so that whatever it hangs on itself is measured before
+    # from the last pruned lane to the first, so that each lane is measured after the one it branches off
     for square in sorted(pruned, key=lambda square: -int(found.rounds[square])):
         onward, side_mm = _onward(structure, rounds, drivable, square)
         root_of[square] = square if onward is None else root_of[onward]
@@ -367,7 +367,7 @@ def _dead_ends(structure: Structure, found: Circulation) -> Iterator[Run]:
 def _onward(
     structure: Structure, rounds: NDArray[np.int32], drivable: NDArray[np.bool_], square: Square
 ) -> tuple[Square | None, int]:
-    """Find the pruned lane that a pruned lane hangs on, None at the root of a tree, and its length that way."""
+    """Return the pruned lane that a pruned lane branches off, None at the root of a tree, and its length that way."""
     row, col = square
     sides = int(structure.row_depths_mm[row]), int(structure.column_widths_mm[col])
     for dr, dc in NEIGHBOUR_STEPS:
@@ -382,7 +382,7 @@ def _onward(
 
 
 def _stretches(structure: Structure, found: Circulation) -> Iterator[Run]:
-    """Yield each piece of lanes with two neighbours that stay."""
+    """Yield each connected piece of lanes that have two unpruned neighbours."""
     stays = np.pad((structure.cells >= Cell.LANE) & (found.rounds == 0), 1)
     up, down, left, right = stays[:-2, 1:-1], stays[2:, 1:-1], stays[1:-1, :-2], stays[1:-1, 2:]
     along_mm = (

@@ -75,7 +75,7 @@ class DecisionProcess:
     bay
         Size of the stalls.
     parameters
-        Penalties, and what the agent sees and may do: those of a preset by `PlanConfig.resolved`.
+        Penalties, view and actions of the agent: those of a preset by `PlanConfig.resolved`.
     """
 
     site: Structure
@@ -116,7 +116,7 @@ class State:
     start
         The entrance that the car started from.
     square
-        Where the car is.
+        Square of the car.
     last_action
         The action that led here; `Action.STAY` at first.
     run_squares
@@ -124,7 +124,7 @@ class State:
     lanes
         Squares coloured so far.
     ending
-        How the episode ended; None while it goes on.
+        Outcome of the episode; None while it goes on.
     """
 
     start: Square

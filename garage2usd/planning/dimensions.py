@@ -1,6 +1,6 @@
-"""Widths of columns R and depths of rows C: chosen for given lanes, and kept in tables while lanes are annealed.
+"""Widths of columns R and depths of rows C: their choice for given lanes, and tables of them for annealing.
 
-`Sizes` is what `sizes.c` takes: every line of squares is as wide as its use asks for.
+`Sizes` is the input of `sizes.c`, which makes every line of squares as wide as its use requires.
 """
 # Over 300 lines: both choose sides by the same rules of aisles, stalls and doors.
 
@@ -39,11 +39,11 @@ def dimension(structure: Structure, *, bay: BayConfig, rows: bool = True, column
     Parameters
     ----------
     structure
-        With lanes; the sizes that it has are kept on an axis that is not to be chosen.
+        A structure with lanes; sizes along an axis that is not to be chosen are kept.
     bay
         Stall size, column size, ``aisle_width_m`` and ``portal_width_m``.
     rows, columns
-        Which of C and R to choose.
+        True to choose C, and R.
 
     Returns
     -------
@@ -107,7 +107,7 @@ def aisle_side_mm(bay: BayConfig) -> int:
 
 
 def free_sides_mm(bay: BayConfig) -> list[int]:
-    """Sides of lines without traffic along them, ascending: the length of a stall, the widths of two and of three."""
+    """Possible sides of lines without traffic along them, ascending: a stall's length, the widths of two and three."""
     length, width, ends = (round(side * _MM_PER_M) for side in (bay.stall_length_m, bay.stall_width_m, bay.row_ends_m))
     return sorted({length, *(max(count * width + ends, length) for count in _STALLS_BETWEEN_COLUMNS)})
 
@@ -121,7 +121,7 @@ class _Sized:
     def __init__(
         self, cells: CellArray, sides_mm: list[NDArray[np.int64]], tried_mm: list[int], bay: BayConfig
     ) -> None:
-        """Take the sides by axis, rows' first, and all that lines may take beside these."""
+        """Store the sides by axis, rows first, and the sides that lines may take instead."""
         self._sides_mm: list[list[int]] = [side.tolist() for side in sides_mm]
         self._held = _stalls_held(tuple(sorted({*self._sides_mm[0], *self._sides_mm[1], *tried_mm})), bay)
         inside, service = cells != Cell.OBSTACLE, _service(cells)
@@ -236,11 +236,11 @@ class Sizes(NamedTuple):
     kept_mm
         int64, shape (2, lines): side of each line while no car drives along it.
     actual_mm
-        int64, shape (2, lines): its side now.
+        int64, shape (2, lines): present side of each line.
     place
-        int64, shape (2, lines): the place of that in `sides_mm`.
+        int64, shape (2, lines): index of the present side in `sides_mm`.
     driven
-        int64, shape (2, lines): on how many of its squares cars drive along it.
+        int64, shape (2, lines): number of squares of each line on which cars drive along it.
     least_mm
         int64, shape (2, lines): the least side of lines with a vehicle door across their end.
     is_floor
@@ -248,11 +248,11 @@ class Sizes(NamedTuple):
     area_m2
         float64, shape (1,): floor of all those squares.
     hint
-        float64, shape (2, lines): what a line is likely to gain, in stalls, if cars begin or cease to drive along it.
+        float64, shape (2, lines): estimated gain of a line, in stalls, if cars begin or cease to drive along it.
     price
-        float64, shape (1,): what a square metre of floor costs, in stalls; 0 where no side is chosen.
+        float64, shape (1,): price of a square metre of floor, in stalls; 0 if no side is chosen.
     change
-        int64, shape (3,): what another side of a line would add to stalls, time and unused squares.
+        int64, shape (3,): change of stalls, time and unused squares by another side of a line.
     """
 
     is_chosen: Bools
@@ -286,7 +286,7 @@ def sizes_of(ground: Ground, bay: BayConfig) -> Sizes:
     kept[is_chosen] = free[-1]
     least = _door_sides(ground, bay, lines)
     asked = np.append(free, aisle)
-    given = actual[actual > 0]  # not of the squares outside
+    given = actual[actual > 0]  # without squares outside the contour
     sides = np.unique(np.concatenate([asked, np.maximum.outer(asked, np.unique(least)).ravel(), given]))
     square = Structure(np.zeros((len(sides), len(sides)), np.int8), sides, sides)
     return Sizes(

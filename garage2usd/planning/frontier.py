@@ -12,8 +12,8 @@ from garage2usd.planning.board import Board, Ground
 
 FORBIDDEN = -1.0e18
 
-# where the codes of lanes begin, columns share 60 bits of a frontier, and one above them tells that there is a loop, or
-# need be none
+# codes of lanes begin at `_LANE`; the columns share 60 bits of a frontier, and the bit above is set if there is a loop,
+# or none is required
 _LANE, _ALL_BITS, _LOOPED = 10, 60, 1 << 61
 
 
@@ -27,7 +27,7 @@ class SquareTable(NamedTuple):
     bits
         Bits of a column in a frontier.
     depth
-        R1: deepest stub; -1 where no rule is asked for.
+        R1: deepest stub; -1 without this rule.
     kinds
         int8, shape (rows * cols,): values of `garage2usd.structure.grid.Cell`.
     portals
@@ -152,11 +152,10 @@ class Enumeration(NamedTuple):
     Attributes
     ----------
     ways, next_keys, next_values, bounds
-        Children of the layouts begun so far, square by square, those with the greatest bounds first: their choices
-        and frontiers, int64; their values and what they may come to, float64; shape (squares, choices).
+        Children of the layouts begun so far, square by square, the greatest bound first: their choices and frontiers,
+        int64; their values and upper bounds of them, float64; shape (squares, choices).
     children, tried
-        How many children each square has, and how many were tried, -1 for a square that is not begun; int64, shape
-        (squares,).
+        Number of children of each square, and of tried ones, -1 for a square not begun; int64, shape (squares,).
     keys, values
         Frontier and value before each square; int64 and float64, shape (squares + 1,).
     room
@@ -166,7 +165,7 @@ class Enumeration(NamedTuple):
     best
         float64, shape (1,): its value, or the value to beat.
     counts
-        int64, shape (2,): how many squares of the layout begun are decided, -1 at the end; layouts scored.
+        int64, shape (2,): number of decided squares of the current layout, -1 at the end; number of scored layouts.
     """
 
     ways: Int64Table
@@ -222,16 +221,16 @@ def enumerate_layouts(
     Parameters
     ----------
     state
-        What is enumerated; `board` holds its layout from call to call, at first that of `ground`.
+        State of the enumeration; `board` holds its layout between calls, at first that of `ground`.
     steps
-        After how many steps, a square decided or taken back, to return.
+        Number of steps after which to return; a step decides a square or takes it back.
     table, ground, board
         The site; `ground` and `table` hold the same squares.
     offsets
         int64, shape (squares + 2,): where the frontiers before each square start in `keys`.
     keys, suffixes
-        The frontiers of all squares, and what can follow each.
+        The frontiers of all squares, and the greatest value that the rest of the squares can add to each.
     relaxed, price
-        Hops of the squares over free squares, and what a hop of a stall costs in the relaxed value.
+        Hops of the squares over free squares, and the cost of a hop of a stall in the relaxed value.
     """
     raise NotImplementedError

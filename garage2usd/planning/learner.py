@@ -20,7 +20,7 @@ _AISLE_SQUARES = 120
 _BATCH_SQUARES = 20_000
 """Episodes times free squares between two calls of `progress`, so that a large site is interrupted as soon."""
 _TABLE_BITS = 14
-"""Of the table of values at first; it grows with the states that are met."""
+"""Initial size of the table of values; it grows with the number of states."""
 _AISLE_EPISODE_SQUARES = 5_000_000
 """Episodes times free squares over aisles: about a second."""
 _ELITE = 25
@@ -60,7 +60,7 @@ def uses_aisles(ground: Ground, plan: PlanConfig) -> bool:
 def learn_squares(
     ground: Ground, board: Board, plan: PlanConfig, random: NDArray[np.uint64], progress: Progress = silent
 ) -> Learnt:
-    """Learn over squares, as often as the settings say; the curve is that of the start that met the best plan."""
+    """Learn over squares from as many starts as the settings say; the curve belongs to the start with the best plan."""
     count = plan.resolved().starts
 
     def told(start: int) -> Progress:
@@ -104,9 +104,9 @@ def learn_aisles(
 
     Notes
     -----
-    The state of an aisle is the same on every site, so what is learnt on a square of 26 x 26 squares with a few
-    obstacles holds here; episodes on the site itself then decide parts of the best plans anew. Their number is what
-    the settings say, or less where the site is so large that they would take more than a second.
+    The states of aisles are the same on every site, so values learnt on a site of 26 x 26 squares with a few obstacles
+    apply to this one. Episodes on this site then decide parts of the best plans anew. Their number is that of the
+    settings, or less on sites so large that they would take more than a second.
     """
     parameters = plan.resolved(aisles=True)
     runs = aisles.runs_of(ground)
@@ -143,7 +143,7 @@ def learn_aisles(
 
 
 def _school(ground: Ground, parameters: SarsaParameters, random: NDArray[np.uint64]) -> tuple[NDArray[np.float64], int]:
-    """Learn over aisles on a small site like this one; the values and the number of decisions."""
+    """Learn over aisles on a small site like this one; return the values and the number of decisions."""
     nursery = _nursery(ground, np.random.Generator(np.random.PCG64(int(next_random(random)))))
     values, runs = aisles.new_values(), aisles.runs_of(nursery)
     archive = new_archive(1, padded=len(nursery.cells), steps=len(runs.first))
@@ -156,13 +156,13 @@ def _school(ground: Ground, parameters: SarsaParameters, random: NDArray[np.uint
 
 
 def _schedule(episodes: int, *, epsilon: tuple[float, float], alpha: tuple[float, float]) -> NDArray[np.float64]:
-    """Schedule of epsilon and alpha: each first value and its factor after an episode; 0 stays 0."""
+    """Schedule of epsilon and alpha: first value and factor per episode of each; 0 stays 0."""
     factors = [elementary.power(last / first, 1 / episodes) if first > 0 else 1.0 for first, last in (epsilon, alpha)]
     return np.array([epsilon[0], factors[0], alpha[0], factors[1]])
 
 
 def _nursery(ground: Ground, rng: np.random.Generator) -> Ground:
-    """Make a small site with the usual bays of this one."""
+    """Make a small site whose squares have the typical capacity of this site."""
     cells = np.zeros((_NURSERY_SIDE, _NURSERY_SIDE), dtype=np.int8)
     inner = rng.integers(3, _NURSERY_SIDE - 3, size=(_NURSERY_OBSTACLES, 2))
     cells[inner[:, 0], inner[:, 1]] = Cell.OBSTACLE
@@ -173,7 +173,7 @@ def _nursery(ground: Ground, rng: np.random.Generator) -> Ground:
         bay=BayConfig(),
         plan=PlanConfig(circulation=CirculationMode.ALLOW, dead_ends=DeadEnds.ALLOW),
     )
-    # the usual stalls of this site, whatever its bays are
+    # the typical capacity of this site's squares, whatever the sizes of its bays
     return small._replace(
         capacity=np.tile(np.median(ground.capacity[ground.squares], axis=0).astype(np.int32), (len(small.cells), 1)),
         weights=ground.weights,

@@ -38,35 +38,36 @@ _SMALL_SQUARES, _WHOLE_SQUARES, _LARGE_SQUARES = 120, 250, 1000
 """Free squares up to which a site is small, up to which annealing that judges each flip by the whole plan still gains
 on what labels reach, and from which on it is large."""
 
-# hill climbing ends by itself, at the latest after so many passes over all squares; the squares measured, some 20 times
-# squares squared for a plan, bound its time on larger sites
+# Hill climbing ends at a local optimum, or after this many passes over all squares. A plan of n squares takes about
+# 20 n^2 measurements of squares, whose number bounds the time on larger sites.
 _CLIMB_PASSES, _CLIMB_SQUARES = 40, 40_000_000
 
-# annealing of whole plans: how many plans, their flips times squares, which bounds the time on any site, and heats in
-# stalls. On equal squares, where most flips are judged by what is around them, of 40 sites of 12x16 the 24 middle ones
-# come to 244.4 stalls, to 243.5 with half the flips from 3.0 to 0.6, to 243.6 with half of them from these heats; the
-# 16 small ones come to 187.7, to 186.8 with a third of the flips from 3.0 to 0.3, to 187.3 with as many from there
+# Annealing of whole plans: number of plans, flips times squares (which bounds the time on any site), and first and last
+# temperature in stalls. Measured on 40 sites of 12x16 equal squares, where most flips are judged by their surroundings:
+# the 24 middle ones have 244.4 stalls in the mean (243.5 with half the flips at 3.0 to 0.6; 243.6 with half the flips
+# at these temperatures), the 16 small ones 187.7 (186.8 with a third of the flips at 3.0 to 0.3; 187.3 with all flips).
 _ANNEALED, _ANNEALED_MIDDLE = (12, 15_000_000, (1.5, 0.4)), (6, 96_000_000, (1.5, 0.5))
 
-# with R and C chosen each flip takes longer: 80 sites of 7x9 take 29.00 m2 a stall, with five plans 29.03; it was 29.18
-# with the three best plans, from 3.0 to 0.5, and sizes from the shortest alone
+# The same with R and C chosen, where each flip takes longer. 80 sites of 7x9 have 29.00 m2 per stall; 29.03 with five
+# plans; 29.18 with the three best plans at 3.0 to 0.5 and sizes from the shortest stalls alone.
 _ANNEALED_SIZED, _ANNEALED_SIZED_MIDDLE = (6, 5_000_000, (3.0, 0.3)), (3, 16_000_000, (3.0, 0.6))
 
-# on the smallest sites annealing comes to its end much sooner: with a tenth of the episodes, of 300 sites of 5x5 to 7x7
-# squares ten take another floor a stall than without this bound, seven of them less, after 0.6 of the time
+# Flips per square after which annealing has converged on the smallest sites. With this bound and a tenth of the
+# episodes, planning 300 sites of 5x5 to 7x7 squares takes 0.6 of the time; the floor per stall changes on ten of them,
+# and falls on seven.
 _SIZED_FLIPS_A_SQUARE = 2000
 
-# annealing under rules: how many runs, more while none keeps the rules, and how many moves in each; on large sites few,
-# and at most 800,000 moves, so that planning takes at most twice as long as without rules: on 4 sites of 40x60 R1 to R3
-# cost 3.2 % of the stalls, with half the moves 3.3 %
+# Annealing under the rules of circulation: number of runs (more until a plan keeps the rules), and of moves in each.
+# Large sites have fewer runs and at most 800,000 moves, so that planning takes at most twice as long as without rules.
+# On 4 sites of 40x60 the rules R1 to R3 cost 3.2 % of the stalls, and 3.3 % with half the moves.
 _LABELLED, _LABELLED_LARGE, _MOST_LABELLED = 6, 3, 10
 _LABEL_TRIALS_A_SQUARE, _LABEL_TRIALS, _LABEL_REFRESH_ROUNDS = 600, (250_000, 800_000), 4
 _LABEL_HEATS, _LABEL_PRICES = (0.6, 0.1), ((8.0, 40.0, 8.0, 30.0), (4.0, 40.0, 5.0, 20.0))
-"""Heats, as in the prototype, and prices of faults, of which the runs take turns: which end better differs from site to
-site."""
+"""Temperatures, as in the prototype, and prices of faults, which alternate from run to run, because the better ones
+differ from site to site."""
 
-# annealing without rules: distances are those of the last measurement, which is why there is one every so many rounds
-# over the squares; large sites, whose plans are nearer to the bound, start cooler
+# Annealing without rules: flips are judged by the distances of the last measurement, which is repeated after this many
+# rounds over the squares. Large sites, whose plans are closer to the bound, start at a lower temperature.
 _FLIPPED, _FLIPS, _REFRESH_ROUNDS = 2, 1_600_000, 20
 _FLIP_HOTTEST, _FLIP_HOTTEST_LARGE, _FLIP_COLDEST = 0.6, 0.3, 0.1
 
@@ -141,7 +142,7 @@ class LocalSearch:
         return bool(self.sizes.is_chosen.any())
 
     def valued(self, ranked: list[Ranked]) -> list[Ranked]:
-        """Value plans in the sides that suit each; best first."""
+        """Value each plan with the sides that suit it best; best first."""
 
         def value(lanes: Lanes) -> float:
             put_lanes(self.ground, self.board, lanes)
@@ -167,20 +168,20 @@ class LocalSearch:
         return self._improved(ranked, distinct_plans(ranked, count), annealing)
 
     def _improve(self, *, passes: int = 0, flips: int = 0, heats: tuple[float, float] = (1.0, 1.0)) -> float:
-        """Climb and anneal from the lanes on the board; their value."""
+        """Climb and anneal from the lanes on the board; return the value."""
         return improve(self.ground, self.board, self.sizes, self.room, self.random, passes, flips, *heats)
 
     def annealed_by_labels(self, ranked: list[Ranked]) -> list[Ranked]:
         """Anneal the best plans under the rules of circulation by labelled moves; best first."""
         move = new_trial_move(self.ground)
         trials = int(np.clip(_LABEL_TRIALS_A_SQUARE * self.squares, *_LABEL_TRIALS) * self.effort)
-        if self.is_sized:  # each takes longer
+        if self.is_sized:  # a trial then takes longer
             trials //= 2
         refresh = _LABEL_REFRESH_ROUNDS * self.squares
         count = _LABELLED_LARGE if self.squares >= _LARGE_SQUARES else _LABELLED
         starts = distinct_plans(ranked, count)
         for number in range(_MOST_LABELLED):
-            # more only where none has come to keep the rules
+            # go on only if no plan keeps the rules yet
             if number >= count and not min(faults_of(self.ground, self.board, lanes) for _, lanes in ranked):
                 break
             prices = _LABEL_PRICES[number % len(_LABEL_PRICES)]

@@ -76,33 +76,33 @@ def find_optimum(
     bay
         Size of the stalls.
     plan
-        The rules R1 to R3 that are asked for, as for the planner, and the weights of the score; left out, nothing is
-        asked for. The turning stall that ``dead_ends = "standard"`` keeps free never counts.
+        The rules among R1 to R3 to keep, as for the planner, and the weights of the score; if left out, there are no
+        rules. The turning stall that ``dead_ends = "standard"`` keeps free never counts.
     known
-        A structure to beat, which saves time; it is left aside if it is not feasible or breaks a rule.
+        A structure to beat, which saves time; ignored if it is not feasible or breaks a rule.
     progress
-        Told how many squares the dynamic programme has passed, on and back, and how far the enumeration may still go.
+        Called with the squares that the dynamic programme has passed, and with the steps of the enumeration.
 
     Raises
     ------
     ConfigError
         If the site is too large: for a frontier in 64 bits, for 30 million frontiers or for 300 million steps of the
-        enumeration, which is five minutes; or if R4 is asked for.
+        enumeration, which takes five minutes; or if R4 is to be kept.
     GenerationError
         If the site has no such structure with a stall.
 
     Notes
     -----
     ``y' = N_S - 5 t / N_S - U_S`` with t the sum of the parking times. For ``N_S <= n`` it is at most
-    ``N_S - U_S - 5 t / n``, and t is at least what it would be if every way to a lane were the shortest over free
-    squares: both are sums over squares of what the four neighbours decide. A frontier-based search, dynamic
-    programming over the broken profile, maximises N_S for n, then that sum for all suffixes; every layout whose sum is
-    above the best known is then scored exactly, those with the greatest sums first.
+    ``N_S - U_S - 5 t / n``, and t is at least its value for shortest ways over free squares. Both are sums over
+    squares of terms that depend on the four neighbours alone. A frontier-based search, dynamic programming over the
+    broken profile, maximises N_S for n, then that sum for all suffixes; every layout whose sum is above the best known
+    value is then scored exactly, the greatest sums first.
 
-    R1 is kept by labels: pruning leaves the core, and each lane that it takes off is a stub of some depth. Whether
-    labels are sound is seen from neighbours alone, and each layout that keeps R1 has one sound labelling, so that the
-    profile carries labels in place of lanes. A lane that joins two of the same piece closes the loop of R2, and one
-    flag tells of the square above and to the left for R3. So the programme meets just the layouts that keep the rules.
+    R1 is kept by labels: pruning leaves the core, and each pruned lane is a stub of some depth. Neighbours alone decide
+    if labels are valid, and each layout that keeps R1 has exactly one valid labelling, so the profile carries labels in
+    place of lanes. A lane that joins two lanes of the same piece closes the loop of R2, and one flag holds the square
+    above and to the left for R3. So the programme visits exactly the layouts that keep the rules.
     """
     upright = _upright(site)
     if plan.dead_ends is DeadEnds.STANDARD:

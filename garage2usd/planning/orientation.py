@@ -33,9 +33,9 @@ class DrivenLengths(NamedTuple):
     Attributes
     ----------
     two_way_m
-        With all lanes driven both ways.
+        Mean length if all lanes are driven both ways.
     directed_m
-        Along the directions of the lanes; infinite if a stall is not reached.
+        Mean length along the directions of the lanes; infinite if a stall is not reached.
     """
 
     two_way_m: float
@@ -135,7 +135,7 @@ class _Drives:
 
     def mean_m(self, directions: LaneDirections) -> float:
         """Mean length of the drives; infinite if a lane with stalls is not reached or does not reach an exit."""
-        from scipy import sparse  # noqa: PLC0415 - few garages have one-way lanes, all wait for imports
+        from scipy import sparse  # noqa: PLC0415 - slow to import, and few garages have one-way lanes
         from scipy.sparse import csgraph  # noqa: PLC0415
 
         allowed = [(start, end, length) for start, end, length in self._steps if directions.allows(start, end)]
@@ -179,7 +179,7 @@ class _Orientation:
         lengths = [len(path) - 1 for path in chosen]
         left, turned = share * sum(lengths), []
         for index in self._rng.permutation(len(chosen)).tolist():
-            # the one that brings the share nearer
+            # turn the stretch if the share of one-way lanes comes closer to the requested one
             if lengths[index] / 2 <= left:
                 turned.append(chosen[index])
                 left -= lengths[index]
@@ -197,7 +197,7 @@ class _Orientation:
         return [(order[path[0]] < order[path[1]]) == (frozenset(path[:2]) in tree) for path in self._stretches]
 
     def _turns_of_stretches(self) -> list[float]:
-        """Share of each stretch in leading around the middle of the lanes to the side of traffic; -1 to 1."""
+        """Measure how far each stretch leads around the middle of the lanes in the sense of traffic; -1 to 1."""
         places = np.array(list(self._middles_m.values())).reshape(-1, 2)
         if not len(places):
             return []
@@ -243,7 +243,7 @@ class _Orientation:
         return best
 
     def _is_strong(self, forward: list[bool]) -> bool:
-        """Return True if each lane is reached from each within the pieces that bridges join."""
+        """Return True if every lane reaches every other one within each piece between bridges."""
         from scipy import sparse  # noqa: PLC0415 - likewise
         from scipy.sparse import csgraph  # noqa: PLC0415
 
@@ -272,9 +272,9 @@ def completed(plan: Plan, config: GarageConfig) -> Plan:
     Parameters
     ----------
     plan
-        Lanes.
+        Plan of the lanes.
     config
-        Which directions and kinds are asked for.
+        Settings of directions and kinds of stalls.
 
     Raises
     ------

@@ -41,7 +41,7 @@ _END, _DIGITS = ACTIONS[4], ACTIONS[:4]
 _KINDS = (StallKind.PERPENDICULAR, StallKind.ANGLED, StallKind.PARALLEL)
 _SIZES = tuple(SizeClass)
 _MOST_LETTERS = 40
-"""Of a number: no count of squares and no angle needs more."""
+"""Greatest number of letters of a number; counts of squares and angles need fewer."""
 _WITH, _AGAINST = "with traffic", "against traffic"
 
 _ANGLES_DEG = (30.0, 85.0)
@@ -81,7 +81,7 @@ def plan_tape_of(plan: Plan) -> str:
 
 
 def tail_of(plan: Plan) -> str:
-    """Write what follows the tape of the lanes: directions and stalls; empty for a plan with the usual ones."""
+    """Write the part after the tape of the lanes: directions and stalls; empty if all are the usual ones."""
     if not plan.runs and not plan.directions.one_way:
         return ""
     return "".join(_letters(number) for number in _numbers(plan))
@@ -135,9 +135,9 @@ def read_tail(
     Parameters
     ----------
     structure
-        With the lanes.
+        Structure with the lanes.
     tail
-        What follows their tape.
+        The part of the tape after the lanes.
     config
         Sizes of stalls.
     before
@@ -193,7 +193,7 @@ def _numbers(plan: Plan) -> Iterator[int]:
 
 
 def _runs_of_line(line: _Line, runs: Mapping[tuple[Edge, Square], GivenRun]) -> Iterator[tuple[GivenRun | None, int]]:
-    """Yield the runs of a line, None for squares without any, and how many squares are left behind each."""
+    """Yield the runs of a line, None for squares without any, with the number of squares after each."""
     place, count = 0, len(line.squares)
     while place < count:
         run = runs.get((line.edge, line.squares[place]))
@@ -226,7 +226,7 @@ def _lines_of(structure: Structure) -> list[_Line]:
         squares = [
             square for square in structure.where(Cell.FREE) if structure.cell_at(edge.beyond(square)) is Cell.LANE
         ]
-        # a row has its number first, a column its second; squares follow one another where the difference is constant
+        # squares of one line are adjacent while the difference between position and index is constant
         along = int(edge.along_x)
         squares.sort(key=lambda square: (square[1 - along], square[along]))
         keyed = enumerate(squares)

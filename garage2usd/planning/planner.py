@@ -46,7 +46,7 @@ class ArchivedPlan:
     structure, score
         The plan and its figures, on the squares' sides that it was learnt with.
     is_polished
-        Whether local search found it, rather than learning.
+        True if local search found it, rather than learning.
     """
 
     structure: Structure
@@ -151,14 +151,14 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     Notes
     -----
     ``q(S_t, A_t) += alpha (R_{t+1} + gamma q(S_{t+1}, A_{t+1}) - q(S_t, A_t))`` with an epsilon-greedy policy over up,
-    down, left, right, stay; on large sites over whole aisles. Deviation: the paper words epsilon
-    opposite to its formula; the formula stands. Deviation: by default the agent has the preset ``tuned``: it sees less,
-    cannot bump, goes on from what was good before and starts several times, as it finds better plans so; ``paper`` is
-    the paper's agent. Deviation: local search polishes the best plans after learning, unless ``climb`` is false.
+    down, left, right, stay; on large sites over whole aisles. Deviation: in the paper text and formula of epsilon
+    differ; the formula is used. Deviation: by default the agent has the preset ``tuned``: it sees less, cannot bump,
+    continues from earlier good episodes and starts several times, which finds better plans; ``paper`` is the paper's
+    agent. Deviation: local search polishes the best plans after learning, unless ``climb`` is false.
     Deviation: where no episode joined all portals, shortest paths between them are the lanes. Deviation: plans keep
     rules of circulation (``circulation``): broken rules cost stalls when plans are compared, and plans that keep the
-    rules come first; the reported score has no such term. Deviation: where R and C are chosen, plans
-    are compared by the floor that a stall takes.
+    rules come first; the reported score has no such term. Deviation: where R and C are chosen, plans are compared by
+    their floor per stall.
     """
     ground = ground_of(site, bay=bay, plan=plan)
     rng = generator(seed, Step.PLAN)
@@ -212,7 +212,7 @@ def _repaired(ground: Ground, board: Board, lanes: Lanes) -> list[Ranked]:
     put_lanes(ground, board, lanes)
     if not connect(ground, board):
         return []
-    value = max(measure(ground, board, -np.inf), NO_VALUE)  # without stalls it has no value, but stands
+    value = max(measure(ground, board, -np.inf), NO_VALUE)  # a plan without stalls is kept although it has no value
     return [(value, lanes_on(ground, board))]
 
 

@@ -193,7 +193,7 @@ class ReferenceSarsa:
         self.q[seen][action] = float(np.float32(old + self.process.parameters.alpha * (target - old)))
 
     def _better(self, best: ArchivedEpisode | None, state: State, tape: Sequence[Action]) -> ArchivedEpisode | None:
-        """The better of a plan and that of a state."""
+        """Return the better of two plans: a given one and that of a state."""
         if state.lanes not in self._values:
             self._values[state.lanes] = self._value(state)
         value = self._values[state.lanes]

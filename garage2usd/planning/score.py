@@ -50,19 +50,20 @@ def evaluate(
     Parameters
     ----------
     structure
-        With lanes.
+        A structure with lanes.
     bay
         Size of the stalls.
     plan
-        Its three weights; the paper's if left out.
+        The three weights of the score; those of the paper if left out.
     runs
         Kinds of the stalls; without any, all are perpendicular.
 
     Notes
     -----
-    ``y' = k_1 N_S + k_2 T_S + k_3 U_S``. N_S counts stalls, U_S free squares that hold none. T_S is the mean over the
-    stalls of one and the squares driven from the nearest entrance to the nearest lane beside the stall's square.
-    Lanes that no entrance reaches count the longest route there is; a structure without stalls has T_S = 0.
+    ``y' = k_1 N_S + k_2 T_S + k_3 U_S``. N_S counts stalls, U_S free squares that hold none. T_S is the mean over all
+    stalls of ``1 + h``, where h is the number of squares driven from the nearest entrance to the nearest lane beside
+    the stall's square. For a lane that no entrance reaches, h is the longest route of the structure. Without stalls,
+    T_S = 0.
 
     Deviation: the paper sums raw S over the neighbours, where obstacles and portals corrupt the count of lanes; lanes
     are counted instead.

@@ -67,9 +67,9 @@ def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
     -----
     Runs are visited by length, equal ones in random order. Each takes the option furthest below its share of the stalls
     so far, among those that fit: squares whose sides are not chosen must be deep enough. Lines of squares without
-    traffic along them then get the sides with the least floor per stall, and single runs change their option while the
-    shares on these sides gain by it. Where kinds are free, the garage is laid out with each kind and angle alone, and
-    gets the one with the least floor per stall; of equal ones the first in the order perpendicular, angled, parallel.
+    traffic along them then get the sides with the least floor per stall, and single runs change their option while
+    that brings the shares closer. If kinds are free, the garage is laid out with each kind and angle alone, and gets
+    the one with the least floor per stall; among equal ones the first of perpendicular, angled, parallel.
     """
     if config.stalls.is_free:
         return _least_floor(plan, config)
@@ -156,14 +156,14 @@ def settings_of_runs(runs: Iterable[StallRun], directions: LaneDirections = BOTH
 
 
 class _Counts:
-    """Numbers of stalls of runs on the lanes of one plan, each counted once for the sides of its squares."""
+    """Cache of the number of stalls of runs on the lanes of one plan, by the sides of their squares."""
 
     def __init__(self, structure: Structure, bay: BayConfig) -> None:
         self._cells, self._bay = structure.cells, bay
         self._known: dict[tuple[StallRun, bool, int, bytes], int] = {}
 
     def of(self, depths_mm: Sides, widths_mm: Sides, run: StallRun, *, is_backed: bool) -> int:
-        """Count the stalls of a run, whose squares another run shares if it is backed.
+        """Count the stalls of a run; if it is backed, another run shares its squares.
 
         Parameters
         ----------
@@ -191,7 +191,7 @@ _FOR_MOTORCYCLES: _Option = StallKind.PERPENDICULAR, SizeClass.MOTORCYCLE
 
 
 class _Draw:
-    """The kinds of the runs of one garage, by the shares of the stalls that they have so far."""
+    """Draw of the kinds of all runs of a garage, which tracks the shares of stalls of each kind."""
 
     def __init__(self, plan: Plan, config: GarageConfig, counts: _Counts) -> None:
         structure = plan.structure
@@ -203,7 +203,7 @@ class _Draw:
         bare = [] if config.stalls.only_runs else _bare_runs(plan, config.bay, self._given)
         bare, for_motorcycles = self._without_motorcycles(structure, bare, rng)
         mixed = [bare[index] for index in rng.permutation(len(bare)).tolist()]
-        # the longest first, so that the short ones even out what is left of the shares
+        # the longest runs first, so that short ones even out the rest of the shares
         mixed.sort(key=lambda run: -len(run.squares))
         self._options = [self._options_of(run, angles_deg[int(rng.integers(len(angles_deg)))]) for run in mixed]
         self._options += [{_FOR_MOTORCYCLES: run} for run in for_motorcycles]
@@ -217,7 +217,7 @@ class _Draw:
         return [*self._given, *drawn]
 
     def even_out(self, structure: Structure) -> None:
-        """Change the options of runs, one at a time, while that brings the shares nearer, on squares of final sides."""
+        """Change the options of single runs while the shares come closer to the requested ones; sizes stay."""
         counts = [{option: self._count(structure, run) for option, run in options.items()} for options in self._options]
         stalls = Counter[_Option]()
         for own, option in zip(counts, self._chosen, strict=True):
@@ -359,7 +359,7 @@ class _Fitting:
         self._least_mm = [
             np.where(has_door, round(bay.portal_side_m * _MM_PER_M), 0) for has_door in lines_with_doors(structure)
         ]
-        # behind a door, a gate and a car that waits before it find room
+        # room behind a door for a gate and a car that waits before it
         portals = (structure.cells == Cell.ENTRANCE) | (structure.cells == Cell.EXIT)
         for axis, least_mm in enumerate(self._least_mm):
             has_portal = portals.any(axis=1 - axis)
@@ -416,7 +416,7 @@ class _Fitting:
             for run in (self._runs[number] for number in self._of_line[axis, line])
             if run.edge.along_x != (axis == 0) and SizeClass(run.shape.size).takes_cars
         }
-        # parallel stalls alone would ask for spans that no other row needs
+        # ignore parallel stalls beside other kinds: they would require spans that no other row needs
         spanned = {shape for shape in shapes if shape.kind is not StallKind.PARALLEL} or shapes
         for shape in spanned:
             lost_m = self._bay.row_ends_m + shape.slope * half_column_m

@@ -176,7 +176,7 @@ class Profile(Settings):
     @model_validator(mode="before")
     @classmethod
     def _with_base(cls, given: Any) -> Any:  # noqa: ANN401 - pydantic's own signature
-        """Add the clauses of the profile that this one is based on, and forget that name."""
+        """Add the clauses of the profile that this one is based on."""
         base = given.get("based_on") if isinstance(given, dict) else None
         return {**shipped_settings(base), **given, "based_on": None} if base in PROFILE_NAMES else given
 

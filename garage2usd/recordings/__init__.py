@@ -59,14 +59,14 @@ class Recorded:
 
 
 def _rig(rig: str | Path | Rig, scale: float, announce: Announce) -> Rig:
-    """Read a rig, and say what of its car's model is not taken."""
+    """Read a rig, and report the unused parts of its car's model."""
     chosen = rig if isinstance(rig, Rig) else read_rig(rig)
     for line in chosen.remarks:
         announce(line)
     return chosen.scaled(scale)
 
 
-def record(  # noqa: PLR0915 - the road of a recording, step by step
+def record(  # noqa: PLR0915 - all steps of a recording, in order
     stage: str | Path,
     output: str | Path,
     *,
@@ -157,10 +157,10 @@ def record(  # noqa: PLR0915 - the road of a recording, step by step
     scene = Scene(opened, read_labels(opened, path), way, chosen, birds_eye)
     progress("drive", 1, 1)
     if slots is not None:
-        read_slots(opened)  # raises here, and not when all is drawn, where there are none
+        read_slots(opened)  # raises before the work if there are no slots
     sweeps = None
     if formats or asked:
-        from garage2usd.recordings.sweeps import Sweeps  # noqa: PLC0415 - of an extra, which pictures do without
+        from garage2usd.recordings.sweeps import Sweeps  # noqa: PLC0415 - pictures do not need its extra
 
         sweeps = Sweeps(opened, scene.labels, way, chosen, formats, seed)
     needed = {*(() if slots is None and birds_eye is None else NEEDED), *scene.needed(kinds)}

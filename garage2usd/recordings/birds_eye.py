@@ -144,7 +144,7 @@ def ego_triangles_m(car: CarBody) -> NDArray[np.float64]:
             corners = [part.face_indices[large + corner] for corner in (0, step, step + 1)]
             fans.append(np.stack([part.points[corner] for corner in corners], axis=1))
     points = np.concatenate(fans).astype(np.float64) - (0.0, 0.0, car.rear_axle_m)
-    turned: NDArray[np.float64] = points @ CAR_FROM_VEHICLE[:3, :3]  # rows, so that it leads to the vehicle's axes
+    turned: NDArray[np.float64] = points @ CAR_FROM_VEHICLE[:3, :3]  # for row vectors: to the vehicle's axes
     return turned
 
 

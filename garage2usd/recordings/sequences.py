@@ -75,7 +75,7 @@ def write_sequence(kind: Sequence, recording: Recording, folder: Path, sweeps: "
     place = folder / kind
     shutil.rmtree(place, ignore_errors=True)
     if kind is Sequence.NUSCENES:
-        from garage2usd.sensors.formats.nuscenes import write_nuscenes  # noqa: PLC0415 - of an extra, which pictures do without
+        from garage2usd.sensors.formats.nuscenes import write_nuscenes  # noqa: PLC0415 - pictures do not need its extra
 
         place.mkdir(parents=True)
         write_nuscenes(recording, place, stage=sweeps.stage, labels=sweeps.labels, scene=sweeps.solids)

@@ -160,7 +160,7 @@ class Way:
         return [np.insert(shapely.get_coordinates(ground), 1, level.place.floor_m, axis=1) for ground in grounds]
 
     def unseen_from_above(self, pose: VehiclePose, labels: Labels) -> list[int]:
-        """Return the ids of the objects of other levels, but for the ramps that lead down from the vehicle's own."""
+        """Return the ids of the objects of other levels, except the ramps that lead down from the vehicle's level."""
         own, levels = self.level_at(pose), self.garage.levels
         shown = paths_from_above([level.place for level in levels], levels.index(own))
         others = tuple(f"{level.place.path}/" for level in levels if level is not own)

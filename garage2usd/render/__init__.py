@@ -78,7 +78,7 @@ def render_stage(
     stage
         A stage of garage2usd or another one with perspective cameras.
     output
-        Folder that the data set goes to; files of the same names are replaced.
+        Folder of the data set; files of the same names are replaced.
     cameras, frames
         As for `garage2usd.render.cameras.find_views`; without both only the cameras that stand still, if there are any.
     at_m, look_at_m
@@ -93,32 +93,32 @@ def render_stage(
     pictures
         The kinds of pictures to render.
     slots
-        Formats in which the slots of each frame are told beside ``slots.json``; None for no slots. They are told from
-        the depth and the instances.
+        Formats of parking slots to write beside ``slots.json``; None for no slots. Slots are derived from depth and
+        instances.
     device
-        What draws the colour. Pictures of a GPU are not those of the processor byte by byte; all else always comes from
-        the processor.
+        Device that draws the colour. Colour drawn by a GPU differs in its bytes from that of the processor, which draws
+        all other pictures.
     blender
-        An installed Blender that draws, of version 5.0 or later; None for the Python module `bpy` or, without it, a
-        Blender on the path or where the system usually has it. Pictures differ from version to version.
+        An installed Blender of version 5.0 or later; None for the Python module `bpy` or, without it, a Blender on the
+        path or at its usual place. Pictures differ between versions.
     progress
-        Called with the number of samples that are done.
+        Called with the number of finished samples.
     announce
-        Called with what is drawn, and with how long a picture takes when the first one is drawn.
+        Called with a description of the pictures, and with the time per picture once the first one is drawn.
 
     Raises
     ------
     ConfigError
-        If a camera, a place, a frame or a size cannot be used, a format of slots cannot be told from what is drawn, or
-        there is no such device.
+        If a camera, a position, a frame or a size is invalid, a format of slots needs other pictures or views, or the
+        device does not exist.
     MissingExtraError
-        If no Blender is there, or what reads its pictures is not installed.
+        If Blender, or the package that reads its pictures, is not installed.
     OutputError
         If the files cannot be written. They appear whole or not at all.
     RenderError
         If Blender fails.
     StageError
-        If the stage or the table of labels beside it cannot be read, or has no slots where they are asked for.
+        If the stage or the table of labels beside it cannot be read, or has no slots although they are requested.
     """
     path, folder = Path(stage), Path(output)
     if not all(_LEAST_SIDE_PX <= side <= _GREATEST_SIDE_PX for side in size_px):
@@ -136,7 +136,7 @@ def render_stage(
     hidden = _hidden(opened, labels, views)
     if slots is not None:
         check_slots(slots, kinds, has_ground_view=any(isinstance(view.lens, Orthographic) for view in views))
-        read_slots(opened)  # raises here, and not when all is drawn, where there are none
+        read_slots(opened)  # raises before the work if there are no slots
     drawn_on = find_device(device, has_rays=False, blender=drawn_by)
     with staging_folder(folder) as staging:
         finished = staging / "finished"

@@ -42,7 +42,7 @@ _WHOLE_PX = 2048
 
 def main() -> None:
     """Render the job named on the command line."""
-    if sys.platform == "linux":  # whoever waits for the pictures may be killed
+    if sys.platform == "linux":  # end with the parent process, even if that is killed
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     job = json.loads(Path(sys.argv[-1]).read_text(encoding="utf-8"))
     report = _Reporter(Path(job["report"]))
@@ -66,7 +66,7 @@ def main() -> None:
     if data:
         _set_up_data(scene, [each.item for each in drawn])
         for frame in data:
-            # where rays start at several cameras, depth tells nothing
+            # with rays from several cameras depth is ambiguous, so positions are needed
             scene.view_layers[0].use_pass_position = "eyes" in frame["lens"]
             aim(scene, frame, to_blender)
             _move(moving, frame["moved"], to_blender)
@@ -152,7 +152,7 @@ def _build(job: dict[str, Any], to_blender: Matrix) -> tuple[bpy.types.Scene, li
     )
     scene = bpy.context.scene
     name = job["property"]
-    # Blender keeps the properties of a prim that is drawn with its data
+    # Blender stores a prim's properties with the data of its object
     shapes = {item.data[name]: item for item in bpy.data.objects if item.data and name in item.data}
     for item in list(scene.collection.all_objects):
         for collection in item.users_collection:
@@ -179,7 +179,7 @@ def _build(job: dict[str, Any], to_blender: Matrix) -> tuple[bpy.types.Scene, li
 
 def _cut(item: bpy.types.Object, to_world: Matrix, height_m: float) -> bpy.types.Object:
     """Cut an object at a height, keep the part below and close the cut."""
-    import bmesh  # noqa: PLC0415 - which bpy brings into reach
+    import bmesh  # noqa: PLC0415 - available once bpy is imported
 
     below = item.copy()
     below.data = item.data.copy()
@@ -270,7 +270,7 @@ def _look_along_rays(camera: bpy.types.Camera, lens: dict[str, Any], width: int,
     )
     text = bpy.data.texts.new("rays.osl")
     text.write(head + _RAYS.read_text(encoding="utf-8"))
-    osl = importlib.import_module("cycles.osl")  # which bpy brings into reach
+    osl = importlib.import_module("cycles.osl")  # available once bpy is imported
     said: list[str] = []
     is_compiled, _, bytecode, digest = osl.update_internal_script(lambda _kind, message: said.append(message), text)
     if not is_compiled:
@@ -296,7 +296,7 @@ def _hide(drawn: list[_Drawn], frame: dict[str, Any], *, is_dark: bool) -> None:
     for item, number, hangs, is_for_above in drawn:
         is_hidden = is_dark if item.type == "LIGHT" else number in looked_through
         is_hidden |= is_for_above not in {None, from_above}
-        if item.hide_render != is_hidden:  # Blender reads the scene anew, even where it stays the same
+        if item.hide_render != is_hidden:  # an assignment makes Blender read the scene again, even without a change
             item.hide_render = is_hidden
         is_seen = not (hangs and from_above) and number not in unseen
         if item.visible_camera != is_seen:
@@ -352,7 +352,7 @@ def _set_up_data(scene: bpy.types.Scene, objects: list[bpy.types.Object]) -> Non
     _set_up(scene, samples=1, seed=0)
     scene.cycles.use_denoising = False
     scene.cycles.max_bounces = 0
-    scene.cycles.pixel_filter_type = "BLACKMAN_HARRIS"  # the box has a width of its own
+    scene.cycles.pixel_filter_type = "BLACKMAN_HARRIS"  # the box filter ignores `filter_width`
     scene.cycles.filter_width = _POINT_FILTER_PX
     layer = scene.view_layers[0]
     layer.use_pass_combined = True

@@ -22,7 +22,7 @@ def main() -> None:
 def _names(preferences: bpy.types.AddonPreferences, kind: str) -> list[str]:
     try:
         devices = preferences.get_devices_for_type(kind)
-    except ValueError:  # Blender was made without it
+    except ValueError:  # Blender was built without this kind of device
         return []
     return [device.name for device in devices or [] if device.type == kind]
 

@@ -251,7 +251,7 @@ def _view(camera: UsdGeom.Camera, path: str, name: str, frame: float | None, siz
     seen = camera.GetCamera(time)
     width = seen.horizontalAperture
     lens = Lens(
-        # tenths of a unit, of which only the ratio counts
+        # in tenths of a unit; only the ratio of the two matters
         seen.focalLength * metres * _MM_PER_TENTH,
         width * metres * _MM_PER_TENTH,
         (seen.horizontalApertureOffset / width, seen.verticalApertureOffset / width),

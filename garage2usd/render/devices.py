@@ -113,7 +113,7 @@ def _devices(blender: Blender = BLENDER_MODULE) -> dict[str, list[str]]:
     except subprocess.TimeoutExpired:
         raise RenderError(1, "Cycles does not say which devices there are") from None
     lines = [line for line in asked.stdout.splitlines() if line.strip()]
-    # an installed program says goodbye after it
+    # an installed Blender prints a farewell after the answer
     told = [line for line in lines if line.startswith("{")]
     if asked.returncode != 0 or not told:
         raise RenderError(asked.returncode, " | ".join([*lines, *asked.stderr.splitlines()][-3:]))

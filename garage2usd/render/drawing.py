@@ -169,7 +169,7 @@ class Drawing:
 
     def take_colour(self, view: View, drawn: Path) -> None:
         """Store a rendered colour picture, or the picture that the view's camera develops from the light."""
-        if view.shows_motion:  # which is seen only with the depth, which Blender draws last
+        if view.shows_motion:  # motion blur needs the depth, which Blender draws last
             with _whole(self._light_path(view)) as part:
                 shutil.copyfile(drawn, part)
             return
@@ -183,7 +183,7 @@ class Drawing:
     def take_data(self, view: View, drawn: Sequence[Path]) -> None:
         """Store Blender's depth, normals and ids as pictures; the list of visible objects marks completion."""
         surfaces = read_surfaces(drawn, self._axes.T, view.starts_m())
-        if isinstance(view.lens, Pinhole):  # whose rays Blender measures along
+        if isinstance(view.lens, Pinhole):  # Blender measures depth along the axis of a pinhole
             along = view.lens.rays(view.lens.middles())[:, 2].reshape(surfaces.depth_m.shape)
             surfaces = replace(surfaces, depth_m=(surfaces.depth_m * along).astype(np.float32))
         for kind in self.kinds:
@@ -330,7 +330,7 @@ class Drawing:
         views = "1 view" if len(self.views) == 1 else f"{len(self.views)} views"
         words = f"{views}, {' and '.join(told)} pixels{finished}: {kinds}"
         if self.device.kind != CPU.kind and self._has_colour:
-            return words  # as GPUs differ too much
+            return words  # GPUs differ too much for an estimate
         seconds = drawing_s(
             [job["size_px"] for job in jobs if job["colour"]],
             [job["size_px"] for job in jobs if job["data"]],

@@ -222,5 +222,5 @@ def _over_the_ground(shape: Triangles, place: NDArray[np.float64], floor: Driven
     is_underside = (normals[:, 1] < _LOOKS_DOWN * lengths) & is_high[shape.indices].all(axis=1)
     if not is_underside.any():
         return False, np.nan
-    # the underside itself goes too
+    # the underside itself is removed too
     return False, float(points[shape.indices[is_underside], 1].min()) - _ROUNDING_M

@@ -1,1 +1,1 @@
-"""What files of USD and of glTF draw: objects as triangles with surfaces."""
+"""Content of USD and glTF files: objects as triangles with surfaces."""

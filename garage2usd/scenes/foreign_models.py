@@ -56,7 +56,7 @@ class ForeignPart:
     double_sided
         True if the back is visible.
     is_z_up
-        Whether Z is up in the file.
+        True if Z is up in the file.
     """
 
     name: str
@@ -76,7 +76,7 @@ class ForeignModel(NamedTuple):
     parts
         Its meshes.
     remarks
-        A line for each kind of part or property that is not taken, or not as it is.
+        Lines on the parts and properties that are ignored or changed, one for each kind.
     """
 
     parts: tuple[ForeignPart, ...]
@@ -109,7 +109,7 @@ def model_digest(path: Path, *, field: str) -> str:
                 layers, assets, missing = UsdUtils.ComputeAllDependencies(str(path))
             except (Tf.ErrorException, UnicodeDecodeError):
                 raise ConfigError(field, str(path), "a file of USD that can be read") from None
-        # other files that are missing count where they are read
+        # other missing files count only when they are read
         missing = [name for name in missing if Path(name).suffix.lower().startswith(".usd")]
         if missing:
             raise ConfigError(field, f"{path} without {min(missing)}", "a model whose references lead to files")
@@ -149,7 +149,7 @@ def read_model(path: Path, *, field: str) -> ForeignModel:
         plain: dict[tuple[SurfaceLook, str], tuple[PlainSurface, Layout | None]] = {}
         parts: list[ForeignPart] = []
         for each in drawn:
-            key = each.look, each.look.name  # looks of other names are equal
+            key = each.look, each.look.name  # looks that differ in name only compare equal
             if key not in plain:
                 plain[key] = plain_surface_of(each.look, pictures, remarks)
             parts += _parts(each, *plain[key], remarks)
@@ -162,7 +162,7 @@ def read_model(path: Path, *, field: str) -> ForeignModel:
 
 @contextmanager
 def _whole(path: Path, field: str) -> Iterator[None]:
-    """Context in which whatever the tables of a file of others hold ends in one error."""
+    """Context that converts any failure on an invalid file to one error."""
     try:
         yield
     except StageError as error:
@@ -231,7 +231,7 @@ def _of_usd(path: Path, field: str, remarks: Remarks, pictures: Pictures) -> Ite
 
 
 def _root(stage: Usd.Stage, remarks: Remarks) -> Usd.Prim | None:
-    """Return the prim at the root that holds the default prim, beside which there may be a ground or a studio."""
+    """Return the root prim that holds the default prim; other root prims may be a ground or a studio."""
     default = stage.GetDefaultPrim()
     if not default:
         return None
@@ -258,7 +258,7 @@ def _check(mesh: UsdGeom.Mesh, path: Path, field: str, remarks: Remarks) -> None
 
 
 def _parts(drawn: _Drawn, surface: PlainSurface, layout: Layout | None, remarks: Remarks) -> Iterator[ForeignPart]:
-    """Convert triangles to parts, one for each colour where there is one at each point."""
+    """Convert triangles to parts; triangles with vertex colours become one part for each colour."""
     mesh = drawn.triangles
     corners = mesh.indices
     st = np.zeros((len(corners), 3, 2))

@@ -1,4 +1,4 @@
-"""Files of glTF 2.0 from unknown sources: tables, numbers and pictures, also of files beside them and compressed."""
+"""Reading of glTF 2.0 files from unknown sources: tables, numbers and pictures, also external and compressed ones."""
 # Over 300 lines: each check of the tables stands where what it guards is read.
 
 import base64
@@ -60,7 +60,7 @@ class GltfFile:
     field
         Name of the setting, for errors.
     max_bytes
-        Greatest size of it, and of each file beside it.
+        Greatest size of the file, and of each file beside it.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class GltfFile:
     ------
     ConfigError
         If the file is not glTF 2, is truncated, requires an extension that is not read, or has nodes that hold each
-        other; and where a missing file is read, as many of them are never needed.
+        other. A missing external file is an error only when it is read.
     """
 
     def __init__(self, path: Path, *, field: str, max_bytes: int) -> None:
@@ -226,7 +226,7 @@ class GltfFile:
                 )
 
     def _check_nodes(self) -> None:
-        """Refuse nodes that hold each other, or that several nodes hold."""
+        """Refuse nodes with cycles, or with several parents."""
         nodes = self.table("nodes")
         parents: dict[int, int] = {}
         for number, node in enumerate(nodes):
@@ -293,7 +293,7 @@ def _is_beside(uri: str) -> bool:
 
 
 def _shares(values: NDArray[Any], *, is_normalized: bool) -> NDArray[Any]:
-    """Return integers that stand for shares as these (glTF 2.0, 3.6.2.2), and all other numbers unchanged."""
+    """Convert normalized integers to shares (glTF 2.0, 3.6.2.2); return all other numbers unchanged."""
     if not is_normalized or values.dtype.kind not in "iu":
         return values
     shares: NDArray[np.float32] = values.astype(np.float32) / np.float32(np.iinfo(values.dtype).max)

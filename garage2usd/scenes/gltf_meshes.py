@@ -48,7 +48,7 @@ class GltfMeshes:
     file
         The file.
     remarks
-        Receives remarks on what is left out.
+        Receives remarks on omitted parts.
     """
 
     def __init__(self, file: GltfFile, remarks: Remarks) -> None:
@@ -73,7 +73,7 @@ class GltfMeshes:
         double_sided
             True if the back is visible.
         """
-        # skins and morphs differ between nodes; the file's document stays, and with it the ids of its parts
+        # skins and morphs differ between nodes; ids are stable, as the document of the file is kept
         key = id(mesh.primitive) if mesh.matrix is not None and "weights" not in mesh.node else None
         if key in self._read:
             return self._read[key]
@@ -190,7 +190,7 @@ class GltfMeshes:
         if mode == _TRIANGLES:
             return row[: len(row) // 3 * 3].reshape(-1, 3)
         number = np.arange(max(len(row) - 2, 0))
-        if mode == _STRIP:  # every other triangle is turned
+        if mode == _STRIP:  # every other triangle has the opposite winding
             order = [number, number + 1 + number % 2, number + 2 - number % 2]
         elif mode == _FAN:
             order = [number + 1, number + 2, np.zeros_like(number)]
@@ -212,23 +212,23 @@ class GltfMeshes:
             if f"JOINTS_{group}" in attributes:
                 weights = attributes[f"WEIGHTS_{group}"].astype(np.float64)
                 total += (weights[..., None, None] * poses[attributes[f"JOINTS_{group}"].astype(np.int64)]).sum(axis=1)
-        sums = total[:, 3, 3]  # weights that add up to 1 but for rounding
+        sums = total[:, 3, 3]  # weights that add up to 1, except for rounding
         total[sums <= 0], sums[sums <= 0] = np.eye(4), 1.0
         return np.asarray(total / sums[:, None, None])
 
     def _above(self, number: int) -> Iterator[int]:
-        """Yield the nodes that hold a node, from its parent upwards."""
+        """Yield the ancestors of a node, from its parent upwards."""
         while number in self._parents:
             number = self._parents[number]
             yield number
 
     @cached_property
     def _parents(self) -> Mapping[int, int]:
-        """Node that holds each node that is held."""
+        """Parent of each node that has one."""
         return {child: number for number, node in enumerate(self._nodes) for child in node.get("children", ())}
 
     def _counts_alpha(self, mesh: GltfMesh) -> bool:
-        """Return True if the material of a primitive lets its opacity count."""
+        """Return True if the opacity of a primitive has an effect in its material."""
         material = mesh.primitive.get("material")
         return material is not None and self._file.entry("materials", material).get("alphaMode", "OPAQUE") != "OPAQUE"
 

@@ -35,7 +35,7 @@ class GltfSurfaces:
     pictures
         Receives the pictures of the textures.
     remarks
-        Receives remarks on what is left out.
+        Receives remarks on omitted properties.
     """
 
     def __init__(self, file: GltfFile, pictures: Pictures, remarks: Remarks) -> None:
@@ -72,7 +72,7 @@ class GltfSurfaces:
         return SurfaceLook(**values, name=str(material.get("name", ""))), bool(material.get("doubleSided"))
 
     def _reflection(self, material: Mapping[str, Any], title: str) -> dict[str, Any]:
-        """Return colour, roughness and metallic, or the specular colour in the place of the latter."""
+        """Return colour, roughness, and metallic or, instead, the specular colour."""
         glossy = material.get("extensions", {}).get("KHR_materials_pbrSpecularGlossiness")
         if glossy is not None:
             return self._glossy(glossy, title)

@@ -150,7 +150,7 @@ class MeshLooks:
 
     def _mesh(self, prim: Usd.Prim, key: Hashable, look: SurfaceLook, faces: NDArray[np.intp] | None) -> int | None:
         """Return the number of the triangles of some faces; None without triangles."""
-        # prims made of the same opinions are the same
+        # prims with the same opinions have the same triangles
         if key not in self._triangles_of:
             self._triangles_of[key] = triangles_of(prim, sets=look.sets, colour_name=look.colour_name)
             self._remark_coordinates(prim, look, self._triangles_of[key])
@@ -168,7 +168,7 @@ class MeshLooks:
                 self.remarks.add(f"textures show one pixel without the coordinates {own.name}", prim.GetPath())
 
     def _remark_bindings(self, prim: Usd.Prim) -> None:
-        """Add a remark where a prim is bound to a material that is not there."""
+        """Add a remark for a prim that is bound to a missing material."""
         stage = prim.GetStage()
         while prim and not prim.IsPseudoRoot():
             for target in UsdShade.MaterialBindingAPI(prim).GetDirectBindingRel().GetTargets():

@@ -240,7 +240,7 @@ def _at_corners(
     """Return the values of a primvar at each triangle corner; None if their type or number does not fit."""
     try:
         found = np.asarray(values, dtype=np.float32).reshape(-1, width)
-    except (TypeError, ValueError):  # for no values too
+    except (TypeError, ValueError):  # also without values
         return None
     tokens = UsdGeom.Tokens
     if interpolation == tokens.faceVarying and len(found) == len(corners):

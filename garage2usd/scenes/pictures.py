@@ -88,13 +88,13 @@ class Pictures:
         self._pixels: dict[str, _Pixels] = {}
 
     def give(self, file: str, data: bytes) -> None:
-        """Take the bytes of a picture that no file of its own holds, under a name of one's choice."""
+        """Add a picture by its bytes under a given name."""
         self._data[file] = data
         for known in (self._faults, self._pixels):
             known.pop(file, None)
 
     def give_values(self, file: str, values: NDArray[np.float64], *, is_srgb: bool = False) -> None:
-        """Take linear values as a picture of bytes, shape (rows, columns) or (rows, columns, 3)."""
+        """Add a picture of bytes by its linear values, shape (rows, columns) or (rows, columns, 3)."""
         buffer = io.BytesIO()
         Image.fromarray(_stored(values, is_srgb=is_srgb)).save(buffer, format="PNG")
         self.give(file, buffer.getvalue())
@@ -210,7 +210,7 @@ class Pictures:
         is_srgb
             True to store red, green and blue as sRGB.
         largest_px
-            Pixels of the longer side to which a composed picture is reduced; a file that is taken as it is is not.
+            Greatest length of the longer side of a composed picture in pixels; original files are not reduced.
         """
         given = [band for band in bands if isinstance(band, Band)]
         package, packed = Ar.SplitPackageRelativePathInner(given[0].file)
@@ -308,7 +308,7 @@ def _of_openexr(data: bytes) -> _Pixels:
 
     import OpenEXR  # noqa: PLC0415 - of an extra
 
-    with TemporaryDirectory() as folder:  # it reads files alone, and on Windows none that is open
+    with TemporaryDirectory() as folder:  # OpenEXR reads files only, and on Windows none that is open
         file = Path(folder, "picture.exr")
         file.write_bytes(data)
         with OpenEXR.File(str(file), separate_channels=True) as picture:

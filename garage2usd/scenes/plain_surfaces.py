@@ -1,4 +1,4 @@
-"""Surfaces reduced to three pictures that lie alike: colour with opacity, finish, and normals."""
+"""Surfaces reduced to three pictures with equal coordinates: colour with opacity, finish, and normals."""
 # Over 300 lines: the reading of materials, and their pictures as formats for files take them.
 
 import io
@@ -131,7 +131,7 @@ class PlainSurface:
 
 
 def plain_surface_of(look: SurfaceLook, pictures: Pictures, remarks: Remarks) -> tuple[PlainSurface, Layout | None]:
-    """Reduce a surface to three pictures; return the layout of all of them too, None without pictures.
+    """Reduce a surface to three pictures; also return the layout that they share, None without pictures.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ def plain_surface_of(look: SurfaceLook, pictures: Pictures, remarks: Remarks) ->
     pictures
         Its pictures.
     remarks
-        Receives remarks on what is left out or carried as a mean.
+        Receives remarks on properties that are omitted or replaced by a mean.
     """
     return _Reduction(_metallic(look, pictures, remarks), pictures, remarks).result()
 
@@ -192,7 +192,7 @@ class _Reduction:
         return surface, layout
 
     def _coloured(self) -> tuple[Rgb, float, Bands]:
-        """Return the colour or the picture's tint, the opacity, and the bands of the picture if there is one."""
+        """Return the colour or the tint of the picture, the opacity, and the bands of the picture, if any."""
         look, colour = self._look, self._alike(self._look.colour_texture)
         tint, bands = list(look.colour_rgb), Bands()
         if colour:
@@ -219,7 +219,7 @@ class _Reduction:
         return Band(file, 0)
 
     def _alike(self, texture: Texture | None) -> Texture | None:
-        """Return a texture if it lies as the first one does."""
+        """Return a texture if its layout is that of the first one."""
         return texture if texture and texture.layout == self._layout else None
 
     def _number(self, name: str) -> Band | float:
@@ -228,7 +228,7 @@ class _Reduction:
         return texture.band() if texture else self._mean(name)
 
     def _mean(self, name: str) -> float:
-        """Return a number, the mean of its texture if that cannot be carried."""
+        """Return a number, or the mean of its texture if the texture cannot be kept."""
         texture: Texture | None = getattr(self._look, f"{name}_texture")
         value = float(getattr(self._look, name))
         if texture is None:
@@ -242,7 +242,7 @@ class _Reduction:
         return self._fitted(made.data, has_alpha=len(bands) > len(_WHITE))
 
     def _fitted(self, data: bytes, *, has_alpha: bool) -> PlainPicture:
-        """Reduce a picture to what every reader of USD supports."""
+        """Reduce a picture to a form that every reader of USD supports."""
         with Image.open(io.BytesIO(data)) as picture:
             picture.load()
             suffix = _KEPT_SUFFIXES.get(picture.format or "", "")

@@ -255,7 +255,7 @@ class PlacedObject:
 
 def once_for_each_look(read: Callable[[PlacedObject], _Read]) -> Callable[[PlacedObject], _Read]:
     """Cache a function of an object by the object's parts: all objects that share their parts get one result."""
-    known: dict[int, tuple[Sequence[DrawnPart], _Read]] = {}  # the parts are held, so that none takes another's id
+    known: dict[int, tuple[Sequence[DrawnPart], _Read]] = {}  # holds the parts, so that their id is not reused
 
     def remembered(placed: PlacedObject) -> _Read:
         if id(placed.parts) not in known:

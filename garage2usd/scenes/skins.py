@@ -9,7 +9,7 @@ from garage2usd.scenes.values import READ_AT
 def pose_skins(stage: Usd.Stage) -> None:
     """Author the points of skinned meshes, in the rest pose of their skeletons, in the stage's session layer.
 
-    Instances that hold such meshes are resolved first, as what is below an instance cannot be authored.
+    Instances that hold such meshes are resolved first, as prims below an instance cannot be authored.
     """
     stage.SetEditTarget(stage.GetSessionLayer())
     cache = UsdSkel.Cache()
@@ -27,7 +27,7 @@ def pose_skins(stage: Usd.Stage) -> None:
 
 
 def _resting(skeleton: UsdSkel.SkeletonQuery) -> Vt.Matrix4dArray:
-    """Return the transforms of points from where each joint is bound to where it rests; empty if one is not given."""
+    """Return the transforms of points from the bind pose of each joint to its rest pose; empty if a pose is missing."""
     resting = skeleton.ComputeJointSkelTransforms(READ_AT, atRest=True)
     world = skeleton.GetSkeleton().GetBindTransformsAttr().Get()
     if not resting or not world or len(resting) != len(world):

@@ -289,5 +289,5 @@ def _vector(node: UsdShade.Shader, name: str, otherwise: tuple[float, ...]) -> t
     source = source_of(node, name)
     if source is None or source.shader is not None:
         return otherwise
-    given = len(numbers_of(source.attribute, np.float64))  # fewer than its schema asks for, as some programs write
+    given = len(numbers_of(source.attribute, np.float64))  # some programs write fewer numbers than the schema requires
     return vector_of(source.attribute, max(1, min(given, len(otherwise)))) + otherwise[given:]

@@ -51,7 +51,7 @@ def placed_objects(
     with_looks
         False to leave out the appearance that parts inherit, where shapes alone are of interest.
     within
-        A prim at the root of the stage, to find what is at and below it alone; all prims if left out.
+        A root prim, to search only this prim and those below it; all prims if left out.
 
     Raises
     ------
@@ -133,11 +133,11 @@ class _Walk:
 
     def visit(self, prim: Usd.Prim, above: _At) -> None:
         """Find objects at and below a prim; `above` is its parent."""
-        # nearly half of a garage's prims; UsdImaging looks for nothing to draw below them either
+        # materials are nearly half of a garage's prims, and UsdImaging does not draw below them either
         kind = self._types.of(prim)
         if kind.is_material:
             return
-        # nearly all prims say little of themselves, and what none says is costly to ask for
+        # most prims author few properties, and reading a property that is not authored is slow
         said = prim.GetAuthoredPropertyNames()
         if _VISIBILITY in said and not is_visible(prim):
             return
@@ -232,7 +232,7 @@ class _Walk:
         """Return the contents of a point instancer's prototype; its own transform is part of the points' transforms."""
         key = root, inherited
         if key not in self._prototypes:
-            self._prototypes[key] = _Prototype([], ())  # within itself it draws nothing
+            self._prototypes[key] = _Prototype([], ())  # stops the recursion if a prototype contains itself
             purpose = UsdGeom.Imageable(root).ComputePurpose() if is_imageable(root) else UsdGeom.Tokens.default_
             inside = _inside(str(purpose), inherited, is_held=True)
             if is_visible(root) and root.IsA(UsdGeom.PointInstancer):

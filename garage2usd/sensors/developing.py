@@ -215,7 +215,7 @@ def _with_chromatic_error(light: Floats, lens: Lens, effects: CameraEffects) -> 
     """Apply lateral chromatic aberration: red is magnified and blue reduced about the optical axis."""
     if not effects.chromatic_error:
         return light
-    from scipy.ndimage import map_coordinates  # noqa: PLC0415 - all who import this module would wait for it
+    from scipy.ndimage import map_coordinates  # noqa: PLC0415 - slow to import, and not always needed
 
     rows, columns = np.indices(light.shape[:2]) + 0.5
     across, down = lens.centre_px
@@ -235,7 +235,7 @@ def _with_glare(exposed: Floats, lens: Lens, effects: CameraEffects) -> Floats:
 
     width_px = effects.bloom_width * lens.size_px[0]
     glaring = exposed - beyond * effects.bloom
-    for share, wider in ((0.7, 1.0), (0.3, 4.0)):  # a core and a wide halo, as glass and dust scatter
+    for share, wider in ((0.7, 1.0), (0.3, 4.0)):  # a narrow core and a wide halo, as scattered by glass and dust
         glaring += (
             effects.bloom * share * gaussian_filter(beyond, (width_px * wider, width_px * wider, 0), mode="constant")
         )
@@ -256,7 +256,7 @@ def _toned(linear: Floats, effects: CameraEffects) -> Floats:
     if effects.headroom > 1:
         ratio = (effects.headroom - _KNEE) / (1 - _KNEE)
         bend = 2 * (ratio - 1)
-        for _ in range(_BISECTIONS):  # until the curve has no corner: bend = ratio * log(1 + bend)
+        for _ in range(_BISECTIONS):  # solve bend = ratio * log(1 + bend), so that the curve is smooth at the knee
             bend = ratio * np.log1p(bend)
         share = np.clip((value - _KNEE) / (effects.headroom - _KNEE), 0, 1)
         value = np.where(value > _KNEE, _KNEE + (1 - _KNEE) * np.log1p(bend * share) / np.log1p(bend), value)

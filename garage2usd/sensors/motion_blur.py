@@ -56,7 +56,7 @@ def exposed_in_motion(
     effects
         Effects, of which `exposure_s` and `readout_s` are used.
     """
-    from scipy.ndimage import map_coordinates  # noqa: PLC0415 - all who import this module would wait for it
+    from scipy.ndimage import map_coordinates  # noqa: PLC0415 - slow to import, and not always needed
 
     given = np.asarray(light, dtype=np.float64)
     if not effects.shows_motion:
@@ -95,7 +95,7 @@ class _Flow:
         points_m = rays * along[:, None]
         steady, growing = _parabola(points_m, lens, twist, reach_s)
         slow, _ = _parabola(points_m, lens, twist, _SHORT_S)
-        is_lost = ~np.isfinite(steady).all(axis=1)  # what leaves the field of the lens
+        is_lost = ~np.isfinite(steady).all(axis=1)  # points that leave the field of view
         steady[is_lost], growing[is_lost] = slow[is_lost], 0.0
         stands = ~moving.ravel() | ~np.isfinite(steady).all(axis=1)
         steady[stands], growing[stands] = 0.0, 0.0
@@ -122,11 +122,11 @@ class _Flow:
                 moved = (self._steady[at] + self._growing[at] * times) * times
                 off = place + moved - self._grid
                 off_px = np.maximum(np.abs(off.real), np.abs(off.imag))
-                # what is uncovered shows no part of the vehicle, and nothing from outside of the field
+                # uncovered ground shows no part of the vehicle, and nothing from outside the field of view
                 off_px[(off_px > _NEAR_PX) & (self._moving[at] != self._moving)] = _ELSEWHERE_PX
                 depth = self._depth[at]
                 fits, fitted = off_px <= _NEAR_PX, best_px <= _NEAR_PX
-                # of surfaces that come to the pixel the nearest, of places on it the one that comes closest
+                # take the nearest surface that reaches the pixel, and on it the point closest to the pixel
                 same = np.abs(depth - best_m) <= _SAME * depth
                 better = np.where(fits & fitted & ~same, depth < best_m, off_px < best_px)
                 for old, new in ((best, place), (best_px, off_px), (best_m, depth)):

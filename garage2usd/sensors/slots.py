@@ -206,7 +206,7 @@ def read_slots(stage: Usd.Stage) -> Slots:
         said = "; ".join(fault.message for fault in lanes.faults) or "its lane graph has no stalls"
         raise StageError(stage.GetRootLayer().realPath, f"no slots in it: {said}")
     to_metres = metres_y_up(stage)
-    turn = to_metres[:3, :3] / np.linalg.norm(to_metres[0, :3])  # for row vectors, from the stage's axes to Y up
+    turn = to_metres[:3, :3] / np.linalg.norm(to_metres[0, :3])  # for row vectors: from the stage's axes to Y up
     up = UsdGeom.GetStageUpAxis(stage)
     levels = levels_of(stage)
     slots = tuple(

@@ -33,7 +33,7 @@ _CEILING_TO_FLOOR_M = 0.25
 
 
 def make_roomy_site(config: GarageConfig) -> Structure:
-    """Make the site of a garage, of several levels the top one without ramps, and check its squares.
+    """Make the site of a garage, or of the top level without ramps, and check its squares.
 
     Raises
     ------
@@ -72,20 +72,21 @@ def _check_room(site: Structure, bay: BayConfig) -> None:
 
 
 class _Kind(NamedTuple):
-    """What a kind of ramps has.
+    """Functions of a kind of ramps.
 
     Attributes
     ----------
     places
-        Yields all places on a site.
+        Yields all places of the ramps on a site.
     room
-        Tells what room they need.
+        Describes the room that the ramps need.
     of_tape
-        Reads them from their tape, split at its commas.
+        Reads ramps from their tape, which is split at its commas.
     with_room
-        Returns a structure with sides long enough for them.
+        Returns a structure with sides long enough for the ramps.
     cost
-        Estimates what a place costs, in any unit; the places of the least cost are drawn from. None for all places.
+        Estimates the cost of a place, in any unit; ramps are drawn among the places of least cost. None to draw among
+        all places.
     """
 
     places: Callable[[Structure, GarageConfig], Iterator[Ramps]]
@@ -271,7 +272,7 @@ def make_street_site(config: GarageConfig) -> Structure:
 
 
 def check_levels(config: GarageConfig) -> None:
-    """Refuse settings that several levels do not go with.
+    """Refuse settings that cannot be combined with several levels.
 
     Raises
     ------

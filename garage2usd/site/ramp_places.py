@@ -57,7 +57,7 @@ def flight_of_tape(words: Sequence[str], *, keeps_left: bool) -> Flight:
 
 
 def flight_room(config: GarageConfig) -> str:
-    """Tell what room flights need."""
+    """Describe the room that straight ramps need."""
     return f"ramps of {least_run_m(config.building):.1f} m, two squares wide"
 
 
@@ -104,7 +104,7 @@ def _flights(
 def helix_places(site: Structure, config: GarageConfig) -> Iterator[Helix]:
     """Yield the helices at all free squares in all directions, of as few squares as their sides allow.
 
-    With `building.place` also those of more squares, or of its number of squares.
+    With `building.place`, also those of more squares, or only those of the given number of squares.
     """
     keeps_left = config.standard.drives_on_left
     are_chosen = config.bay.chosen_sides
@@ -129,7 +129,7 @@ def helix_places(site: Structure, config: GarageConfig) -> Iterator[Helix]:
 
 
 def helix_cost(site: Structure, helix: Helix) -> int:
-    """Estimate what a place costs: squares along the blocks whose free strip outwards is not a whole number of modules.
+    """Estimate the cost of a place: squares along the blocks whose strip outwards is not a whole number of modules.
 
     A module is a lane with stalls on both sides, three squares. Before the landings in a row, one module is best.
     """
@@ -164,7 +164,7 @@ def helix_of_tape(words: Sequence[str], *, keeps_left: bool) -> Helix:
 
 
 def helix_room(config: GarageConfig) -> str:
-    """Tell what room helices need."""
+    """Describe the room that helices need."""
     limit = _steepest_percent(config)
     return (
         f"two helices side by side, each of 3 x 3 squares or more with an inner radius of {LEAST_INNER_M:g} m and at "

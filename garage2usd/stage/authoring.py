@@ -220,7 +220,7 @@ def pose_text(x: float, y: float, z: float, yaw_deg: float) -> str:
     The order of the operations, and their values of 0, are those of the asset's root prim (`define_prototype`). Without
     an order, three.js ignores a rotateY.
     """
-    # ten digits are micrometres up to ten kilometres, and none is a point and a zero
+    # ten digits resolve micrometres up to ten kilometres; `g` drops trailing zeros
     move = f"float3 xformOp:translate = ({x:.10g},{y:.10g},{z:.10g})\n" if x or y or z else ""
     return f"{move}float3 xformOp:rotateXYZ = (0,{yaw_deg:.10g},0)\n" if yaw_deg else move
 

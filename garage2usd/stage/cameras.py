@@ -132,7 +132,7 @@ def bends(values: NDArray[np.float64]) -> list[int]:
 
 def _turns(yaws_deg: NDArray[np.float64]) -> list[int]:
     """Frames between which the camera turns steadily within `_UNSEEN_DEG`, by Douglas and Peucker (1973)."""
-    # frames so far apart that the distance from a line is the difference at a frame
+    # frames are spaced so far apart that the distance from a line equals the difference in yaw
     frames = np.arange(len(yaws_deg)) * _FRAMES_APART
     line = shapely.LineString(np.stack([frames, yaws_deg], axis=1)).simplify(_UNSEEN_DEG, preserve_topology=False)
     kept: list[int] = np.rint(shapely.get_coordinates(line)[:, 0] / _FRAMES_APART).astype(int).tolist()

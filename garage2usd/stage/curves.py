@@ -39,12 +39,12 @@ def author_curves(
     width_m: float,
     closed: bool = False,
 ) -> Sdf.PrimSpec:
-    """Straight lines from point to point.
+    """Author curves: straight lines from point to point.
 
     Parameters
     ----------
     layer, path
-        Where the prim that holds all curves is authored.
+        Layer and path of the prim that holds all curves.
     line_m
         The points (x, z) of all curves, one after the other; float64, shape (points, 2).
     counts

@@ -145,7 +145,7 @@ class InstanceWriter:
 
     def _header(self, kind: int, spec: int, *, is_taken: bool, is_parked: bool) -> str:
         prototype = self._prototypes[spec]
-        # motorbikes in stalls come and go with the cars, those that stand about stay
+        # the variant of cars also switches motorbikes in stalls, but not those of the clutter
         switch = SWITCHES.get("car" if is_parked else KINDS[kind].name)
         name = OCCUPIED_STALL if is_taken else switch.class_name if switch else None
         base = f"{self._classes}/{name}" if name else None

@@ -134,7 +134,7 @@ def define_prototype(
     path = Sdf.Path.absoluteRootPath.AppendChild(name)
     root = define(layer, path, "Xform", kind=ModelKind.Tokens.component, label=kind.label)
     root.SetInfo("assetInfo", {"name": pascal_case(kind.name)})
-    # instances author values alone: the order would be a fifth of the text of a garage
+    # instances author values only: the order of operations would be a fifth of the text of a garage
     for operator in _POSE:
         operation(root, operator, _TYPES.Float3, Gf.Vec3f(0, 0, 0))
     order_operations(root, _POSE)

@@ -71,7 +71,7 @@ def variant_texts(
     stalls
         Number of stalls.
     are_blocked
-        Whether misparked cars block stalls; without cars, none is blocked.
+        True if misparked cars block stalls; without cars, none is blocked.
     selected
         True to select the first variant of each. The first variants have no opinions, so that leaving the selection out
         gives the same objects; each selection slows the composition of every prim below, a fifth of the opening time of

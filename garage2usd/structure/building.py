@@ -59,12 +59,12 @@ class Ramps(ABC):
     @property
     @abstractmethod
     def tape(self) -> str:
-        """What draws these ramps again, in words joined by commas."""
+        """Tape of the ramps: words joined by commas, from which they are made again."""
 
     @property
     @abstractmethod
     def place(self) -> tuple[Square, Edge, Edge, int]:
-        """Square, way and direction aside by which `garage2usd.config.site.RampsPlace` gives them, and count."""
+        """Square, way, direction aside and count of `garage2usd.config.site.RampsPlace`."""
 
     @property
     @abstractmethod
@@ -113,12 +113,12 @@ class Flight(Ramps):
 
     @property
     def right(self) -> Edge:
-        """Direction across the ramps, to the right of somebody who looks up them."""
+        """Direction across the ramps, to the right when looking up the ramps."""
         return {Edge.DOWN: Edge.RIGHT, Edge.UP: Edge.LEFT, Edge.RIGHT: Edge.UP, Edge.LEFT: Edge.DOWN}[self.way]
 
     @property
     def aside(self) -> Edge:
-        """Direction from the ramp down to the ramp up, which is on the right of somebody who drives up it."""
+        """Direction from the ramp down to the ramp up, which is the side of traffic when driving up."""
         return self.right.opposite if self.keeps_left else self.right
 
     @cached_property

@@ -42,7 +42,7 @@ class CoilBlock:
 
     @property
     def squares(self) -> tuple[Square, ...]:
-        """(row, col) of its squares, round the turn from the head to the foot, then those inside."""
+        """(row, col) of the squares of the block, around the turn from head to foot, then the inner ones."""
         rim = [self._square(i, j) for i, j in self._rim()]
         inner = [self._square(i, j) for i in range(1, self.count - 1) for j in range(1, self.count - 1)]
         return (*(rim if self.head_is_first else [rim[0], *rim[:0:-1]]), *inner)
@@ -64,7 +64,7 @@ class CoilBlock:
         return CoilLine.within((along[0], across[0]), (sum(along), sum(across)), width_m=LANE_M, beside_m=beside_m)
 
     def lines(self, way: Edge) -> list[int]:
-        """Numbers of the rows or columns that it takes along a direction, from the corner square on."""
+        """Numbers of the rows or columns of the block along a direction, from the corner square on."""
         axis = 0 if way.along_x else 1
         step = way.beyond((0, 0))[axis]
         return [self.corner[axis] + step * number for number in range(self.count)]
@@ -145,7 +145,7 @@ class Helix(Ramps):
         return f"helices from {list(self.corner)}, one down and one up to its {self.aside.name.lower()}, {squares}"
 
     def _block(self, corner: Square, aside: Edge, *, is_down: bool) -> CoilBlock:
-        # where both landings are in one row, cars that come in turn from `way` towards `aside`
+        # if both landings are in one row, incoming cars turn from `way` towards `aside`
         turns_left_by_first = _LEFT_OF[self.way] is aside
         enters_by_first = turns_left_by_first is not self.keeps_left
         return CoilBlock(corner, self.way, aside, self.count, head_is_first=enters_by_first is is_down)

@@ -173,7 +173,7 @@ class _Packing:
         if starts and all(high <= least or low >= starts[-1] for low, high in taken):
             room = min([most, *(low for low, _ in taken if low >= starts[-1])]) - starts[-1]
             starts = [start + room // 2 for start in starts]
-        # twice the middle, so that it is a whole number
+        # from the middle; doubled, so that it is a whole number
         return tuple((2 * start - left - right) / (2 * _MM_PER_M) for start in starts)
 
     def _reach_mm(self, number: int) -> tuple[int, int]:

@@ -95,7 +95,7 @@ def levels_digest(levels: Sequence[CellArray]) -> str:
     """
     if len(levels) == 1:
         return plan_digest(levels[0])
-    # cropped alike: levels of one contour are framed by the squares that are inside on any of them
+    # crop all levels alike, to the squares that are inside on any level
     inside = np.max(np.stack(levels), axis=0)
     rows, cols = (np.flatnonzero((inside != Cell.OBSTACLE).any(axis=axis)) for axis in (1, 0))
     framed = [level[rows[0] : rows[-1] + 1, cols[0] : cols[-1] + 1] for level in levels] if rows.size else list(levels)

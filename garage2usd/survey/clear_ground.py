@@ -33,7 +33,7 @@ _JUNCTION = 3
 
 
 def with_clear_widths(network: LaneGraph, standing: shapely.Geometry) -> LaneGraph:
-    """Return a lane graph whose lanes are as wide as the ground between what stands beside them.
+    """Return a lane graph whose lanes are as wide as the clear ground between walls, columns and stalls.
 
     Parameters
     ----------
@@ -44,8 +44,8 @@ def with_clear_widths(network: LaneGraph, standing: shapely.Geometry) -> LaneGra
 
     Notes
     -----
-    The width is twice the distance of a stretch from what stands nearest beside it. The given width stays where that is
-    over twelve metres, on open ground, and where it is less than two, as centre lines of maps may cross stalls.
+    The width of a stretch is twice its distance from the nearest stall, column or wall. The given width is kept if that
+    exceeds twelve metres, on open ground, or is less than two, since centre lines of maps may cross stalls.
     """
     portals = {number for number, node in enumerate(network.nodes) if node.is_portal}
     width_m: defaultdict[int, float] = defaultdict(float)
@@ -61,7 +61,7 @@ def with_clear_widths(network: LaneGraph, standing: shapely.Geometry) -> LaneGra
             for number in (edge.start, edge.end):
                 width_m[number] = max(width_m[number], edge.width_m)
         edges.append(edge)
-    # a door's road is as wide as the lane that it meets
+    # the road through a door is as wide as the lane that it joins
     edges = [
         edge._replace(width_m=max(width_m[edge.start], width_m[edge.end]) or edge.width_m)
         if portals & {edge.start, edge.end}
@@ -77,7 +77,7 @@ def with_clear_widths(network: LaneGraph, standing: shapely.Geometry) -> LaneGra
 
 
 def _longer(start: Point, end: Point) -> shapely.LineString:
-    """Return a stretch that is longer at both ends, as columns beside its ends count."""
+    """Lengthen a stretch at both ends, so that columns beside its ends count."""
     share = _COLUMN_M / (math.dist(start, end) or 1.0)
     off_x, off_z = share * (end[0] - start[0]), share * (end[1] - start[1])
     return shapely.LineString([(start[0] - off_x, start[1] - off_z), (end[0] + off_x, end[1] + off_z)])
@@ -170,7 +170,7 @@ def _prune(axis: "nx.Graph[Point]", ground: shapely.Geometry) -> None:
                 spurs.append((length_m, branch[:-1]))
         if not spurs:
             return
-        # the shortest first: what is left of a junction may then be one long branch
+        # one at a time, the shortest first: the rest of a junction may then be one long branch
         axis.remove_nodes_from(min(spurs)[1])
 
 

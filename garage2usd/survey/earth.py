@@ -26,7 +26,7 @@ def ground_of(degrees: ArrayLike, place: str, *, around: ArrayLike | None = None
     place
         Place of the points in messages.
     around
-        Points with the origin in their middle, likewise; None for all points.
+        Longitude and latitude of the points in whose middle the origin lies; None for `degrees`.
 
     Returns
     -------

@@ -36,11 +36,11 @@ class FittedStall:
     source
         The stall in the survey.
     shape
-        Its rectangle or parallelogram.
+        Rectangle or parallelogram of the stall.
     access
         Number of the lane node in front of its mouth.
     note
-        How its shape differs from that in the survey; empty if it does not.
+        Difference of the shape from that in the survey; empty if they are equal.
     """
 
     source: SurveyedStall
@@ -125,7 +125,7 @@ class _Fitting:
         return tuple(fitted), tuple(unplaced)
 
     def _reshaped(self, number: int, mouth: _Mouth) -> tuple[FittedShape | None, str]:
-        """Return the shape of a stall with its rear laid parallel to its mouth, and what that changes."""
+        """Return the shape of a stall with its rear made parallel to its mouth, and a description of the change."""
         laid = with_parallel_rear(np.roll(np.array(self._stalls[number].corners), -mouth.side, axis=0))
         if laid is None:
             return None, ""
@@ -142,7 +142,7 @@ class _Fitting:
         return any(self._lanes.nodes[node].is_portal for node in nodes)
 
     def _hindrance(self, number: int) -> str:
-        """Return why the ground of a stall cannot be one; empty if it can."""
+        """Explain why a stall cannot be placed on its ground; empty if it can."""
         ground = self._grounds[number]
         if not ground.is_valid or ground.area < _LEAST_WIDTH_M * _LEAST_LENGTH_M:
             return f"its ground of {ground.area:.2f} m2 is too small or crosses itself"
@@ -168,13 +168,13 @@ class _Fitting:
             depth_m = float(np.linalg.norm(along))
             if depth_m < _LEAST_WIDTH_M or np.linalg.norm(end - start) < _LEAST_WIDTH_M:
                 continue
-            # an angled stall is left along its sides, but its lane is square to its mouth
+            # cars leave an angled stall along its sides, but its lane is searched at right angles to its mouth
             square = np.array([end[1] - start[1], start[0] - end[0]])
             square = square / np.linalg.norm(square) * (1.0 if square @ (middle - centre) > 0 else -1.0)
             reached = self._lane_ahead(middle, square)
             is_beside = reached is None
             if reached is None or reached[0] > _FAR_M:
-                # a lane that ends before the side is nearer than one that crosses behind its end
+                # a lane that ends in front of the mouth is nearer than one that crosses beyond it
                 ended = self._ground_ahead(start, end, square)
                 if reached is None or (ended is not None and ended[0] < reached[0] - _FAR_M):
                     reached = ended
@@ -200,7 +200,7 @@ class _Fitting:
         return away, (x, z)
 
     def _ground_ahead(self, start: Floats, end: Floats, ahead: Floats) -> tuple[float, Point] | None:
-        """Return the distance and the nearest place of the carriageway of a lane that ends or bends before a side."""
+        """Return the distance and nearest place of the carriageway of a lane that ends or bends in front of a side."""
         strip = shapely.Polygon([start, end, end + _REACH_M * ahead, start + _REACH_M * ahead])
         parts = self._carriageways[self._carriageway_tree.query(strip, predicate="intersects")]
         ground = shapely.union_all(shapely.intersection(parts, strip))
@@ -237,7 +237,7 @@ class _Fitting:
         return chosen
 
     def _shares_side(self, number: int, other: int) -> bool:
-        """Return True if two stalls lie along most of a side of theirs."""
+        """Return True if two stalls have most of a side in common."""
         common = self._grounds[number].buffer(_INSIDE_M).intersection(self._grounds[other])
         return bool(common.length / 2 > _LEAST_LENGTH_M)
 
@@ -250,7 +250,7 @@ class _Fitting:
 
     @cached_property
     def _served(self) -> frozenset[int]:
-        """Nodes that are reached from an entrance and lead to an exit."""
+        """Nodes that cars reach from an entrance and from which they reach an exit."""
         arriving = {node for arc in self._lanes.arriving for node in arc}
         leaving = {node for arc in self._lanes.leaving for node in arc}
         return frozenset(arriving & leaving)

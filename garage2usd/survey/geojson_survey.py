@@ -41,7 +41,7 @@ _TRUE = {"yes", "true", "1", "-1", "reverse"}
 
 
 class _Shape(NamedTuple):
-    """A point, a line or the outer ring of a polygon: its feature, what it stands for, and positions as given."""
+    """A point, a line or the outer ring of a polygon: its feature, its meaning, and positions as given."""
 
     name: str
     kind: str
@@ -96,7 +96,7 @@ def read_geojson_survey(path: Path) -> Survey:
 
 
 def _shapes_of(document: object, path: Path, parts: SurveyParts) -> Iterator[_Shape]:
-    """Yield the shapes of all features that stand for something."""
+    """Yield the shapes of all features with a known meaning."""
     if not isinstance(document, dict) or document.get("type") not in ("FeatureCollection", "Feature"):
         found = document.get("type", "nothing") if isinstance(document, dict) else document
         refuse(f"{path.name}: type", found, "a GeoJSON object of the type FeatureCollection or Feature")
@@ -153,7 +153,7 @@ def _parts_of(geometry: object, shape: _Shape, parts: SurveyParts) -> Iterator[_
         if is_area:
             if not isinstance(rings, list) or not rings:
                 refuse(f"{place}.coordinates", rings, "a list of rings, the outer one first")
-            member, *holes = rings  # noqa: PLW2901 - the outer ring stands for the polygon
+            member, *holes = rings  # noqa: PLW2901 - the outer ring represents the polygon
             if holes:
                 reason = f"the {len(holes)} holes in this {shape.kind}; they become floor"
                 parts.unread.append(Unplaced(shape.name, reason))

@@ -78,13 +78,13 @@ def _ahead(points: Sequence[Point], others: Iterable[CentreLine], grounds: shape
 
 
 def _ends(line: shapely.LineString) -> tuple[Sequence[Point], Sequence[Point]]:
-    """Return the points of a line towards each of its ends."""
+    """Return the points of a line in the order towards each end."""
     points = list(line.coords)
     return points[::-1], points
 
 
 def _ray(points: Sequence[Point]) -> shapely.LineString:
-    """Return the line straight ahead of the last of some points."""
+    """Return the straight line ahead of the last of some points."""
     (x, z), (end_x, end_z) = points[-2:]
     scale = _AHEAD_M / math.dist((x, z), (end_x, end_z))
     return shapely.LineString([(end_x, end_z), (end_x + (end_x - x) * scale, end_z + (end_z - z) * scale)])

@@ -52,7 +52,7 @@ class Lanelet(NamedTuple):
 
 
 def lanes_of_lanelets(osm: OsmElements) -> Iterator[CentreLine | Unplaced]:
-    """Yield the lanes of all lanelets for vehicles, or the reason why a lanelet is no lane.
+    """Yield the lanes of all lanelets for vehicles, or the reason why a lanelet is not a lane.
 
     Two one-way lanelets in opposite directions are one two-way lane if they share the bound between them, or lie on the
     same ground.
@@ -73,7 +73,7 @@ def lanes_of_lanelets(osm: OsmElements) -> Iterator[CentreLine | Unplaced]:
         left, right = lanelet.left_line, lanelet.right_line
         if other is not None:
             taken.add(other)
-            if side == "left":  # both keep right of their middle line
+            if side == "left":  # both lanelets lie to the right of the middle line
                 left = lanelets[other].right_line[::-1]
             elif side == "right":
                 right = lanelets[other].left_line[::-1]
@@ -85,7 +85,7 @@ def lanes_of_lanelets(osm: OsmElements) -> Iterator[CentreLine | Unplaced]:
 def _partners(lanelets: Sequence[Lanelet]) -> list[tuple[int | None, str]]:
     """Return for each lanelet the one in the opposite direction beside it or on it, and the bound that both share.
 
-    Of two lanelets on the same ground the bound is empty.
+    For two lanelets on the same ground the bound is empty.
     """
     partners: list[tuple[int | None, str]] = [(None, "")] * len(lanelets)
     one_way = [index for index, lanelet in enumerate(lanelets) if lanelet.is_one_way]

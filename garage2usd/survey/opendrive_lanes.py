@@ -53,14 +53,14 @@ class _Section(NamedTuple):
 
 
 def lanes_of_road(road: ET.Element, line: RoadLine, place: str) -> Iterator[RoadLane]:
-    """Yield the driving lanes of a road: all that lead in one direction are one, and in both directions too.
+    """Yield the driving lanes of a road; adjacent lanes are merged, in one direction or in both.
 
     The centre line is the middle between the outer borders of the driving lanes.
 
     Raises
     ------
     ConfigError
-        For a lane that is wrong.
+        If a lane is invalid.
     """
     offsets = cubics_of(road.findall("lanes/laneOffset"), "s", f"{place}, laneOffset")
     is_left_hand = road.get("rule") == "LHT"
@@ -71,7 +71,7 @@ def lanes_of_road(road: ET.Element, line: RoadLine, place: str) -> Iterator[Road
         ),
         key=lambda section: section.start_m,
     )
-    if not sections:  # as for roads that only carry objects
+    if not sections:  # roads that only carry objects have none
         return
     ends = [*(section.start_m for section in sections[1:]), line.length_m]
     runs: list[tuple[tuple[int, ...], list[Floats], list[Floats], list[Floats]]] = []

@@ -113,11 +113,11 @@ def cubics_of(elements: Sequence[ET.Element], start: str, place: str) -> Cubics:
     Parameters
     ----------
     elements
-        In the order of the file.
+        Elements in the order of the file.
     start
-        Name of the attribute that tells where each begins.
+        Name of the attribute with the start of each element.
     place
-        Their place in messages.
+        Place of the elements in messages.
     """
     rows = [
         [
@@ -244,7 +244,7 @@ def _parametric(u: Sequence[float], v: Sequence[float], length_m: float, *, by_l
     length_m
         Length of the curve.
     by_length
-        Whether the parameter is summed from the length along the curve, instead of being it.
+        True if the parameter is computed from the length along the curve; False if it is that length.
     """
     steps = np.linspace(0.0, length_m, max(2, min(math.ceil(length_m / _INTEGRATED_M), 100_000)))
     (_, du), (_, dv) = _polynomial(steps, u), _polynomial(steps, v)

@@ -56,7 +56,7 @@ def read_opendrive_survey(path: Path) -> Survey:
     Raises
     ------
     ConfigError
-        For what is not OpenDRIVE, with the road and the object.
+        If the file is not OpenDRIVE; names the road and the object.
     """
     root = read_xml(path, "OpenDRIVE", "an OpenDRIVE map")
     parts = SurveyParts()

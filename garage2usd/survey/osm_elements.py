@@ -68,7 +68,7 @@ class OsmElements(NamedTuple):
     origin_deg: tuple[float, float] | None
 
     def line(self, nodes: Iterable[int]) -> tuple[Point, ...]:
-        """Return (x, z) of nodes."""
+        """Return the positions (x, z) of nodes, given by number."""
         return tuple(self.nodes[node].position for node in nodes)
 
 
@@ -81,7 +81,7 @@ def read_osm(path: Path) -> OsmElements:
     Raises
     ------
     ConfigError
-        For what is not OSM XML, with the element.
+        If the file is not OSM XML; names the element.
     MissingExtraError
         For longitudes and latitudes, without the extra ``maps``.
     """

@@ -49,7 +49,7 @@ def read_osm_survey(path: Path) -> Survey:
     Raises
     ------
     ConfigError
-        For what is not OSM XML, with the element.
+        If the file is not OSM XML; names the element.
     MissingExtraError
         For nodes without ``local_x`` and ``local_y``, without the extra ``maps``.
     """
@@ -191,7 +191,7 @@ def _mouth(osm: OsmElements, name: str, ring: tuple[int, ...]) -> Point | None:
 
 
 def _use(tags: Mapping[str, str], *, of: str = "") -> StallUse:
-    """Return the use of a stall, or of all stalls of a row: a number of them tells it if it is that of the row."""
+    """Return the use of a stall, or of all stalls of a row; a count decides it if it equals the number of stalls."""
     said = [tags[key] for key in ("use", "parking_space", "parking_type") if key in tags]
     said += [word for key, word in _USE_TAGS.items() if _holds(tags.get(key, "no"), of)]
     if tags.get("wheelchair") == "designated":  # yes says only that wheelchairs may go there
@@ -200,7 +200,7 @@ def _use(tags: Mapping[str, str], *, of: str = "") -> StallUse:
 
 
 def _holds(value: str, of: str) -> bool:
-    """Return True for yes, and for numbers above 0, or for one of them if it is given."""
+    """Return True for ``yes`` and for numbers above 0; if a number is given, for that number only."""
     if value.isdecimal():
         return value == of if of else value.strip("0") != ""
     return value.lower() in _YES
@@ -257,7 +257,7 @@ def _add_ways(parts: SurveyParts, osm: OsmElements, level: str | None, outline: 
 
 
 def _reason_against_lane(way: OsmWay, level: str | None) -> str:
-    """Return the reason for which a service way is no lane of a level; empty if it is one."""
+    """Explain why a service way is not a lane of a level; empty if it is one."""
     if not _is_on(way.tags, level):
         return f"a lane on level {_told_level(way.tags)} instead of {level}"
     if way.tags.get("area") == "yes":

@@ -1,4 +1,4 @@
-"""Parts of a survey as a reader finds them: stalls checked for four corners, unique names, one outline of many."""
+"""Parts of a survey, collected by a reader: stalls checked for four corners, unique names, one outline of many."""
 # Over 300 lines: each kind of part is read with what can be wrong with it.
 
 import math
@@ -68,7 +68,7 @@ class SurveyParts:
         size: SizeClass = SizeClass.STANDARD,
         number: str = "",
     ) -> None:
-        """Add a stall, or note why it is none.
+        """Add a stall, or note why it is unusable.
 
         Parameters
         ----------
@@ -166,7 +166,7 @@ class SurveyParts:
             self._outlines.append((name, points))
 
     def _readable(self, name: str, number: str) -> str:
-        """Return a number without control characters, cut where it is longer than people read."""
+        """Return a stall number without control characters, truncated to a readable length."""
         shown = "".join(sign for sign in " ".join(number.split()) if sign.isprintable())
         if len(shown) > _MOST_OF_NUMBER:
             self.unread.append(Unplaced(name, f"a number of {len(shown)} characters, cut to {_MOST_OF_NUMBER}"))
@@ -193,7 +193,7 @@ class SurveyParts:
         return chosen[1] if chosen else None
 
     def _narrowed(self, lane: SurveyedLane) -> SurveyedLane:
-        """Return a lane that ends at the stalls beside it: maps may count their ground to the lane."""
+        """Narrow a lane to the ground between the stalls beside it, as maps may count stalls as part of a lane."""
         if lane.width_m is None or not self.stalls:
             return lane
         nearest_m = float(shapely.distance(shapely.LineString(lane.points), self.stall_polygons()).min())
@@ -255,7 +255,7 @@ def side_at(corners: Sequence[Point], place: Point) -> int:
 
 
 def _reason_against(corners: tuple[Point, ...]) -> str:
-    """Return the reason for which points are not the corners of a convex quadrilateral; empty if they are."""
+    """Explain why points are not the corners of a convex quadrilateral; empty if they are."""
     if len(corners) != _CORNERS:
         return f"a stall of {len(corners)} corners instead of {_CORNERS}"
     polygon = shapely.Polygon(corners)

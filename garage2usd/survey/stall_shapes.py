@@ -66,7 +66,7 @@ def stall_shape(given: ArrayLike, side: int, keeps_left: bool) -> FittedShape | 
     depth_m = float(np.linalg.norm(out))
     along = (other - one + beyond_other - beyond_one) / 2
     out_x, out_z = (out / depth_m).tolist()
-    right = np.array([out_z, -out_x])  # of a driver who drives in, seen from above with z downwards
+    right = np.array([out_z, -out_x])  # to the right of a driver who drives in
     across_m, rise_m = float(along @ right), float(along @ (out / depth_m))
     if across_m < 0:
         across_m, rise_m = -across_m, -rise_m
@@ -80,7 +80,7 @@ def stall_shape(given: ArrayLike, side: int, keeps_left: bool) -> FittedShape | 
         yaw = math.atan2(out_x, out_z)
         if across_m > depth_m:
             angle_deg, width_m, length_m = PARALLEL_DEG, depth_m, across_m
-            # the lane is on the left of a car that looks along the traffic on the right, and the other way round
+            # in right-hand traffic a car that faces along the traffic has the lane on its left
             turn = -1 if keeps_left else 1
             yaw = math.atan2(turn * out_z, -turn * out_x)
     else:
@@ -126,7 +126,7 @@ def with_parallel_rear(corners: Floats) -> tuple[Floats, float] | None:
     if outs[0] @ outs[1] < math.cos(math.radians(_PARALLEL_SIDES_DEG)):
         return None
     out = (outs[0] + outs[1]) / np.linalg.norm(outs[0] + outs[1])
-    # the rectangle for a car ends where the first corner of the rear is, seen from the mouth
+    # the rectangle for a car ends at the rear corner that is closer to the mouth
     length_m = min(one @ out, other @ out) - max(beyond_one @ out, beyond_other @ out)
     side_m = length_m + abs((one - other) @ out)
     laid = np.array([one, other, other - side_m * out, one - side_m * out])

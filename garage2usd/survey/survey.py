@@ -170,7 +170,7 @@ class Survey:
 
 
 class Alignment(NamedTuple):
-    """How a survey was turned about its (0, 0), from x towards z, and then shifted."""
+    """Rotation of a survey about its (0, 0), from x towards z, and the shift that follows."""
 
     turn_rad: float
     shift_m: Point

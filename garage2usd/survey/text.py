@@ -60,13 +60,13 @@ def read_xml(path: Path, root: str, program: str) -> ET.Element:
     root
         Name of its root element.
     program
-        What such a file is, for errors.
+        Description of such a file, for errors.
 
     Raises
     ------
     ConfigError
-        For what cannot be read, is not well formed, has another root, or declares a document type, whose entities
-        could grow without end.
+        If the file cannot be read, is not well formed, has another root, or declares a document type, whose entities
+        could expand without limit.
     """
     data = read_bytes(path, field="SOURCE", max_bytes=MAX_REPORT_BYTES)
     text = _decoded(data, path)
@@ -110,7 +110,7 @@ def length_of(text: object) -> float | None:
 
 
 def unread_length(name: str, text: object) -> str:
-    """Return the reason for which a length of a part is not read."""
+    """Explain why a length of a part is not used."""
     return f"the {name} {str(text)!r}, which is no length above 0 m, up to {_LONGEST_M:g} m"
 
 
@@ -149,7 +149,7 @@ def number_of(text: object, place: str, *, most: float = MOST_M, unit: str = "me
     Raises
     ------
     ConfigError
-        If it is none, or its absolute value is above `most`.
+        If the value is not a number, or its absolute value is above `most`.
     """
     allowed = f"a number of {unit} from -{most:g} to {most:g}"
     if isinstance(text, bool) or not isinstance(text, int | float | str) or (isinstance(text, str) and "_" in text):

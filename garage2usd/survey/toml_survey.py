@@ -168,7 +168,7 @@ class DrawnLane(Settings):
     width_m: SideM | None = None
     """Width of the carriageway; left out, as far as stalls and walls leave room."""
     one_way: bool = False
-    """Whether cars drive along the points only."""
+    """True if cars drive along the points only."""
 
 
 class DrawnColumn(Settings):
@@ -223,7 +223,7 @@ def read_toml_survey(path: Path) -> Survey:
     Raises
     ------
     ConfigError
-        If the file is not TOML, or a key or value is wrong; names its place.
+        If the file is not TOML, or a key or value is invalid; names its place.
     """
     try:
         drawing = validated(DrawnGarage, read_toml(path, field="SOURCE"))

@@ -73,9 +73,9 @@ class Text:
     text, height_m, colour
         The text; its line height; its colour.
     is_left
-        Whether the text starts at `at`.
+        True if the text starts at `at`.
     is_turned
-        Whether the text runs upwards.
+        True if the text runs upwards.
     kind
         Class of the text.
     """

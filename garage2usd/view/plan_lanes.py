@@ -195,7 +195,7 @@ def wells(layout: Layout, sheet: Sheet) -> Iterator[Region | Line | Text]:
         wings = [line.at(tip - _WING_M, -_WING_M), line.at(tip, 0), line.at(tip - _WING_M, _WING_M)]
         yield Line(wings, INK, _STROKE_M, "direction")
         word = ("down" if is_down else "up") + layout.well.way_in_words(is_down=is_down)
-        # inside a turn, or beside the arrow
+        # in the middle of a helix, or beside the arrow of a straight ramp
         place = line.middle if math.dist(line.middle, line.at(run / 2, 0)) > lane.width_m else None
         yield Text(place or line.at(run / 2, _WORD_ASIDE_M), word, sheet.letters_m, INK, kind="ramp")
 

@@ -244,7 +244,7 @@ def _car_outline(car: Placement, body: CarBody) -> list[Point]:
 
 def _number(stall: Stall, number: str) -> Text:
     """Draw the number of a stall, horizontal and beside its entry, so that the stall's centre stays clear."""
-    # all digits count as the widest one, so that few widths are measured
+    # measure all digits as the widest one, so that few widths are computed
     width = text_width(_DIGIT.sub("8", number), _NUMBER_M)
     height = _NUMBER_M * min(1.0, _NUMBER_WIDTH_M / width)
     x, z = stall.outwards

@@ -1,4 +1,4 @@
-"""Section through a garage of several levels: what an upright plane along its ramps cuts, and what stands behind it."""
+"""Section of a garage of several levels: the cut of its meshes by a plane along the ramps, and outlines behind it."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -22,11 +22,11 @@ from garage2usd.view.plan_sheet import GREY, INK, PAPER
 _CUT: Colour = (96, 90, 86)
 _CAR = "car"
 _BEHIND: dict[str, Colour] = {"wall": (240, 238, 232), "column": (222, 220, 214), _CAR: (196, 208, 224)}
-"""Kinds that are drawn behind the plane; walls hide what stands behind them."""
+"""Kinds that are drawn behind the plane; walls hide objects behind them."""
 _MASSIVE = ("beam", "ceiling", "column", "wall")
 """Kinds whose meshes lack faces that nobody sees."""
 _DEPTH_M = 12.0
-"""How far behind the plane things are drawn."""
+"""Greatest distance behind the plane of objects that are drawn."""
 _OFF_AXIS_M = 0.013
 """The plane lies beside the middle of a ramp, where meshes have edges."""
 _ROUNDING_M = 1e-4
@@ -56,7 +56,7 @@ class _Plane:
 
     @property
     def normal(self) -> _Array:
-        """Unit vector away from somebody who looks at it; float64, shape (3,)."""
+        """Unit vector of the direction of view; float64, shape (3,)."""
         return np.array([self.along[1], 0.0, -self.along[0]])
 
     @property
@@ -87,7 +87,8 @@ def draw_section(levels: Sequence[GarageLevel], *, storey_m: float) -> Drawing:
 
     Notes
     -----
-    Meshes are cut as they are written into the stage. Walls, columns and cars up to 12 m behind the plane are outlines.
+    Meshes are cut as they are written into the stage. Walls, columns and cars up to 12 m behind the plane are drawn as
+    outlines.
     """
     plane = _plane(levels[0].layout)
     behind: list[tuple[float, Region]] = []
@@ -133,7 +134,7 @@ def _plane(layout: Layout) -> _Plane:
     else:
         origin = _middle(down)
         across = _middle(up) - origin
-    # to the right or downwards on the plan
+    # orient the section to the right or downwards on the plan
     along = across / math.hypot(*across)
     along = along if along.sum() > 0 else -along
     beside = np.array([along[1], -along[0]]) * _OFF_AXIS_M
@@ -150,7 +151,7 @@ def _middle(points: Sequence[Point]) -> _Array:
 
 @lru_cache(maxsize=4096)
 def _reach_m(spec: Spec) -> float:
-    """Return the greatest distance of a mesh of a spec from its axis."""
+    """Return the greatest distance of the meshes of a spec from its axis."""
     return max(
         (float(np.hypot(part.points[:, 0], part.points[:, 2]).max()) for part in asset_of(spec).parts), default=0
     )
@@ -181,7 +182,7 @@ def _cut(placement: Placement, plane: _Plane, floor_m: float) -> Iterator[Region
 
 
 def _silhouettes(placement: Placement, plane: _Plane, floor_m: float) -> Iterator[Region]:
-    """Yield the outlines of what can be touched of a placement behind the plane."""
+    """Yield the outlines of the touchable parts of a placement behind the plane."""
     for body in _bodies(placement, floor_m):
         hull = shapely.convex_hull(shapely.multipoints(plane.drawn(body.world_points())))
         if body.touches and isinstance(hull, shapely.Polygon):

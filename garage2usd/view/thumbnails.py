@@ -191,7 +191,7 @@ def _comb(rows: int, cols: int) -> list[Point]:
 def draw_pictures(
     garage: Garage, *, learning_curve: bool = False, best_plans: int = 0, joint: str = "_"
 ) -> dict[str, Image.Image]:
-    """Draw the plans of a garage, and the learning curve and the best plans of each level where they are asked for.
+    """Draw the plans of a garage and, if requested, the learning curve and the best plans of each level.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ def draw_pictures(
     learning_curve, best_plans
         As for `garage2usd.build`.
     joint
-        Stands between the name of a level and that of its picture.
+        Separator between the name of a level and that of its picture.
 
     Returns
     -------
@@ -210,7 +210,7 @@ def draw_pictures(
     Raises
     ------
     ConfigError
-        If pictures of learning are asked for without learning.
+        If pictures of learning are requested for plans that are not learnt.
     """
     for field, asked in (("learning_curve", learning_curve), ("best_plans", best_plans)):
         if asked and not all(level.plan.archive for level in garage.levels):

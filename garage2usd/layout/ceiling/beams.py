@@ -143,7 +143,7 @@ def _node_beams(
     depth_m: float,
     feet: Collection[Point],
 ) -> list[Placement]:
-    """Return the beam nodes at corners without columns: in the middle of lanes, at walls, and before set back ones."""
+    """Return the beam nodes at corners without a column: in lanes, at walls, and where a column is set back."""
     cells = np.pad(structure.cells, 1, constant_values=Cell.OBSTACLE)
     rows, cols = structure.shape
     nodes: list[Placement] = []

@@ -206,7 +206,7 @@ def ramp_lamps(
 def _lamps(
     tubes: Iterable[Placement], lights: LightsLook, numbers: NDArray[np.float64], emergency: np.random.Generator
 ) -> tuple[Placement, ...]:
-    """Return the lamps by two random numbers each: dead or not, and colour temperature."""
+    """Return the lamps; two random numbers for each decide if it is dead, and its colour temperature."""
     is_dead = numbers[:, _DEAD] < lights.dead_share
     if lights.emergency_only:
         is_dead |= ~_with_battery(len(numbers), emergency)

@@ -69,7 +69,7 @@ def exit_signs(
     Parameters
     ----------
     grid, fittings, levels
-        The pieces of the floor, the heights and what hangs at them.
+        The pieces of the floor, the settings, and the heights of beams, services and signs.
     well
         The ramps to other levels. Only the one up leads out; where cars arrive over a ramp and have several ways, a
         sign hangs over the landing too.
@@ -259,8 +259,8 @@ def level_signs(grid: Tiles, fittings: FittingsConfig, levels: CeilingLevels, we
     """Place signs that name the levels, for drivers.
 
     Over the landing before a ramp a sign names the level that it leads to, with an arrow up or down; signs over the
-    lanes into the junction before it point there. Over a landing where cars arrive a sign names this level, and beside
-    the ramp another one forbids to enter it. Signs hang beside the exit signs and at their height; over landings, which
+    lanes into the junction before it point there. Over a landing where cars arrive a sign names this level, and a
+    no-entry sign hangs beside the ramp. Signs hang beside the exit signs and at their height; over landings, which
     no services cross, higher up where they must. There are none without space above the clear height.
     """
     ceiling_m, room_m = fittings.ceiling_height_m, fittings.ceiling_height_m - fittings.clear_height_m
@@ -289,7 +289,7 @@ def level_signs(grid: Tiles, fittings: FittingsConfig, levels: CeilingLevels, we
     for ramp in well.departures:
         for junction, edge, heading in _before(ramp, grid):
             spec = LevelSignSpec(ramp.to, heading, levels.sign_top_m, height_m)
-            # on the reader's left; that of the other ramp on the right
+            # on the reader's left; the sign for the other ramp hangs on the right
             side = 1 if taken[junction, edge] else -1
             taken[junction, edge] += 1
             name = f"LevelSign_{ramp.to}_{edge.name.capitalize()}"
@@ -298,7 +298,7 @@ def level_signs(grid: Tiles, fittings: FittingsConfig, levels: CeilingLevels, we
 
 
 def _before(ramp: Departure, grid: Tiles) -> list[tuple[Square, Edge, Heading]]:
-    """Return the junctions before a ramp with each edge over which drivers enter them, and their way to the ramp.
+    """Return the junctions before a ramp, with each edge over which drivers enter them, and the turn towards the ramp.
 
     Lanes may lead to a landing from the side too. From a junction with several ways the first one counts.
     """
@@ -338,7 +338,7 @@ def _hung(
     side: int = 0,
     at_back: bool = False,
 ) -> Placement:
-    """Hang a sign over a square for drivers who come over the edge that it faces.
+    """Hang a sign over a square so that it faces the drivers who cross an edge.
 
     It hangs beside that edge or, `at_back`, beside the opposite one; on the reader's right (1) of the place of an exit
     sign, on the left (-1), or in the middle (0).

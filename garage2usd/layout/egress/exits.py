@@ -155,12 +155,12 @@ def plan_egress(levels: Sequence[LevelPlan], wells: Collection[Square] = ()) -> 
     levels
         The plan of each level from the top, with the same R, C and obstacles. Cores stand above one another.
     wells
-        (row, col) of the squares of ramps between levels: obstacles that are no cores.
+        (row, col) of the squares of ramps between levels: obstacles that are not cores.
 
     Returns
     -------
     list of Egress
-        That of each level.
+        Compartments and cores of each level.
 
     Notes
     -----
@@ -194,7 +194,7 @@ def plan_egress(levels: Sequence[LevelPlan], wells: Collection[Square] = ()) -> 
 
 
 def _fixed_doors(cores: list[list[Core]], compartments: NDArray[np.int32], number: int) -> Points:
-    """Doors of the obstacles that have one in a compartment on each level; shape (levels, obstacles, 2)."""
+    """Doors of obstacles that have one on each level in the compartment; shape (levels, obstacles, 2)."""
     doors = [{core.square: core.door_m for core in own if compartments[core.lane] == number} for own in cores]
     shared = [square for square in doors[0] if all(square in own for own in doors)]
     return np.array([[own[square] for square in shared] for own in doors]).reshape(len(cores), -1, 2)
@@ -212,7 +212,7 @@ def reach_to_exits_m(profile: Profile, *, sprinklered: bool) -> float:
 
 
 def price_off_straight_m(*, is_straight: bool) -> float:
-    """Return the detour in metres that a place before a straight lane is worth."""
+    """Return the price of a door in metres of detour: 0 beside a straight lane, else a constant."""
     return _OFF_STRAIGHT_M * (not is_straight)
 
 

@@ -57,7 +57,7 @@ def squares_of(shaft: Shaft) -> set[Square]:
 
 
 def shaft_candidates(levels: Sequence[LevelPlan]) -> Iterator[Shaft]:
-    """Yield the candidate places of shafts, from the top level to the lowest one that they have a door on.
+    """Yield the candidate shafts, each from the top level down to the lowest level on which it has a door.
 
     The ground is that of a candidate for one level alone, also with room for doors on its other sides. On the other
     levels, a passage of up to 3.6 m leads from its door to a lane; it has no door on a level above without such a lane.
@@ -86,7 +86,7 @@ def shaft_candidates(levels: Sequence[LevelPlan]) -> Iterator[Shaft]:
 
 
 def _with_slender(cores: Iterable[Core], structure: Structure) -> Iterator[Core]:
-    """Yield cores, and each again with room for a door on all of its sides."""
+    """Yield the cores, and a slenderer copy of each with room for a door on every side."""
     for core in cores:
         yield core
         row, col = core.square
@@ -145,7 +145,7 @@ class _ShaftSite:
         return replace(closed, stalls=self._replaced(closed))
 
     def _replaced(self, core: Core) -> tuple[str, ...]:
-        """Ids of the stalls that a core and its passage leave no room for."""
+        """Ids of the stalls that a core and its passage replace."""
         touched = self._stalls.query(core.ground.buffer(-_TOUCH_M, join_style="mitre"), predicate="intersects")
         return tuple(self._names[index] for index in sorted(touched.tolist()))
 
@@ -184,11 +184,11 @@ class Places(NamedTuple):
     Attributes
     ----------
     shafts
-        The core of each level, of each candidate.
+        The cores of each candidate, one for each level.
     doors
         Positions (x, z) of their doors, infinite on levels without one; shape (levels, candidates, 2).
     price_m
-        Their costs in metres, as the mean of all levels; shape (candidates,).
+        Costs of the candidates in metres, as the mean of all levels; shape (candidates,).
     stalls
         Numbers of stalls that they replace on all levels; shape (candidates,).
     squares
@@ -208,7 +208,7 @@ class Places(NamedTuple):
 def chosen_shafts(
     points: list[Points], places: Places | None, fixed: Points, exits: int, reach_m: float, budget: int
 ) -> list[Shaft]:
-    """Least set of cores for a compartment that has enough exits and one within reach of each stall, on each level."""
+    """Choose the fewest cores of a compartment that give each level enough exits, and each stall one within reach."""
     chosen: list[int] = []
     if places is None:
         return []
@@ -234,7 +234,7 @@ def _are_reached(points: list[Points], doors: Points, reach_m: float) -> bool:
 
 
 def _covering(points: list[Points], places: Places, fixed: Points, exits: int, reach_m: float) -> list[int]:
-    """Choose shafts until all stalls that can be reached are, and all levels that can have enough exits have them.
+    """Choose shafts until all stalls have an exit within reach and all levels enough exits, as far as possible.
 
     In each step the shaft is added that adds the most for the stalls that it replaces, among equals the one farthest
     from the others.
@@ -263,7 +263,7 @@ def _covering(points: list[Points], places: Places, fixed: Points, exits: int, r
 
 
 def _far_m(places: Places, fixed: Points, chosen: list[int]) -> NDArray[np.float64]:
-    """Distance of each candidate's doors to the nearest door that is there, on any level; shape (candidates,)."""
+    """Distance of each candidate's doors to the nearest existing door, on any level; shape (candidates,)."""
     doors = np.concatenate([fixed, places.doors[:, chosen]], axis=1)
     if not doors.shape[1]:
         return np.zeros(len(places.shafts))

@@ -2,7 +2,6 @@
 
 A stain stays inside its square. Equal squares with equal random numbers therefore stay equal.
 """
-# Over 300 lines: all kinds of stains share the free floor of a square, so that they do not overlap.
 
 import math
 from collections.abc import Iterable, Iterator
@@ -251,7 +250,7 @@ def _drain_box(drain: Placement, spec: DrainSpec) -> Box:
 
 
 def drain_box_on(floor: Tile | Placement, drain: Placement, spec: DrainSpec) -> Box:
-    """Return the bounding box of a drain along an axis of a tile or panel, in the coordinates of that."""
+    """Return the bounding box of an axis-aligned drain in the coordinates of a tile or panel."""
     x, z = floor.local((drain.position_m[0], drain.position_m[2]))
     turned = replace(drain, position_m=(x, 0.0, z), yaw_rad=sum_of_yaws(drain.yaw_rad, -floor.yaw_rad))
     return _drain_box(turned, spec)

@@ -108,7 +108,7 @@ def _line_boxes(
     if pattern is StallPattern.DOUBLE:
         for sign in (-1, 1):
             yield *_ascending(sign * inner, sign * outer), 0.0, length_m
-            # the end of the loop shared by two neighbours
+            # end of the loop that two adjacent stalls share
             yield *_ascending(sign * outer, sign * half_width), 0.0, line
         yield -inner, inner, rear, length_m
         return

@@ -102,7 +102,7 @@ def _squares_at_ends(stall: PlacedStall) -> tuple[Square, Square]:
 def _divided(
     row: list[int], stalls: tuple[PlacedStall, ...], profile: Profile, vans: int
 ) -> tuple[list[int], AccessWidths | None]:
-    """Widths of an accessible stall, its aisle and, if there is space, the stall beyond it.
+    """Divide a width between an accessible stall, its access aisle and, if there is space, the stall beyond.
 
     Van-accessible stalls come first. If not even one fits, the stalls are unchanged.
     """
@@ -117,7 +117,7 @@ def _divided(
 
 
 def _redrawn(row: list[PlacedStall], widths: AccessWidths | None) -> list[PlacedStall]:
-    """Stalls of a row, from its first one on, with other widths on the same area."""
+    """Divide the area of a row of stalls anew, from its first stall on, into given widths."""
     if widths is None or math.isclose(widths.aisle_m, row[0].width_m, abs_tol=_ROUNDING_M):
         return row
     first, *others = widths.stalls_m
@@ -216,7 +216,7 @@ def _wheelchair() -> list[tuple[Point, ...]]:
 
 
 def room_for_charger_m(stall: PlacedStall) -> float:
-    """Return the room at the rear of a stall that its charger takes; 0 without one, or with one beside the car."""
+    """Return the depth that a charger takes at the rear of a stall; 0 without a charger, or with one beside the car."""
     if stall.use is not StallUse.EV or stall.stall_kind is StallKind.PARALLEL:
         return 0.0
     return _CHARGER_FROM_REAR_M + CHARGER_FRONT_M + _BEFORE_GUARD_M

@@ -24,7 +24,7 @@ _SCOOTER_SHARE, _REVERSED_SHARE = 0.4, 0.3
 """Assumptions."""
 _YAW_SPREAD_DEG, _MOST_YAW_DEG = 2.0, 5.0
 _BESIDE_SPREAD_M, _MOST_BESIDE_M = 0.04, 0.1
-"""Of the middle of a motorcycle from that of its stall, across it. Assumption."""
+"""Spread and greatest distance of a motorcycle's middle from the middle line of its stall. Assumption."""
 _FROM_END_M = 0.1
 _USUAL = NormalDist()
 
@@ -91,16 +91,16 @@ def _behind_wheels(body: CarBody, *, is_reversed: bool) -> float:
 
 
 def park_motorbikes(stalls: tuple[PlacedStall, ...], parking: ParkingConfig, draws: SquareDraws) -> list[Placement]:
-    """Random motorcycles upright on their stands, none of which leaves its stall or touches another.
+    """Park random motorcycles upright on their stands, within their stalls and clear of each other.
 
     Parameters
     ----------
     stalls
         All stalls.
     parking
-        Share of the stalls that are taken, and those that are named.
+        Share of the stalls that are taken, and the stalls that the user names.
     draws
-        Random numbers, a part of the step of cars with a name of its own, so that no car moves.
+        Random numbers; those of motorcycles have a name of their own, so that they do not move any car.
     """
     own = [stall for stall in stalls if stall.use is StallUse.MOTORCYCLE]
     if not own:
@@ -119,19 +119,19 @@ def park_motorbikes(stalls: tuple[PlacedStall, ...], parking: ParkingConfig, dra
 def _placement(
     stall: PlacedStall, spec: MotorbikeSpec, yaw: float, beside: float, along: float, *, is_reversed: bool
 ) -> Placement:
-    """A motorcycle with its yaw and its place across and along its stall by their shares from 0 to 1."""
+    """Place a motorcycle; numbers from 0 to 1 decide its yaw and its position across and along the stall."""
     (corners,) = spec.outlines()
     half_x, half_z = (max(abs(corner[axis]) for corner in corners) for axis in (0, 1))
     lean = math.radians(_normal(yaw, _YAW_SPREAD_DEG, _MOST_YAW_DEG))
     reach_z = half_z + half_x * abs(lean)
     side_m = _normal(beside, _BESIDE_SPREAD_M, _MOST_BESIDE_M)
     room_m = max(stall.length_m / 2 - _FROM_END_M - reach_z, 0.0)
-    # nose in it faces away from the mouth, which is at +Z
+    # parked nose-in, it faces away from the mouth, which is at +Z
     ahead = 0.0 if is_reversed else math.pi
     turned = round(math.remainder(stall.yaw_rad + ahead + lean, math.tau), 6)
     return stall.placement("Motorbike", spec, (side_m, (2 * along - 1) * room_m), yaw_rad=turned)
 
 
 def _normal(share: float, spread: float, most: float) -> float:
-    """The value at a share from 0 to 1 of a normal distribution around 0, at most as far from it as given."""
+    """Quantile at a share from 0 to 1 of a normal distribution around 0, limited to a greatest distance from 0."""
     return min(max(_USUAL.inv_cdf(min(max(share, 1e-9), 1 - 1e-9)) * spread, -most), most)

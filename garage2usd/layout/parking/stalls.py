@@ -192,13 +192,13 @@ def garage_stalls(
     Parameters
     ----------
     stalls
-        Those of the layout.
+        Stalls of the layout.
     lanes
-        The lane squares that they open onto.
+        The lane squares that the stalls open onto.
     blocked
-        For the name of a blocked stall, that of the stall of the misparked car that blocks it.
+        For each blocked stall, the name of the stall of the misparked car that blocks it.
     occupied
-        True for each stall with a car; None if unknown. The facts are those of a stage's stalls.
+        True for each stall with a car; None if unknown. If given, the stalls have all facts of a stage.
     """
     access = [lanes.number_of[stall.access_square] for stall in stalls]
     return stall_quads(stalls, access, lanes.lanes, blocked, occupied)

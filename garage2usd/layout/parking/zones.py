@@ -243,7 +243,7 @@ def _wall_plates(
     shown: Sequence[str],
     plates: Sequence[Placement],
 ) -> list[Placement]:
-    """Return the plates on walls for stalls with the plate of another zone as the nearest, if their zone has a wall."""
+    """Return the plates on walls for stalls whose nearest plate shows another zone, if their zone has a wall."""
     if not sides:
         return []
     zones = np.array(shown)

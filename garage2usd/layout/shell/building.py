@@ -84,7 +84,7 @@ def corner_columns(structure: Structure, pillars: Iterable[Placement]) -> tuple[
 
 
 def _column_position_m(grid: TileGrid, bay: BayConfig, row: int, col: int) -> tuple[float, float, float]:
-    """The place of the column of a corner: the corner itself, or set back from the mouths of the stalls beside it."""
+    """Return the position of the column at a corner: the corner, or set back from the mouths of adjacent stalls."""
     x, z = float(grid.structure.column_edges_m[col]), float(grid.structure.row_edges_m[row])
     back = _back_of_mouths(grid, row, col) if bay.column_setback_m else None
     if back is None:
@@ -109,7 +109,7 @@ def _column_position_m(grid: TileGrid, bay: BayConfig, row: int, col: int) -> tu
 
 
 def _back_of_mouths(grid: TileGrid, row: int, col: int) -> Edge | None:
-    """The direction away from the lane, at a corner between two squares whose stalls open to the same side."""
+    """Return the direction away from the lane at a corner between two squares whose stalls open to the same side."""
     for mouth in Edge:
         step_row, step_col = NEIGHBOUR_STEPS[mouth]
         along = (0, 1) if step_row else (1, 0)

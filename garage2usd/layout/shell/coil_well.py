@@ -82,7 +82,7 @@ class _Block:
         return rounded(to_world((self.turn * v, u), self.origin_m, edge_yaw_rad(self.block.way)))
 
     def placed(self, name: str, spec: Spec, u: float, v: float, *, faces: Edge, height_m: float = 0.0) -> Placement:
-        """Place an object at a local point, turned so that its +Z looks over an edge of a square."""
+        """Place an object at a local point with its +Z towards an edge of a square."""
         return placed(name, spec, self.to_world(u, v), height_m=height_m, yaw_rad=edge_yaw_rad(faces))
 
     def yaw_rad(self, along_u: float, along_v: float) -> float:
@@ -91,7 +91,7 @@ class _Block:
         return round(float(elementary.arctan2(x, z)), 9)
 
     def profile(self, rise_m: float, gentle_m: float) -> tuple[Point, ...]:
-        """Return the (distance, height) pairs of its line."""
+        """Return the (distance, height) pairs along the helix."""
         return self.line.profile(rise_m, gentle_m, foot_first=not self.block.head_is_first)
 
 
@@ -102,7 +102,7 @@ class CoilWell(Well):
     pair: Helix
 
     def walls(self, structure: Structure, fittings: FittingsConfig, look: WallsLook) -> list[Placement]:
-        """Place the walls around the blocks, those of the crossings in their corners, and the slab over openings."""
+        """Place the walls around blocks and crossings, and the edge of the slab over openings."""
         height = round(fittings.ceiling_height_m if self.is_top else self.building.storey_m, 6)
         plain = WallSpec(1.0, height, self.wall_m, look.dado_m, look.has_stripe)
         bare = replace(plain, thickness_m=WALL_M, dado_m=0.0, has_stripe=False)
@@ -149,7 +149,7 @@ class CoilWell(Well):
         return found
 
     def beside_floors(self, walls: list[Placement]) -> list[Placement]:
-        """Return the walls around the blocks, without those inside and what hangs over openings."""
+        """Return the walls around the blocks, without inner walls and pieces over openings."""
         return [wall for wall in walls if _INSIDE not in wall.name and not wall.position_m[1]]
 
     def ramps(self, structure: Structure, fittings: FittingsConfig) -> list[Placement]:
@@ -253,13 +253,13 @@ class CoilWell(Well):
             yield _Block.of(name, block, structure, self.wall_m)
 
     def _opens(self, block: CoilBlock) -> tuple[bool, bool]:
-        """Tell whether cars pass on this level through the first straight and through the last one."""
+        """Return True for the first and for the last straight of a helix if cars pass through it on this level."""
         head, foot = not self.is_bottom, not self.is_top
         return (head, foot) if block.head_is_first else (foot, head)
 
 
 def _pieces(span: _Span, lap_m: float) -> Iterator[tuple[str, tuple[float, float]]]:
-    """Yield what is left of a wall beside its opening."""
+    """Yield the pieces of a wall beside its opening."""
     (start, end), (low, high) = span.ends_m, span.gap_m
     if not span.is_open:
         yield "", (start, end)

@@ -271,7 +271,7 @@ def carriageway(tile: Tile, setback_m: float) -> shapely.Polygon:
     up, down, left, right = (0.0 if drivable else margin for drivable in tile.drivable)
     x, z = tile.half_x_m, tile.half_z_m
     if not tile.yaw_rad:
-        # what touches it is measured against these very sums
+        # objects that touch the piece are placed with exactly these sums
         return shapely.box(tile.x_m - x + left, tile.z_m - z + up, tile.x_m + x - right, tile.z_m + z - down)
     ground = shapely.box(left - x, up - z, x - right, z - down)
     return shapely.Polygon([tile.at(corner) for corner in shapely.get_coordinates(ground.exterior)[:-1].tolist()])

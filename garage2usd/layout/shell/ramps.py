@@ -160,7 +160,7 @@ def with_barriers(
         top_m = min(portal.height_m - TUBE_DEPTH_M, _underside_m(beams, upright)) - _ARM_GAP_M - ARM_HALF_M
         upright_m = PIVOT_M + 2 * half
         elbow_m, below = min(top_m, upright_m), portal
-        if top_m < upright_m:  # else all of the arm is beside the opening
+        if top_m < upright_m:  # else the raised arm stands beside the opening
             below = replace(portal, raised_arm_m=round(elbow_m - ARM_HALF_M - _ARM_GAP_M, 3))
         has_room = elbow_m - ARM_HALF_M >= fittings.clear_height_m + _ARM_GAP_M
         is_raised = has_room and len(gates) % 2 == 0 and (_is_legible(below) or not _has_sign(portal))

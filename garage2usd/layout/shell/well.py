@@ -46,7 +46,7 @@ class WellLane(NamedTuple):
 
 
 class Departure(NamedTuple):
-    """A ramp that cars leave a level over.
+    """A ramp over which cars leave a level.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class Departure(NamedTuple):
 
 
 class Opening(NamedTuple):
-    """An opening in the walls of the well, through which cars drive from a landing onto a ramp or from it.
+    """An opening in the walls of the well, through which cars drive between a landing and a ramp.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class Opening(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Well(ABC):
-    """The part of the well that one level has.
+    """The part of the well that belongs to one level.
 
     Attributes
     ----------
@@ -115,7 +115,7 @@ class Well(ABC):
         return level_name(self.level)
 
     def way_in_words(self, *, is_down: bool) -> str:
-        """Tell where the ramp down or up leads to or comes from, as seen from this level, after a blank."""
+        """Describe, after a blank, where the ramp down or up leads to or comes from, as seen from this level."""
         above, below = level_name(self.level - 1), level_name(self.level + 1)
         if self.is_top:
             return f" to {below}" if is_down else f" from {below}"
@@ -137,7 +137,7 @@ class Well(ABC):
 
     @property
     def departures(self) -> tuple[Departure, ...]:
-        """Ramps that cars leave this level over, the one down first."""
+        """Ramps over which cars leave this level, the one down first."""
         down, up = self.pair.links
         below = (
             () if self.is_bottom else (Departure(down.head, down.head_way, level_name(self.level + 1), is_up=False),)
@@ -184,7 +184,7 @@ class Well(ABC):
 
     @abstractmethod
     def beside_floors(self, walls: list[Placement]) -> list[Placement]:
-        """Return those of its walls that stand beside a floor, on which things can hang: not between the ramps."""
+        """Return the walls beside a floor, on which objects can hang; not those between the ramps."""
 
     @abstractmethod
     def ramps(self, structure: Structure, fittings: FittingsConfig) -> list[Placement]:

@@ -73,7 +73,7 @@ class WellFrame:
     def placed(
         self, name: str, spec: Spec, point: Point, *, faces: Edge | None = None, height_m: float = 0.0
     ) -> Placement:
-        """Place an object at a local point, turned so that its +Z looks down the ramps or over an edge of a square."""
+        """Place an object at a local point with its +Z down the ramps or towards an edge of a square."""
         yaw = edge_yaw_rad(self.way if faces is None else faces)
         return placed(name, spec, self.to_world(point), height_m=height_m, yaw_rad=yaw)
 
@@ -95,7 +95,7 @@ def flight_profile(run_m: float, building: BuildingConfig) -> tuple[Point, ...]:
 
 @dataclass(frozen=True)
 class _Lane:
-    """One ramp across the well: the borders of its squares and of its carriageway, from the well's middle."""
+    """Position of a ramp across the well: the borders of its squares and of its carriageway, from the well's middle."""
 
     name: str
     low_m: float
@@ -144,7 +144,7 @@ class FlightWell(Well):
         ):
             face, back = spans
             spec = replace(plain, thickness_m=round(abs(back - face), 6))
-            if name.startswith(_MIDDLE):  # the floor beside it slopes
+            if name.startswith(_MIDDLE):  # the floors on both sides slope
                 spec = replace(spec, dado_m=0.0, has_stripe=False)
             wall(name, spec, (face, -frame.run_m / 2), faces)
         for name, along, faces, is_open in (
@@ -172,7 +172,7 @@ class FlightWell(Well):
         ]
 
     def beside_floors(self, walls: list[Placement]) -> list[Placement]:
-        """Return those of its walls that stand beside a floor, on which things can hang: not between the ramps."""
+        """Return the walls beside a floor, on which objects can hang; not those between the ramps."""
         return [wall for wall in walls if _MIDDLE not in wall.name and not wall.position_m[1]]
 
     def ramps(self, structure: Structure, fittings: FittingsConfig) -> list[Placement]:  # noqa: ARG002
@@ -239,7 +239,7 @@ class FlightWell(Well):
             if room < _LEAST_WIDTH_M:
                 wanted = f"1, or squares that leave ramps {_LEAST_WIDTH_M} m between their walls"
                 raise ConfigError("building.levels", self.levels, wanted)
-            # in the middle of its squares, as the lanes to its landings are
+            # centred in its squares, like the lanes to its landings
             half = min(room, _MOST_WIDTH_M) / 2
             middle = (low + high) / 2
             borders = (round(x, 6) for x in (low, high, middle - half, middle + half))
@@ -255,7 +255,7 @@ _WELLS: dict[LinkKind, Callable[[Any, int, int, BuildingConfig, float], Well]] =
 
 
 def make_well(pair: Ramps, level: int, config: GarageConfig) -> Well:
-    """Return the well of a pair of ramps, as one level has its part of it.
+    """Return the part of the well of a pair of ramps that belongs to one level.
 
     Parameters
     ----------

@@ -42,7 +42,7 @@ __all__ = ["SurveyedFloor", "lay_out_survey"]
 
 @dataclass(frozen=True, eq=False)
 class SurveyedFloor(FloorSource):
-    """The floor of a surveyed garage. Its squares are tiles alone; it has no S, R, C and tape.
+    """The floor of a surveyed garage, which has tiles but no S, R, C and tape.
 
     Attributes
     ----------
@@ -72,22 +72,22 @@ class SurveyedFloor(FloorSource):
 
     @property
     def again(self) -> "partial[Layout]":
-        """Lays the same survey out again."""
+        """Lay out the same survey again."""
         return partial(lay_out_survey, self.survey)
 
     @property
     def area(self) -> FloorArea:
-        """The ground inside the outline, without and with its blocks."""
+        """Area of the ground inside the outline, without blocks and with them."""
         ground = shapely.Polygon(self.survey.outline)
         solids = shapely.union_all(self.survey.solid_polygons())
         return FloorArea(float(ground.difference(solids).area), float(ground.area))
 
     def access(self, stalls: Sequence[PlacedStall]) -> list[int]:
-        """Return the number of the lane node before the mouth of each stall, which are all its stalls in order."""
+        """Return the number of the lane node before the mouth of each stall, given all stalls in order."""
         return [stall.access for _, stall in zip(stalls, self.fitted, strict=True)]
 
     def node_squares(self) -> NDArray[np.int32]:
-        """Return the (row, col) by which files name each lane node, which are counted in one row."""
+        """Return the (row, col) that names each lane node in files: (0, number)."""
         count = len(self.network.nodes)
         return np.stack([np.zeros(count, np.int32), np.arange(count, dtype=np.int32)], axis=1)
 
@@ -214,7 +214,7 @@ def _columns(survey: Survey, config: GarageConfig, look: LookConfig) -> list[Pla
 
 
 def _ceiling(ground: SurveyedGround, config: GarageConfig) -> Iterator[Placement]:
-    """Yield the ceiling slab over each tile, as far as the outline reaches."""
+    """Yield the ceiling slab over the part of each tile inside the outline."""
     for tile in ground:
         left, back, right, front = shapely.intersection(tile.box, ground.polygon).bounds
         spec = CeilingSpec(round(right - left, 6), round(front - back, 6), CEILING_THICKNESS_M)

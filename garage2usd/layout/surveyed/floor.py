@@ -28,7 +28,7 @@ _OUTWARDS = {Edge.UP: (0.0, -1.0), Edge.DOWN: (0.0, 1.0), Edge.LEFT: (-1.0, 0.0)
 def surveyed_floor(
     ground: SurveyedGround, panels: Iterable[Placement], stalls: Sequence[PlacedStall]
 ) -> Iterator[Placement]:
-    """Yield the floor panel of each tile, with openings for the stalls and for what lies outside the outline.
+    """Yield the floor panel of each tile, with openings for stalls and for the ground outside the outline.
 
     A tile that is all stalls has none. The markings are those of the panels of the floor's pieces, as far as they lie
     on the tile and outside the stalls; where pieces overlap, those of the first one.
@@ -85,7 +85,7 @@ def surveyed_beams(
 
 
 def _on_lines(place: Placement, lines: tuple[NDArray[np.float64], NDArray[np.float64]]) -> Placement:
-    """Return a column moved onto the lines that it is nearest to, if they are near."""
+    """Return a column moved onto the nearest lines, if it is near them."""
     x, y, z = place.position_m
     at = [float(own[np.argmin(np.abs(own - value))]) for own, value in zip(lines, (x, z), strict=True)]
     if abs(at[0] - x) > OFF_LINE_M or abs(at[1] - z) > OFF_LINE_M:
@@ -96,7 +96,7 @@ def _on_lines(place: Placement, lines: tuple[NDArray[np.float64], NDArray[np.flo
 def placed_stalls(
     fitted: Iterable[FittedStall], ground: SurveyedGround
 ) -> tuple[tuple[PlacedStall, ...], tuple[FittedStall, ...]]:
-    """Return the stalls by tile in reading order, each with a number that people read, and the fitted ones likewise."""
+    """Return the stalls in reading order of their tiles, with painted numbers, and the fitted stalls likewise."""
     fitted = list(fitted)
     square_of = [ground.square_at(stall.shape.centre) for stall in fitted]
     numbers = _numbers(fitted)
@@ -138,7 +138,7 @@ def _noted(stall: FittedStall, number: str) -> FittedStall:
 
 
 def _numbers(fitted: Iterable[FittedStall]) -> list[str]:
-    """Return the number of each stall: that of the survey, or counted through where some lack one or share it.
+    """Return the number of each stall: that of the survey, or consecutive numbers if any is missing or not unique.
 
     Stalls in which nobody parks need none.
     """

@@ -51,7 +51,7 @@ class StructuralLines(NamedTuple):
     z_m: tuple[float, ...]
 
     def cuts_m(self, start: Point, end: Point) -> list[float]:
-        """Return the distances along a stretch at which it is cut: at the lines across it, and between distant ones.
+        """Return the distances at which to cut a stretch: at the lines across it, and between lines far apart.
 
         Parameters
         ----------
@@ -124,7 +124,7 @@ class GroundTile(NamedTuple):
         return shapely.box(x - half_x, z - half_z, x + half_x, z + half_z)
 
     def local(self, shape: shapely.Geometry) -> list[Polygon]:
-        """Return the polygons of a shape as far as they lie on the tile, in its coordinates."""
+        """Return the part of a shape that lies on the tile, as polygons in the coordinates of the tile."""
         parts = shapely.get_parts(shapely.intersection(shape, self.box, grid_size=10**-_DIGITS))
         x, z = self.middle_m
         return [
@@ -168,7 +168,7 @@ class SurveyedGround:
         self.tiles = {square: tile for square, tile in self._all.items() if cells[square] != Cell.OBSTACLE}
 
     def _structure(self, x_m: Sequence[float], z_m: Sequence[float], least: float) -> Structure:
-        """Return rectangles between lines, as obstacles where at most a share of them lies inside the outline."""
+        """Return the rectangles between lines as a structure; those mostly outside the outline are obstacles."""
         x, z = (np.round(np.array(lines) * 1000) / 1000 for lines in (x_m, z_m))
         boxes = shapely.box(x[:-1], z[:-1, None], x[1:], z[1:, None])
         inside = shapely.area(shapely.intersection(boxes, self.polygon))
@@ -205,7 +205,7 @@ class SurveyedGround:
         return min(self.tiles, key=lambda square: (round(math.dist(self.tiles[square].middle_m, point), 6), square))
 
     def on_tiles(self, parts: Iterable[Iterable[Placement]]) -> Iterator[Iterable[Placement]]:
-        """Return groups of objects with those of pieces of the floor on the tiles that they stand over.
+        """Return groups of objects, each object of a floor piece assigned to the tile that it stands on.
 
         Names stay unique on each tile.
         """
@@ -224,7 +224,7 @@ class SurveyedGround:
 
 
 def rectangles(ground: shapely.Polygon, least_m: float) -> Iterator[shapely.Polygon]:
-    """Yield rectangles of a least side that fill a ground: itself, or the largest one and those of what it leaves."""
+    """Fill a ground with rectangles of a least side: the largest one first, then those that fill the rest."""
     rest = [ground]
     while rest:
         part = rest.pop()
@@ -243,9 +243,9 @@ def rectangles(ground: shapely.Polygon, least_m: float) -> Iterator[shapely.Poly
 
 
 def _largest_rectangle(ground: shapely.Polygon, least_m: float) -> shapely.Polygon | None:
-    """Return the largest rectangle along the axes between the corners of a ground that lies on it.
+    """Return the largest axis-aligned rectangle inside a ground with its sides at coordinates of the corners.
 
-    Of a ground with many corners, some of them count.
+    For a ground with many corners, only some of them are considered.
     """
     corners = shapely.get_coordinates(ground).round(2)
     (left, right), (top, bottom) = (_spans(corners[:, axis], least_m) for axis in (0, 1))
@@ -253,7 +253,7 @@ def _largest_rectangle(ground: shapely.Polygon, least_m: float) -> shapely.Polyg
     areas = shapely.area(boxes).round(3)
     wide = ground.buffer(_TOUCH_M, join_style="mitre")
     shapely.prepare(wide)
-    # the corners of a box are far sooner known to lie outside than the box is known to lie inside
+    # testing the corners rejects most boxes, and is much faster than testing the whole box
     x0, z0, x1, z1 = shapely.bounds(boxes).T
     is_possible = np.all([shapely.contains_xy(wide, x, z) for x, z in ((x0, z0), (x1, z0), (x1, z1), (x0, z1))], axis=0)
     order = np.argsort(-areas, kind="stable")

@@ -1,4 +1,4 @@
-"""The lanes of a floor without squares, cut into pieces: junctions, bends, portals and what lies between them."""
+"""The lanes of a surveyed floor, cut into pieces: junctions, bends, portals, and the stretches between them."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -87,7 +87,7 @@ class LanePieces:
                 end = joints.get(way[-1])
                 back = [] if end is None else [turn for turn, at in end.beyond.items() if at == way[-2]]
                 if end is not None and back and (end.node, way[-2]) < (joint.node, way[1]):
-                    continue  # cut from its other end
+                    continue  # the stretch is cut from its other end
                 pieces = list(self._cut(way, joint, end, count))
                 count += len(pieces)
                 yield from pieces
@@ -111,7 +111,7 @@ class LanePieces:
         return self._lanes.arcs.get((one, other)) or self._lanes.arcs[other, one]
 
     def _heading_rad(self, start: int, end: int) -> float:
-        """Return the yaw that turns +X towards the way from one node to another."""
+        """Return the yaw that turns +X towards another node."""
         (x0, z0), (x1, z1) = (self._lanes.nodes[node].position for node in (start, end))
         return elementary.arctan2(z0 - z1, x1 - x0)
 
@@ -133,7 +133,7 @@ class LanePieces:
             for edge, turn in _TURNS_RAD.items()
         ]
         joined: set[int] = set()
-        # each lane at the edge that it leaves most directly; of five or more lanes the last ones end beside the piece
+        # assign each lane to the edge that it crosses most directly; beyond four lanes, the others end beside the piece
         for _, number, edge in sorted(off):
             if edge not in beyond and number not in joined:
                 beyond[edge] = beside[number]
@@ -203,7 +203,7 @@ class LanePieces:
                 count += 1
 
     def _beyond_tip(self, before: Floats, tip: Floats, width_m: float) -> Floats:
-        """Return the vector from the tip of a lane to the wall or stalls ahead of it, or as far as it is wide."""
+        """Return the vector from the tip of a lane to the wall or stalls ahead, else half of the lane's width."""
         ahead = (tip - before) / np.linalg.norm(tip - before)
         aside = ahead[::-1] * (1.0, -1.0) * (width_m / 2 - self._setback_m)
         reach_m = width_m / 2 + _BEYOND_TIP_M
@@ -217,7 +217,7 @@ class LanePieces:
         return beyond
 
     def _bends(self, line: Floats, runs: Floats, first: float, last: float) -> list[float]:
-        """Return the distances along a line at which it has turned from where its last stretch began."""
+        """Return the distances along a line at which its direction has changed enough to begin a new stretch."""
         found: list[float] = []
         steps = np.diff(line, axis=0)
         headings = [elementary.arctan2(-z, x) for x, z in steps.tolist()]
@@ -252,7 +252,7 @@ class LanePieces:
         )
 
     def _join(self, chain: Sequence[Square], turns: Sequence[Edge], way: Sequence[int]) -> None:
-        """Note which pieces of a lane follow one another, over which edges, and in which direction."""
+        """Record the sequence of the pieces of a lane, the edges between them, and the direction of driving."""
         edge = self._edge(way[0], way[1])
         for number, (one, other) in enumerate(pairwise(chain)):
             self.beside[one, turns[2 * number]] = other
@@ -274,7 +274,7 @@ def edge_towards(heading_rad: float, yaw_rad: float) -> Edge:
 
 
 def _ends_of(piece: Tile, way: Sequence[int], lanes: LaneGraph) -> tuple[Edge, Edge]:
-    """Return the edges of a piece of a lane towards the begin of a way and towards its end."""
+    """Return the edges of a piece of lane towards the start and the end of the stretch."""
     line = shapely.LineString([lanes.nodes[node].position for node in way])
     at = line.project(shapely.Point(piece.middle_m))
     before, after = line.interpolate(max(at - 1.0, 0.0)), line.interpolate(at + 1.0)

@@ -103,7 +103,7 @@ class SurveyedTiles(Tiles):
         return tile.cell is Cell.FREE and tile.square not in self._rows_on
 
     def openings(self, tile: Tile) -> tuple[Polygon, ...]:
-        """All of a row of stalls, whose floor is theirs."""
+        """Openings in the floor of a piece: the whole piece for a row of stalls, whose panels cover it."""
         if tile.square not in self._rows_on:
             return ()
         return (rectangle(-tile.half_x_m, -tile.half_z_m, tile.half_x_m, tile.half_z_m),)
@@ -217,7 +217,7 @@ class SurveyedTiles(Tiles):
         return {square: self._fitted(tile, half_m.get(square, {})) for square, tile in found.items()}
 
     def _fitted(self, tile: Tile, half_m: Mapping[bool, float]) -> Tile:
-        """Return a piece of lane up to the mouths of its stalls, where these are near the carriageway."""
+        """Return a piece of lane, extended to the mouths of its stalls if they are near the carriageway."""
         up, down, left, right = (bool(self._opening.get((tile.square, edge))) for edge in Edge)
         sides_m = [tile.width_m, tile.depth_m]
         along_x = tile.axis_is_x
@@ -228,7 +228,7 @@ class SurveyedTiles(Tiles):
         return replace(tile, stall_mouths=mouths, width_m=sides_m[0], depth_m=sides_m[1])
 
     def _rows(self) -> Iterator[tuple[Tile, list[PlacedStall]]]:
-        """Yield pieces with the stalls in them: neighbours of one row, about as many as a piece is long."""
+        """Yield the pieces of rows of stalls, with the stalls in each, as long as the pieces of lanes."""
         rows: nx.Graph[int] = nx.Graph()
         rows.add_nodes_from(range(len(self._stalls)))
         sides = [_sides(stall) for stall in self._stalls]
@@ -256,7 +256,7 @@ class SurveyedTiles(Tiles):
                 number += 1
 
     def _free(self, lanes: Iterable[Tile], count: int) -> Iterator[Tile]:
-        """Yield rectangular pieces of the ground that neither lanes nor stalls take."""
+        """Yield rectangular pieces of the ground without lanes and stalls."""
         taken = [*self.solids, *(_ground(tile) for tile in lanes)]
         free = self._outline.difference(shapely.union_all(taken))
         half_m = _LEAST_FREE_M / 2
@@ -282,7 +282,7 @@ def _free_tile(square: Square, middle: Point, sides_m: Point, yaw_rad: float = 0
 
 
 def _row_yaw_rad(stall: PlacedStall) -> float:
-    """Return the yaw of axes of which X lies along the mouth of a stall, within a quarter turn."""
+    """Return the yaw of axes with X along the mouth of a stall, within a quarter turn."""
     left, right, *_ = stall.corners_m()
     yaw = math.remainder(elementary.arctan2(left[1] - right[1], right[0] - left[0]), math.pi)
     if abs(abs(yaw) - math.pi / 2) < AXIS_RAD:

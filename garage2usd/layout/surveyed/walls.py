@@ -35,7 +35,7 @@ _TURN_TOLERANCE = 1e-6
 
 
 class _Side(NamedTuple):
-    """A side of the outline: its ends, with the inside on the right of a walk from start to end, seen with z down."""
+    """A side of the outline from start to end, with the inside on its right, seen from above with z downwards."""
 
     start: Point
     end: Point
@@ -101,7 +101,7 @@ def gates_of(
         wall_m = round(min(door_wall_m, (side.length_m - 2 * _LEAST_WALL_M) / len(kinds)), _DIGITS)
         room_m = len(kinds) * wall_m / 2 + _LEAST_WALL_M
         middle = min(max(_run_m(side, portal.position), room_m), side.length_m - room_m)
-        # those who walk along the side have the inside on their right, so drivers who come in have its start on theirs
+        # along the side the inside is on the right, so the start of the side is on the right of cars that come in
         is_start_entrance = not keeps_left
         ordered = kinds if is_start_entrance else kinds[::-1]
         for number, kind in enumerate(ordered):
@@ -181,7 +181,7 @@ def _spec(length_m: float, fittings: FittingsConfig, look: WallsLook, door: Gate
 
 
 def _natural_portal(outline: shapely.Polygon, lanes: Sequence[SurveyedLane]) -> SurveyedPortal:
-    """Return the portal of a survey without one: the end of a lane nearest to the outline."""
+    """Return a portal for a survey without any: the end of a lane nearest to the outline."""
     ends = [lane.points[place] for lane in lanes for place in (0, -1)]
     if not ends:
         raise ConfigError("lanes", [], "a lane or more")

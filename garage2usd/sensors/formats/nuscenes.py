@@ -164,7 +164,7 @@ def _add_sensors(tables: Tables, shots: Sequence[Shot], channels: Mapping[str, s
         intrinsic: list[list[float]] = []
         if isinstance(sensor, PinholeCamera):
             lens = sensor.lens
-            # the origin is the middle of the first pixel there
+            # the origin of nuScenes is the middle of the first pixel
             (f_x, f_y), (c_x, c_y) = lens.focal_px, (centre - 0.5 for centre in lens.centre_px)
             intrinsic = [[f_x, 0.0, c_x], [0.0, f_y, c_y], [0.0, 0.0, 1.0]]
         modality = "lidar" if isinstance(sensor, Lidar) else "camera"

@@ -106,13 +106,13 @@ class GlobalFrame:
 
         Notes
         -----
-        The walls of a level end its ramps where others go on, a storey below or above: their feet on the map of the
-        level at the head, and their heads on that of the level at the foot.
+        The walls of a level bound its ramps: each ramp is open only at its end on this level, and closed where it
+        reaches the level below or above.
         """
         columns, rows = (math.ceil(side / _MAP_CELL_M) for side in self.size_m.tolist())
         across, down = np.meshgrid(np.arange(columns), np.arange(rows))
         x_m, y_m = (across.ravel() + 0.5) * _MAP_CELL_M, (rows - down.ravel() - 0.5) * _MAP_CELL_M
-        # what stands on the ground lies in the same plane as it, so that only the ground is looked at, from below
+        # cast from below, where only the ground is met: the foot of a standing object lies in the same plane
         lowest_m = self.lowest_m - 1
         below = self.to_stage(np.stack([x_m, y_m, np.full_like(x_m, lowest_m)], axis=1))
         ahead, up = (self.matrix[:3, :3].T @ way for way in ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]))
@@ -134,10 +134,10 @@ class GlobalFrame:
 def _is_within(
     scene: RayScene, class_ids: Collection[int], places_m: NDArray[np.float64], way: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Test if places of shape (n, 3) lie within solids of some classes, by what is met on a way from there."""
+    """Test if places, shape (n, 3), lie within solids of some classes, by the first hit of a ray from each."""
     hits = scene.cast(places_m, np.broadcast_to(way, places_m.shape))
     first, second, third = (scene.vertices_m[scene.triangles[hits.triangle, corner]] for corner in range(3))
-    # a ray that meets a solid from within began in it
+    # a ray that first meets a back face began inside the solid
     is_within: NDArray[np.bool_] = (np.cross(second - first, third - first) @ way > 0) & (hits.triangle >= 0)
     return is_within & np.isin(scene.class_id[hits.triangle], list(class_ids))
 
@@ -166,12 +166,12 @@ class Stretch:
         return f"scene-{self.number:04d}"
 
     def key(self, key: object) -> str:
-        """Return the key of what each scene has a record of its own of; the first scene's is the given one."""
+        """Return the key of a record that each scene has of its own; in the first scene, the given key."""
         return str(key) if self.number == 1 else f"{key} {self.name}"
 
 
 def stretches_of(shots: Iterable[Shot], locations: Sequence[Location], world: GlobalFrame) -> list[Stretch]:
-    """Divide a recording where the vehicle comes to another level, which is half way on a ramp.
+    """Divide a recording where the vehicle changes its level, half way along a ramp.
 
     Parameters
     ----------

@@ -85,7 +85,7 @@ def woodscape_calibration(camera: Camera, lens: WoodScape) -> dict[str, object]:
 
     For a camera mounted on a column or in the world, the extrinsics lead to the frame of the mount.
     """
-    from scipy.spatial.transform import Rotation  # noqa: PLC0415 - all who import this module would wait for it
+    from scipy.spatial.transform import Rotation  # noqa: PLC0415 - slow to import, and not always needed
 
     place = camera.sensor_to_vehicle
     (width, height), (across, down) = lens.size_px, lens.centre_px

@@ -53,7 +53,7 @@ class DrivenSurface:
         ndarray
             bool, shape (n,).
         """
-        places = points_m @ self._to_stage[:3, :3]  # by the inverse of a turn
+        places = points_m @ self._to_stage[:3, :3]  # the inverse rotation
         is_free = np.zeros(len(places), dtype=np.bool_)
         for floor in self._floors:
             is_free |= self._is_free_on(floor, places)

@@ -70,7 +70,7 @@ class RadiusPolynomial:
         seen = radius <= self(most_rad)
         low, high = np.zeros(radius.shape), np.full(radius.shape, most_rad)
         angle = np.clip(radius / slope[0], low, high)
-        for _ in range(_STEPS):  # Newton's steps where they stay between what is known, halves elsewhere
+        for _ in range(_STEPS):  # Newton's method, with bisection where a step leaves the bracket
             over = self(angle) - radius
             high, low = np.where(over >= 0, angle, high), np.where(over <= 0, angle, low)
             step = angle - over / np.maximum(_horner(slope, angle), _TINY)

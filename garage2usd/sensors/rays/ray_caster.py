@@ -73,7 +73,7 @@ class BoxTree:
     def __init__(self, vertices_m: NDArray[np.float64], triangles: NDArray[np.int32]) -> None:
         corners = np.asarray(vertices_m, dtype=np.float64)[triangles]
         leaves = 1 << max(0, int(np.ceil(np.log2(max(len(triangles), 1) / _LEAF))))
-        # filled up to a full tree with what stands at the end of every order
+        # pad to a full tree with entries that sort last
         order = np.full(leaves * _LEAF, -1)
         order[: len(triangles)] = np.arange(len(triangles))
         places = np.full((len(order), 3), _FINEST, dtype=np.uint16)
@@ -142,7 +142,7 @@ class BoxTree:
         self, boxes: NDArray[np.int64], origins_m: NDArray[np.float64], inverse: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """Intersect rays with boxes: the distance of entry, infinite for a miss; shape (n, 2) as the boxes."""
-        with np.errstate(invalid="ignore"):  # a ray within the plane of a side
+        with np.errstate(invalid="ignore"):  # 0 times infinity for a ray in the plane of a side
             one = (self._low[boxes] - origins_m[:, None]) * inverse[:, None]
             other = (self._high[boxes] - origins_m[:, None]) * inverse[:, None]
         enter = np.nanmax(np.minimum(one, other), axis=2)

@@ -116,7 +116,7 @@ class RayScene:
             found = self._caster.first(begins, directions[going])
             going, found = going[found >= 0], found[found >= 0]
             range_m, cosine = self._meet(found, origins_m[going], directions[going])
-            # single precision may find what lies a hair behind the origin
+            # in single precision a hit may lie slightly behind the origin
             range_m = np.maximum(range_m, begins_m[going])
             through = self._is_looked_through(found, origins_m[going] + directions[going] * range_m[:, None])
             stopped = going[~through]
@@ -224,7 +224,7 @@ def read_ray_scene(
             if path not in owners:
                 owners[path] = owner_of(path, labels.ids)
             owner, instance = owners[path], labels.instance_of(owners[path])
-            if instance == owner:  # what stands there is the car, not its number plates
+            if instance == owner:  # the car itself rather than its number plates
                 placed_by_id.setdefault(instance, placed)
             places = piece.positions @ placed.matrix[:3, :3] + placed.matrix[3, :3]
             count = len(piece.indices)

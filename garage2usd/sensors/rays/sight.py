@@ -59,7 +59,7 @@ def _up_to_the_rim(
     A point on the edge is the last visible one on the straight line from the middle visible point of the outline to an
     invisible one. The visible part of a plane, or its complement, is convex, so each line leaves it once.
     """
-    # the order begins with the first of a run of points that it sees
+    # begin the order with the first point of a visible run
     first = int(np.flatnonzero(is_seen & ~np.roll(is_seen, 1))[0])
     order = np.roll(np.arange(len(points)), -first)
     runs = np.split(order, np.flatnonzero(np.diff(is_seen[order])) + 1)
@@ -71,7 +71,7 @@ def _up_to_the_rim(
         inner = np.concatenate([points[seen[-1:]], np.broadcast_to(middle, (len(unseen), 3)), points[[after]]])
         outer = points[np.concatenate([unseen[:1], unseen, unseen[-1:]])]
         rim = _last_seen(inner, outer, project)
-        # between its ends, what a pinhole sees beside itself is as good as infinitely far away
+        # between the ends of the rim, drop points that a pinhole projects nearly to infinity
         is_near = np.abs(rim).max(axis=1) < _FARTHEST_PX
         is_near[[0, -1]] = True
         yield rim[is_near]

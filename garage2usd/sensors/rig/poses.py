@@ -53,7 +53,7 @@ class Twist:
 
         `seconds` between the poses is greater than 0.
         """
-        from scipy.spatial.transform import Rotation  # noqa: PLC0415 - all who import this module would wait for it
+        from scipy.spatial.transform import Rotation  # noqa: PLC0415 - slow to import, and not always needed
 
         turned = Rotation.from_matrix(before[:3, :3].T @ after[:3, :3])
         angles = turned.as_rotvec()
@@ -167,6 +167,6 @@ def y_up_to_stage(stage: Usd.Stage) -> Matrix:
     """Return the rotation from Y up to the stage's axes, both in metres; for column vectors, shape (4, 4)."""
     turn = np.eye(4)
     to_metres = metres_y_up(stage)
-    # for row vectors it leads the other way
+    # `to_metres` is for row vectors; unchanged, it is the inverse rotation for column vectors
     turn[:3, :3] = to_metres[:3, :3] / np.linalg.norm(to_metres[0, :3])
     return turn

@@ -76,7 +76,7 @@ class Rig(Settings):
     @field_validator("sensors")
     @classmethod
     def _own_names(cls, sensors: tuple[Sensor, ...]) -> tuple[Sensor, ...]:
-        names = [sensor.name.casefold() for sensor in sensors]  # files of both may lie where case does not count
+        names = [sensor.name.casefold() for sensor in sensors]  # file systems may ignore case
         for sensor in sensors:
             if names.count(sensor.name.casefold()) > 1:
                 raise ValueError(f"sensors of different names; {names.count(sensor.name.casefold())} are {sensor.name}")
@@ -98,7 +98,7 @@ class Rig(Settings):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """A line for each kind of part or property of the user's car model that is not taken, or not as it is."""
+        """Lines on the parts and properties of the user's car model that are ignored or changed, one for each kind."""
         body = self.body
         return body.remarks if isinstance(body, OwnCar) else ()
 

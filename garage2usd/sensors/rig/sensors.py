@@ -108,7 +108,7 @@ class Sensor(Settings):
 
         Cameras have OpenCV's axes (+X right, +Y down, +Z forward). LiDARs look along x, with y to the left and z up.
         """
-        from scipy.spatial.transform import Rotation  # noqa: PLC0415 - all who import this module would wait for it
+        from scipy.spatial.transform import Rotation  # noqa: PLC0415 - slow to import, and not always needed
 
         matrix = np.eye(4)
         angles_deg = [self.yaw_deg, self.pitch_deg, self.roll_deg]

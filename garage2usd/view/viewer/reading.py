@@ -72,7 +72,7 @@ def _lines(mesh: Triangles, approximation: str) -> NDArray[np.float32]:
         return edges
     triangles = mesh.indices.astype(np.int64)
     if approximation in _HULLS:
-        from scipy.spatial import ConvexHull, QhullError  # noqa: PLC0415 - few ask for colliders, all wait for imports
+        from scipy.spatial import ConvexHull, QhullError  # noqa: PLC0415 - slow to import, and colliders are rarely shown
 
         with suppress(QhullError):  # flat points have no hull; their triangles are drawn instead
             triangles = ConvexHull(points).simplices

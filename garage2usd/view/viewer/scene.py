@@ -34,7 +34,7 @@ class ShownSurface(NamedTuple):
     roughness_channel, metallic_channel
         Channel of the texture.
     has_alpha
-        Whether the colour texture has an alpha channel.
+        True if the colour texture has an alpha channel.
     set, layout
         Set of texture coordinates, and the transform of the texture.
     """
@@ -158,7 +158,7 @@ class Piece:
     slot
         Index of its surface in the object's palette.
     is_blended
-        Whether the surface is translucent.
+        True if the surface is translucent.
     collider
         Collision shape as UsdPhysics' token: ``none`` for the triangles themselves, ``convexHull``, ``boundingCube``
         and others; empty without collision.
