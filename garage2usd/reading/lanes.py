@@ -180,9 +180,7 @@ def _read_stalls(curves: _Curves, lanes: Lanes) -> None:
     if rows is None:
         _incomplete(curves, lanes, "id, use and accessNode")
         return
-    columns = {
-        name: curves.values(f"garage:stall:{name}") for name in ("number", "type", "size", "row", "column", "entryEdge")
-    }
+    columns = {name: curves.values(f"garage:stall:{name}") for name in _FACTS}
     columns["blocked_by"] = curves.values("garage:stall:blockedBy")
     columns["occupied"] = [value == 1 for value in curves.values("garage:stall:occupied")]
     known = {name: values for name, values in columns.items() if values}
