@@ -15,8 +15,8 @@ from garage2usd.checks import (
     RULES,
     Finding,
     Severity,
-    check,
     clauses_checked,
+    findings_of,
     found_in_words,
     judged_layout,
     not_checked,
@@ -79,7 +79,7 @@ def test_a_clause_is_checked_without_a_second_one(clause):
     garage = generate(config)
     subject = garage_as_made(garage, source="", kind="report")
     profile = profile_of(**{clause: SECONDS[clause]})
-    assert {finding.clause for finding in check(subject, profile)} - {""} == {clause}
+    assert {finding.clause for finding in findings_of(subject, profile)} - {""} == {clause}
     assert not_checked(subject.levels[0], profile) == {}
 
 
