@@ -2,6 +2,7 @@
 
 A stain stays inside its square. Equal squares with equal random numbers therefore stay equal.
 """
+# Over 300 lines: all kinds of stains share the free floor of a square, so that they do not overlap.
 
 import math
 from collections.abc import Iterable, Iterator
