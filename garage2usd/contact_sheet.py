@@ -192,7 +192,7 @@ def _written(garage: SheetGarage, folder: Path) -> tuple[Path, list[_Level]]:
     made = generate(garage.config, plan=garage.plan, tape=garage.tape)
     write_stage(made, stage, config=garage.config.stage.model_copy(update=plain))
     return stage, [
-        _Level(" ".join(filter(None, (garage.name, level.place.name))), level.layout, own)
+        _Level(level.place.after(garage.name, joint=" "), level.layout, own)
         for level, own in zip(made.levels, stages_of_levels(made, stage), strict=True)
     ]
 

@@ -51,7 +51,7 @@ class _Source:
     def read_for(self, formats: Sequence[str]) -> None:
         """Read the data that several files need, so that forks of this process share it."""
         of_lanes = [suffix for suffix in formats if suffix != _SCENE]
-        if len(formats) > 1:
+        if _SCENE in formats and of_lanes:
             _ = self.objects
         if len(of_lanes) > 1:
             for level in self.garage.levels:
@@ -67,7 +67,7 @@ class _Source:
     @cached_property
     def garage(self) -> BuiltGarage:
         """The garage: levels with lanes, stalls and objects."""
-        return garage_of_stage(self.stage, source=self.name, objects=self.objects, is_judged=False)
+        return garage_of_stage(self.stage, source=self.name, objects=lambda: self.objects, is_judged=False)
 
     @cached_property
     def networks(self) -> tuple[LevelNetwork, ...]:
@@ -116,7 +116,7 @@ class _Asked(NamedTuple):
     def grids(self, folder: Path) -> list[Path]:
         """Paths in `folder` of the occupancy grids, one for each level."""
         path = folder / self.place.name
-        return [path.with_stem(self.joint.join(filter(None, (path.stem, level.name)))) for level in self.levels]
+        return [path.with_stem(level.after(path.stem, joint=self.joint)) for level in self.levels]
 
 
 _Write = Callable[["_Source", Path, _Asked, Remarks], object]
@@ -287,8 +287,9 @@ def export(
             opened = _Source(stage, str(source))
             opened.read_for([asked.format for asked in files])
             levels = tuple(levels_of(opened.stage))
-            files = [asked._replace(levels=levels) for asked in files]
-            _check_files(files)
+            if levels != files[0].levels:
+                files = [asked._replace(levels=levels) for asked in files]
+                _check_files(files)
             tasks = [partial(_write, opened, staging / str(number), files[number]) for number in order]
             progress("export", 0, len(files))
             for number, (written, lines) in zip(order, run_in_forks(tasks, workers), strict=True):

@@ -3,11 +3,10 @@
 import hashlib
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from garage2usd.checks import judged_layout
 from garage2usd.common.processes import without_collector
@@ -80,14 +79,7 @@ def import_layout(
         findings, unmet = judged_layout(layout, config, with_ways=proves)
         return (Judged(tuple(findings), unmet),)
 
-    def report(judged: Sequence[Judged] | None) -> Mapping[str, Any]:
-        unmet = None if judged is None else [each.unmet for each in judged]
-        survey = _survey_figures(garage, alignment)
-        facts: Mapping[str, Any] = make_report(
-            garage, seconds=seconds, unmet=unmet, survey=survey, proofs=proofs
-        ).model_dump(mode="json")
-        return facts
-
+    report = partial(make_report, garage, survey=_survey_figures(garage, alignment), proofs=proofs)
     draw = partial(draw_pictures, garage)
     made = written(garage, path, seconds, draw=draw, judge=judge, report=report, progress=progress)
     return replace(made, proofs=proofs)

@@ -8,7 +8,6 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from PIL import Image
 
@@ -34,8 +33,8 @@ from garage2usd.layout.shell.wells import make_well
 from garage2usd.level_plans import ATTEMPTS, PlannedLevel, lane_squares_of, plan_levels, sites_and_tapes, sites_of_plans
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.planning import Plan
-from garage2usd.reading.report import UnmetClause
-from garage2usd.report import make_report
+from garage2usd.reading.report import Report, UnmetClause
+from garage2usd.report import make_report, write_report
 from garage2usd.site.levels import LevelSites
 from garage2usd.stage import StageFormat, shared_folder, write_labels, write_stage
 from garage2usd.structure.building import Building
@@ -222,12 +221,7 @@ def build(
         garage, seconds = _generate(config, seed=seed, tape=tape, jobs=jobs, progress=progress)
     draw = partial(draw_pictures, garage, learning_curve=learning_curve, best_plans=best_plans)
 
-    def report(judged: Sequence[Judged] | None) -> Mapping[str, Any]:
-        unmet = None if judged is None else [each.unmet for each in judged]
-        facts: Mapping[str, Any] = make_report(garage, seconds=seconds, unmet=unmet).model_dump(mode="json")
-        return facts
-
-    judge = partial(_judged, garage)
+    judge, report = partial(_judged, garage), partial(make_report, garage)
     return written(garage, path, seconds, draw=draw, judge=judge, report=report, progress=progress)
 
 
@@ -250,7 +244,7 @@ def written(
     *,
     draw: Callable[[], Mapping[str, Image.Image]],
     judge: Callable[[], tuple[Judged, ...] | None],
-    report: Callable[[Sequence[Judged] | None], Mapping[str, Any]],
+    report: Callable[..., Report],
     progress: Progress = silent,
 ) -> Build:
     """Write the files of a garage; either all of them appear or none.
@@ -268,7 +262,7 @@ def written(
     judge
         Function that checks each level against its profile.
     report
-        Function that returns the content of the report, given the result of `judge`.
+        `garage2usd.report.make_report` of the garage, which is given ``seconds`` and ``unmet``.
     progress
         As for `build`.
     """
@@ -290,7 +284,8 @@ def written(
             judged = judge()
             told.append("too many stalls" if judged is None else _counted(judged))
         facts = staging / f"{path.stem}_report.json"
-        facts.write_text(json_text(report(judged)), encoding="utf-8", newline="\n")
+        unmet = None if judged is None else [each.unmet for each in judged]
+        write_report(facts, report(seconds=seconds, unmet=unmet))
         progress("files", 0, 1)
         # the stage is published last: once it exists, all other files do
         files = [*filter(None, [made.assets]), *drawn, labels, facts]

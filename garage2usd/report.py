@@ -3,7 +3,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -114,7 +114,7 @@ def make_report(
         seed=config.seed,
         config_digest=config.digest(),
         config=config,
-        tape=_tape(garage),
+        tape=_tape_or_none(lambda: garage.tape) if garage.plans else None,
         parking_stalls=garage.parking_stalls,
         **area_figures([level.layout for level in garage.levels]),
         remarks=config.remarks(),
@@ -154,7 +154,7 @@ def _level_report(
 def _planned(level: GarageLevel, learning: LearningFigures | None) -> dict[str, Any]:
     """Return the facts of a level that its squares tell."""
     plan, layout, config = level.plan, level.layout, level.config
-    structure, tape, squares = plan.structure, _plan_tape(plan), layout.node_squares().tolist()
+    structure, tape, squares = plan.structure, _tape_or_none(lambda: plan_tape_of(plan)), layout.node_squares().tolist()
     return {
         "structure_digest": structure.digest(),
         "tape": tape,
@@ -331,15 +331,8 @@ def _circulation(structure: Structure, config: GarageConfig) -> CirculationFigur
     )
 
 
-def _tape(garage: Garage) -> str | None:
+def _tape_or_none(make: Callable[[], str]) -> str | None:
     try:
-        return garage.tape if garage.plans else None
+        return make()
     except ConfigError:  # for lanes given by the user in several pieces
-        return None
-
-
-def _plan_tape(plan: Plan) -> str | None:
-    try:
-        return plan_tape_of(plan)
-    except ConfigError:
         return None

@@ -1,7 +1,7 @@
 """A garage as built: its levels, and the lanes and stalls of the whole; metres, Y up."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -103,7 +103,11 @@ def garage_of_file(path: str | Path) -> BuiltGarage:
 
 
 def garage_of_stage(
-    stage: Usd.Stage, *, source: str, objects: Iterable[PlacedObject] | None = None, is_judged: bool = True
+    stage: Usd.Stage,
+    *,
+    source: str,
+    objects: Callable[[], Iterable[PlacedObject]] | None = None,
+    is_judged: bool = True,
 ) -> BuiltGarage:
     """Read a garage from an open stage in its current composition.
 
@@ -114,8 +118,8 @@ def garage_of_stage(
     source
         File of the stage.
     objects
-        Objects of the stage, if already known, as for `garage2usd.as_built.contents.read_contents`; only a garage
-        without levels in its stage is read from them.
+        Returns the objects of the stage, as for `garage2usd.as_built.contents.read_contents`. It is called only for a
+        garage without levels in its stage; levels are read one by one.
     is_judged
         True to read also the data that only rules need: illuminance, and stalls moved without their outlines.
 
@@ -127,9 +131,9 @@ def garage_of_stage(
     try:
         places = levels_of(stage)
         if places[0].is_only:
-            place = places[0]
+            known = None if objects is None else objects()
             return BuiltGarage.of_level(
-                level_of_stage(stage, source=source, place=place, objects=objects, is_judged=is_judged)
+                level_of_stage(stage, source=source, place=places[0], objects=known, is_judged=is_judged)
             )
         return _of_levels(stage, places, source=source, is_judged=is_judged)
     except RecursionError:

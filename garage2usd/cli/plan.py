@@ -116,7 +116,7 @@ def _drawings(garage: "Garage", number: str | None, marks: "Mapping[str, Sequenc
     chosen = find_stall(garage.stalls, number) if number else None
     drawings = {}
     for index, level in enumerate(garage.levels):
-        name = "".join(f"_{name}" for name in filter(None, [level.place.name]))
+        name = level.place.after("", joint="_")
         on_level = chosen if chosen is not None and chosen.level == index else None
         ways = None if chosen is None else ways_on_level(garage.lanes, chosen, index)
         drawings[name] = draw_plan(level.layout, stall=on_level, ways=ways, marks=marks.get(level.name, ()))

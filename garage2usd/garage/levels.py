@@ -47,6 +47,10 @@ class LevelPlace(NamedTuple):
         """Return the name in the whole garage of a stall or file of the level: ``U2/A1-08``, ``U2_plan``."""
         return name if self.is_only else f"{self.name}{joint}{name}"
 
+    def after(self, name: str, *, joint: str) -> str:
+        """Return the name of the garage, or of a file of it, with that of the level behind: ``two_U1``."""
+        return name if self.is_only else f"{name}{joint}{self.name}"
+
     def own_name(self, name: str) -> str:
         """Return the name of a stall within its level, given its name in the whole garage; inverse of `in_whole`."""
         return name.removeprefix(self.in_whole(""))

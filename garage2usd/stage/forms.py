@@ -42,6 +42,15 @@ def flatten_stage(source: Path, target: Path) -> None:
     flat.Export(str(target))
 
 
+def make_flat(layer_path: Path, folder: Path) -> None:
+    """Replace an instanced layer and its assets by one flat layer; the textures stay."""
+    flat = layer_path.with_stem(f"{layer_path.stem}_flat")
+    flatten_stage(layer_path, flat)
+    flat.replace(layer_path)
+    for asset in folder.glob("*.usdc"):
+        asset.unlink()
+
+
 def _prims(parent: Sdf.PrimSpec) -> list[Sdf.PrimSpec]:
     found = []
     for child in parent.nameChildren:

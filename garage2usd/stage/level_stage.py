@@ -20,7 +20,7 @@ from garage2usd.objects import Spec
 from garage2usd.stage.arrangement import Arrangement, arrange
 from garage2usd.stage.asset_files import OWN_ASSETS, AssetFile, asset_file, own_shapes, write_own_assets
 from garage2usd.stage.cameras import DRIVE_NAME, write_drive
-from garage2usd.stage.forms import flatten_stage, write_usdz
+from garage2usd.stage.forms import make_flat, write_usdz
 from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.looks import TEXTURE_FOLDER, NamedFile, textures_of
 from garage2usd.stage.prototypes import asset_of, name_prototypes
@@ -177,7 +177,7 @@ def write_level_stage(
         is_compact=is_compact,
     )
     if is_flat:
-        _make_flat(layer_path, folder)
+        make_flat(layer_path, folder)
     if not packed:
         return StageFiles(path, folder if folder.exists() else None, last_frame)
     inner = {file.relative_to(folder): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
@@ -227,12 +227,3 @@ def _write(contents: Mapping[str, bytes], folder: Path) -> None:
         place = folder / name
         place.parent.mkdir(exist_ok=True)
         place.write_bytes(data)
-
-
-def _make_flat(layer_path: Path, folder: Path) -> None:
-    """Replace an instanced layer and its assets by one flat layer; the textures stay."""
-    flat = layer_path.with_stem(f"{layer_path.stem}_flat")
-    flatten_stage(layer_path, flat)
-    flat.replace(layer_path)
-    for asset in folder.glob("*.usdc"):
-        asset.unlink()

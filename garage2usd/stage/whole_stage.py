@@ -16,7 +16,7 @@ from garage2usd.objects.kind import VariantSet
 from garage2usd.reading.label_table import LabelledObject, LabelTable
 from garage2usd.stage.authoring import anchored
 from garage2usd.stage.curves import LANE_GRAPH_FILE, STALL_OUTLINES, Drivable, write_lane_graph
-from garage2usd.stage.forms import flatten_stage, write_usdz
+from garage2usd.stage.forms import make_flat, write_usdz
 from garage2usd.stage.labels import label_table
 from garage2usd.stage.level_stage import StageFiles, StageFormat, arrangement_of, asset_folder_name, write_level_stage
 from garage2usd.stage.variants import BLOCKED_BY, OCCUPIED, SWITCHES
@@ -150,11 +150,7 @@ def _write_levels(
     layer.ImportFromString(_root_text(levels, lanes, layers, garage.metadata, last_frame))
     layer.Export(str(layer_path))
     if is_flat:
-        flat = layer_path.with_stem(f"{layer_path.stem}_flat")
-        flatten_stage(layer_path, flat)
-        flat.replace(layer_path)
-        for asset in folder.glob("*.usdc"):
-            asset.unlink()
+        make_flat(layer_path, folder)
     if beside:
         return StageFiles(path, None, last_frame)
     if not packed:

@@ -60,8 +60,8 @@ def locations_of(stage: Usd.Stage, file: Path) -> list[Location]:
     levels = levels_of(stage)
     return [
         Location(
-            "_".join(filter(None, (file.stem, level.name))),
-            " ".join(filter(None, (file.name, level.name))),
+            level.after(file.stem, joint="_"),
+            level.after(file.name, joint=" "),
             None if level.is_only else level.floor_m,
             paths_from_above(levels, number),
         )
