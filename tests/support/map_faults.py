@@ -4,27 +4,38 @@ import importlib
 import importlib.util
 import sys
 from contextlib import contextmanager
+from dataclasses import dataclass
 from types import ModuleType
-from typing import NamedTuple
 
 ROOM = "garage2usd.maps"
 
 
-class Fault(NamedTuple):
-    """A text that stands once in a module of maps, and what takes its place."""
+@dataclass(frozen=True)
+class Fault:
+    """A text that stands once in a module of maps, and what takes its place.
+
+    Whether it stands there is asked when the tests are collected, so that a change of the module is heard at once, not
+    only by the wide tests.
+    """
 
     name: str
     module: str
     old: str
     new: str
 
+    def __post_init__(self):
+        assert self.source.count(self.old) == 1, f"{self.name}: its text is not once in {ROOM}.{self.module}"
+
+    @property
+    def source(self):
+        """The text of the module."""
+        return importlib.util.find_spec(f"{ROOM}.{self.module}").loader.get_source(f"{ROOM}.{self.module}")
+
 
 @contextmanager
 def planted(fault, module):
     """The module of maps with the name `module`, in whose room a fault is planted."""
-    name = f"{ROOM}.{fault.module}"
-    source = importlib.util.find_spec(name).loader.get_source(name)
-    assert source.count(fault.old) == 1, f"{fault.name}: its text is {source.count(fault.old)} times in {name}"
+    name, source = f"{ROOM}.{fault.module}", fault.source
     healthy = {other: sys.modules.pop(other) for other in list(sys.modules) if other.startswith(f"{ROOM}.")}
     try:
         sys.modules[name] = faulty = ModuleType(name)

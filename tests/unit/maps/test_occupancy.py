@@ -170,8 +170,8 @@ FAULTS = (
     Fault(
         "what hangs counts",
         "occupancy",
-        "garage.solids.between(low_m, high_m)",
-        "garage.solids.between(low_m, 9.0)",
+        "level.solids.between(low_m, high_m)",
+        "level.solids.between(low_m, 9.0)",
     ),
     Fault("speed bumps stand", "occupancy", "_RAMP, _DRIVEN_OVER}", "_RAMP}"),
     Fault(
@@ -180,7 +180,7 @@ FAULTS = (
         "            yield solid.footprint",
         "            yield solid.footprint.boundary",
     ),
-    Fault("no floor of ramps", "occupancy", "[*tiles, *ramp_floors(garage)]", "tiles"),
+    Fault("no floor of ramps", "occupancy", "[*tiles, *ramp_floors(level)]", "tiles"),
 )
 
 
