@@ -172,8 +172,8 @@ class BuiltLevel:
 
     @cached_property
     def standing_in_stalls(self) -> dict[Stall, list[Solid]]:
-        """Standing pieces inside each stall, without those only on its lines."""
-        inside = shapely.buffer(self.stall_grounds.polygons, -_LINE_M)
+        """Standing pieces on the ground for a car in each stall, without those only on its lines."""
+        inside = shapely.buffer(self.stall_grounds.rectangles, -_LINE_M)
         return dict(zip(self.stalls, self.solids.standing_at_each(inside), strict=True))
 
     @cached_property

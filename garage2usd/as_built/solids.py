@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from garage2usd.as_built.placed_pieces import lows_m, placed_pieces
 from garage2usd.as_built.shapes import Thing
-from garage2usd.garage import Stall
+from garage2usd.garage import Stall, StallKind
 from garage2usd.layout.grounds import Grounds, grounds_of
 from garage2usd.objects import KINDS, PIECE_LABELS
 
@@ -156,6 +156,15 @@ class StallGrounds:
     def polygons(self) -> Grounds:
         """Polygon of each stall; shape (stalls,)."""
         return grounds_of([stall.corners for stall in self._stalls])
+
+    @cached_property
+    def rectangles(self) -> Grounds:
+        """The ground for a car in each stall; shape (stalls,)."""
+        grounds = self.polygons.copy()
+        for number, stall in enumerate(self._stalls):
+            if stall.kind is StallKind.ANGLED:
+                grounds[number] = stall.rectangle
+        return grounds
 
     @cached_property
     def tree(self) -> shapely.STRtree:

@@ -45,11 +45,24 @@ class _ParkedCars:
         return grounds_of(np.stack([tail + across, tail - across, nose - across, nose + across], axis=1))
 
     def _tail(self, stall: Stall) -> Point:
-        """Return the middle of the car's tail: at the stall's mouth, and in a parallel stall with equal room ahead."""
-        if stall.kind is not StallKind.PARALLEL:
-            return stall.tail
-        (x, z), (back_x, back_z), half_m = stall.centre, stall.backwards, self.profile.car_length_m / 2
-        return x + back_x * half_m, z + back_z * half_m
+        """Return the middle of the car's tail.
+
+        It is at the mouth of a perpendicular stall. In a parallel stall the car has equal room at both ends. In an
+        angled one it stands as far in as the clearance to a wall along the rear lets it.
+        """
+        (x, z), (back_x, back_z) = stall.tail, stall.backwards
+        spare_m = max(stall.length_m - self.profile.car_length_m, 0.0)
+        if stall.kind is StallKind.PERPENDICULAR:
+            inwards_m = 0.0
+        elif stall.kind is StallKind.PARALLEL:
+            inwards_m = (stall.length_m - self.profile.car_length_m) / 2
+        elif self.profile.end_clearance is None:
+            inwards_m = spare_m / 2
+        else:
+            angle, beside_m = math.radians(stall.slant_deg), (stall.width_m - self.profile.car_width_m) / 2
+            behind_m = (self.profile.end_clearance.amount - beside_m * math.cos(angle)) / math.sin(angle)
+            inwards_m = min(max(spare_m - behind_m, 0.0), spare_m)
+        return x - inwards_m * back_x, z - inwards_m * back_z
 
 
 @BOOK.rule(

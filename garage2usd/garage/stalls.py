@@ -208,8 +208,25 @@ class Stall:
 
     @cached_property
     def polygon(self) -> shapely.Polygon:
-        """The stall's ground as a polygon."""
+        """The stall's ground between its lines as a polygon."""
         return shapely.Polygon(self.corners)
+
+    @cached_property
+    def rectangle(self) -> shapely.Polygon:
+        """The ground for a car between the stall's lines, without the triangles at mouth and rear of angled stalls."""
+        if self.kind is not StallKind.ANGLED:
+            return self.polygon
+        (x, z), (back_x, back_z) = self.centre, self.backwards
+        half_length_m, half_width_m = self.length_m / 2, self.width_m / 2
+        return shapely.Polygon(
+            [
+                (
+                    x + along * half_length_m * back_x - across * half_width_m * back_z,
+                    z + along * half_length_m * back_z + across * half_width_m * back_x,
+                )
+                for along, across in ((1, 1), (1, -1), (-1, -1), (-1, 1))
+            ]
+        )
 
 
 def _middle(*points: Point) -> Point:

@@ -21,6 +21,7 @@ from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress.cores import Core, core_placements
 from garage2usd.layout.egress.exits import Egress, plan_egress
 from garage2usd.layout.egress.shafts import LevelPlan
+from garage2usd.layout.floor.panels import with_floor
 from garage2usd.layout.furnishing import Floor, furnished
 from garage2usd.layout.measures import FloorArea, check_carriageways
 from garage2usd.layout.parking.designation import with_designated_stalls
@@ -297,7 +298,7 @@ def lay_out(
         shafts=shafts,
         area_m2=sum(tile.width_m * tile.depth_m for tile in grid),
         draws=_draws(grid, config),
-        laid=lambda panels: panels,
+        laid=with_floor,
         well=well,
     )
     found = furnished(floor, config, look, held_back=held_back, kept_clear=kept_clear, open_boots=open_boots)

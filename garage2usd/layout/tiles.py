@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     import networkx as nx
 
 CEILING_THICKNESS_M = 0.25
+LEAST_FLOOR_M2 = 0.01
+"""A piece with less floor around its stalls has no floor panel of its own."""
 _LEAST_OPENING_M2 = 1e-6
 
 

@@ -24,6 +24,7 @@ from garage2usd.structure.stall_runs import (
     StallRun,
     depth_needed_m,
     lean_of_traffic,
+    lost_at_columns_m,
     rows_of_runs,
     runs_of_rows,
     split_for_motorcycles,
@@ -373,17 +374,52 @@ class _Fitting:
             for line in range(structure.shape[axis])
             if not with_aisles[axis][line] and (structure.cells.take(line, axis=axis) == Cell.FREE).any()
         ]
+        for axis, is_chosen in enumerate(bay.chosen_sides):
+            for line in np.flatnonzero(with_aisles[axis]).tolist() if is_chosen else ():
+                side_mm = _aisle_side_mm(plan, config, runs, axis, line)
+                self._sides_mm[axis][line] = max(side_mm, int(self._least_mm[axis][line]))
         self._of_line = {line: self._runs_on(*line) for line in self._lines}
-        for axis, line in self._lines:
-            self._sides_mm[axis][line] = max(self._sides_mm[axis][line], self._needed_mm(axis, line))
-        self._counts = [self._count(run) for run in runs]
+        self._deepest_mm = [
+            max(int(self._sides_mm[axis][line]), self._needed_mm(axis, line)) for axis, line in self._lines
+        ]
+        self._counts: list[int] = []
 
     def fitted(self) -> Structure:
-        """Improve one line after the other until none gains."""
-        for _ in range(_PASSES):
-            if not sum(self._improve(*line) for line in self._lines):
-                break
-        return Structure(self._cells, self._sides_mm[1], self._sides_mm[0])
+        """Improve all lines together, then one after the other until none gains.
+
+        This is done twice, with lines as deep as their stalls need and half a column deeper, where fewer columns touch
+        the rears of angled stalls; the better end is taken.
+        """
+        ends = []
+        for deeper_mm in (0, _rounded_mm(self._bay.column_size_m / 2)):
+            for (axis, line), side_mm in zip(self._lines, self._deepest_mm, strict=True):
+                self._sides_mm[axis][line] = side_mm + deeper_mm
+            self._counts = [self._count(run) for run in self._runs]
+            self._improve_together()
+            for _ in range(_PASSES):
+                if not sum(self._improve(*line) for line in self._lines):
+                    break
+            ends.append((self._floor_per_stall(self._counts), Structure(self._cells, *self._sides_mm[::-1])))
+        return min(ends, key=lambda end: end[0])[1]
+
+    def _improve_together(self) -> None:
+        """Give all lines of an axis that may have it the same side, where that lowers the floor per stall.
+
+        Angled stalls pass the columns in step only if many lines in a row have the same side.
+        """
+        for axis in range(len(self._sides_mm)):
+            choices_mm = {line: self._choices_mm(axis, line) for own, line in self._lines if own == axis}
+            sides_mm = self._sides_mm[axis]
+            best = self._floor_per_stall(self._counts), sides_mm, self._counts
+            for side_mm in sorted({side_mm for choices in choices_mm.values() for side_mm in choices}):
+                self._sides_mm[axis] = sides_mm.copy()
+                for line, choices in choices_mm.items():
+                    if side_mm in choices:
+                        self._sides_mm[axis][line] = side_mm
+                counts = [self._count(run) for run in self._runs]
+                trial = self._floor_per_stall(counts), self._sides_mm[axis], counts
+                best = min(best, trial, key=lambda found: found[0])
+            _, self._sides_mm[axis], self._counts = best
 
     def _runs_on(self, axis: int, line: int) -> list[int]:
         """Numbers of the runs with a square on a line."""
@@ -419,9 +455,10 @@ class _Fitting:
         # ignore parallel stalls beside other kinds: they would require spans that no other row needs
         spanned = {shape for shape in shapes if shape.kind is not StallKind.PARALLEL} or shapes
         for shape in spanned:
-            lost_m = self._bay.row_ends_m + shape.slope * half_column_m
+            is_angled = shape.kind is StallKind.ANGLED
+            lost_m = {self._bay.row_ends_m, *(lost_at_columns_m(shape, self._bay) if is_angled else ())}
             counts = _PARALLEL_BETWEEN_COLUMNS if shape.kind is StallKind.PARALLEL else _STALLS_BETWEEN_COLUMNS
-            found |= {_rounded_mm(count * shape.pitch_m + lost_m) for count in counts}
+            found |= {_rounded_mm(count * shape.pitch_m + lost) for count in counts for lost in lost_m}
         found = {side for side in found if side <= self._longest_span_mm} or {min(found, default=deep)}
         now = int(self._sides_mm[axis][line])
         return sorted({max(side, deep) for side in found if side} or {now})
@@ -444,6 +481,37 @@ class _Fitting:
         depths_mm, widths_mm = self._sides_mm
         floor_m2 = float(depths_mm @ self._inside @ widths_mm) / _MM_PER_M**2
         return round(floor_m2 / stalls, 9) if stalls else math.inf
+
+
+def _aisle_side_mm(plan: Plan, config: GarageConfig, runs: Iterable[StallRun], axis: int, line: int) -> int:
+    """Return the side of a row (0) or a column (1) of squares across the aisles along it, for their stalls.
+
+    If all of them are one-way and have stalls, they are as wide as the profile asks for these stalls, and never wider
+    than others.
+    """
+    bay, edge = config.bay, Edge.RIGHT if axis == 0 else Edge.DOWN
+    steps = ((square, edge.beyond(square)) for square in plan.structure.where(Cell.LANE) if square[axis] == line)
+    between_lanes = [step for step in steps if plan.structure.cell_at(step[1]) is Cell.LANE]
+    widths_m = [
+        _aisle_width_m(run, plan.directions, config)
+        for run in runs
+        if run.edge.along_x == (axis == 0) and run.edge.beyond(run.first)[axis] == line
+    ]
+    is_one_way = all(plan.directions.is_one_way(*step) for step in between_lanes)
+    width_m = min(max(widths_m), bay.aisle_width_m) if widths_m and between_lanes and is_one_way else bay.aisle_width_m
+    return _rounded_mm(width_m + 2 * bay.carriageway_setback_m)
+
+
+def _aisle_width_m(run: StallRun, directions: LaneDirections, config: GarageConfig) -> float:
+    """Return the clear width of a one-way aisle that the stalls of a run need."""
+    profile, widest_m = config.standard, config.bay.aisle_width_m
+    if run.shape.kind is StallKind.PARALLEL and profile.parallel_aisle_width:
+        return profile.parallel_aisle_width.amount
+    leans_with_traffic = run.lean == lean_of_traffic(run.first, run.edge, directions)
+    if run.shape.kind is StallKind.ANGLED and profile.angled_aisle_widths and leans_with_traffic:
+        upright = profile.aisle_width
+        return profile.angled_aisle_widths.amount_at(run.shape.angle_deg, upright.amount if upright else widest_m)
+    return widest_m
 
 
 def _rounded_mm(length_m: float) -> int:

@@ -5,6 +5,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+import shapely
+
 from garage2usd.common.randomness import Step
 from garage2usd.config import BayConfig
 from garage2usd.config.look import BandForm, MarkingsLook, Wear
@@ -23,8 +25,9 @@ from garage2usd.layout.floor.markings import (
     zebra,
 )
 from garage2usd.layout.floor.stall_lines import GHOST_ROWS, ghosts_on_lane, outer_spans, row_end_hatching
-from garage2usd.layout.placement import Placement
+from garage2usd.layout.placement import Placement, of_spec
 from garage2usd.layout.tiles import (
+    LEAST_FLOOR_M2,
     StallPlace,
     Tile,
     Tiles,
@@ -219,6 +222,14 @@ def floor_panels(
         spec = FloorSpec(tile.width_m, tile.depth_m, Surface.LANE, markings, panels.openings(tile))
         placements.append(Placement("Floor", spec, (tile.x_m, 0.0, tile.z_m), tile.yaw_rad, square))
     return placements
+
+
+def with_floor(panels: Iterable[Placement]) -> Iterator[Placement]:
+    """Yield the floor panels of squares without those that are all openings, for angled stalls on both sides."""
+    for panel, spec in of_spec(panels, FloorSpec):
+        open_m2 = sum(shapely.Polygon(opening).area for opening in spec.openings)
+        if open_m2 < spec.width_m * spec.depth_m - LEAST_FLOOR_M2:
+            yield panel
 
 
 def _trim(tile: Tile, edge: Edge, side: Edge, setback: float) -> float:

@@ -13,13 +13,13 @@ from garage2usd.config import BayConfig
 from garage2usd.layout.ceiling.beams import beams
 from garage2usd.layout.placement import PlacedStall, Placement, of_spec
 from garage2usd.layout.surveyed.ground import OFF_LINE_M, SurveyedGround
+from garage2usd.layout.tiles import LEAST_FLOOR_M2
 from garage2usd.objects.floor import FloorSpec
 from garage2usd.objects.panel import Marking, PanelSpec, Surface
 from garage2usd.structure.lane_graph import StallType
 from garage2usd.structure.stalls import Edge
 from garage2usd.survey.fitted_stalls import FittedStall
 
-_LEAST_FLOOR_M2 = 0.01
 _BEAMS = -3
 """First number of the pairs by which beams are known until they are put on their tiles."""
 _OUTWARDS = {Edge.UP: (0.0, -1.0), Edge.DOWN: (0.0, 1.0), Edge.LEFT: (-1.0, 0.0), Edge.RIGHT: (1.0, 0.0)}
@@ -42,7 +42,7 @@ def surveyed_floor(
         openings = [shape for index in near for shape in tile.local(taken[index])]
         openings += tile.local(shapely.difference(tile.box, ground.polygon))
         closed = shapely.union_all([shapely.Polygon(opening) for opening in openings])
-        if closed.area > tile.box.area - _LEAST_FLOOR_M2:
+        if closed.area > tile.box.area - LEAST_FLOOR_M2:
             continue
         markings = [
             Marking(polygon, paint.surface, paint.paint)
