@@ -20,7 +20,8 @@ from garage2usd.garage import StallKind
 from garage2usd.planning import driven_lengths
 from garage2usd.profiles import PROFILE_NAMES, Profile, load_profile
 from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.stall_runs import StallRun, capacity_of_runs, depth_needed_m
+from garage2usd.structure.packing import depth_needed_m
+from garage2usd.structure.stall_runs import StallRun, capacity_of_runs
 from garage2usd.structure.stalls import Edge, StallShape
 
 ANGLES_DEG = (90.0, 75.0, 60.0, 45.0, 0.0)

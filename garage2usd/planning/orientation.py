@@ -1,6 +1,8 @@
 """One-way aisles for finished lanes: an orientation of stretches that reaches every stall, with little detour."""
 
+from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import networkx as nx
@@ -10,9 +12,12 @@ from numpy.typing import NDArray
 from garage2usd.common.errors import GenerationError
 from garage2usd.common.randomness import Step, generator
 from garage2usd.config import GarageConfig
-from garage2usd.config.plan import Aisles
+from garage2usd.config.plan import Aisles, Choice
+from garage2usd.planning.circulation import circulation, rules_of
+from garage2usd.planning.dimensions import dimensioned
 from garage2usd.planning.planner import Plan
-from garage2usd.planning.stall_kinds import with_stall_kinds
+from garage2usd.planning.score import evaluate
+from garage2usd.planning.stall_kinds import WRONG_SHARE_M2, with_stall_kinds, wrong_shares
 from garage2usd.structure.grid import Cell, Structure, squares_beside
 from garage2usd.structure.lanes import BOTH_WAYS, LaneDirections, given_directions, lane_squares_graph, stretches_of
 from garage2usd.structure.stall_runs import capacity_of_runs
@@ -25,6 +30,10 @@ _HOTTEST_M, _COLDEST_M = 15.0, 0.2
 _CLOCKWISE_M = 10.0
 """Metres of mean drive that all lanes turning against the side of traffic are worth."""
 _MM_PER_M = 1000
+_CANDIDATES = 4
+"""Plans of the archive that are completed to be compared."""
+_DETOUR_M2 = 3.0
+"""Floor per stall that drives twice as long are worth."""
 
 
 class DrivenLengths(NamedTuple):
@@ -280,5 +289,35 @@ def completed(plan: Plan, config: GarageConfig) -> Plan:
     ------
     ConfigError, GenerationError
         As `with_directions` and `with_stall_kinds`.
+
+    Notes
+    -----
+    Lanes are planned for perpendicular stalls and traffic in both directions. If others are asked for, a few of the
+    best plans of the archive are completed, and the one is taken that then has the least floor per stall, with a price
+    for detours and for shares of the stalls that are not as asked for.
     """
-    return with_stall_kinds(with_directions(plan, config), config)
+    done = [with_stall_kinds(with_directions(lanes, config), config) for lanes in _candidates(plan, config)]
+    return min(done, key=partial(_cost_m2, config=config)) if len(done) > 1 else done[0]
+
+
+def _candidates(plan: Plan, config: GarageConfig) -> Iterator[Plan]:
+    """Yield a plan of lanes, and others of its archive that break no more rules, if they may serve better."""
+    yield plan
+    is_as_planned = config.stalls.is_uniform and config.plan.aisles is Aisles.TWO_WAY
+    is_prescribed = config.plan.one_way or config.stalls.runs or config.plan.choice is not Choice.BEST
+    if is_as_planned or is_prescribed:
+        return
+    rules = rules_of(config.plan, squares=int((plan.structure.cells != Cell.OBSTACLE).sum()))
+    for archived in plan.archive[1:_CANDIDATES]:
+        structure = dimensioned(archived.structure, config.bay)
+        gave_way = circulation(structure).faults(rules)
+        if len(gave_way) <= len(plan.gave_way):
+            score = evaluate(structure, bay=config.bay, plan=config.plan)
+            yield replace(plan, structure=structure, score=score, gave_way=gave_way)
+
+
+def _cost_m2(plan: Plan, config: GarageConfig) -> float:
+    """Floor per stall with the prices of detours and of wrong shares."""
+    detour = driven_lengths(plan, config, plan.directions).detour
+    floor_m2 = plan.structure.floor_m2 / plan.score.stalls if plan.score.stalls else np.inf
+    return floor_m2 + _DETOUR_M2 * detour + WRONG_SHARE_M2 * wrong_shares(plan, config)

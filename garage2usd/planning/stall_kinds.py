@@ -3,41 +3,37 @@
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.randomness import Step, generator
 from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.config.stalls import GivenRun, SizeClass
 from garage2usd.garage import StallKind
-from garage2usd.planning.dimensions import lines_with_aisles, lines_with_doors
 from garage2usd.planning.planner import Plan
 from garage2usd.planning.score import evaluate
+from garage2usd.planning.stall_sides import StallCounts, StallSides, rounded_mm
 from garage2usd.profiles import Length
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lanes import BOTH_WAYS, LaneDirections
+from garage2usd.structure.packing import depth_needed_m
 from garage2usd.structure.stall_runs import (
     StallRun,
-    depth_needed_m,
     lean_of_traffic,
-    lost_at_columns_m,
     rows_of_runs,
     runs_of_rows,
     split_for_motorcycles,
 )
 from garage2usd.structure.stalls import PARALLEL_DEG, PERPENDICULAR_DEG, Edge, StallShape, stall_rows
 
-Sides = NDArray[np.int64]
-
 _MM_PER_M = 1000
-_STEP_MM = 10
-_STALLS_BETWEEN_COLUMNS, _PARALLEL_BETWEEN_COLUMNS = (2, 3), (1, 2)
 _PASSES = 4
-_ROUNDS = 2
+WRONG_SHARE_M2 = 30.0
+"""Floor per stall that a sum of 1 over the differences from the wanted shares is worth."""
 _LEAST_GAIN = 1e-6
 _PARALLEL_LENGTH_M = 6.0
 """Length of parallel stalls where the profile has none."""
@@ -76,10 +72,9 @@ def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
         return _least_floor(plan, config)
     if config.stalls.is_uniform:
         return plan
-    counts = _Counts(plan.structure, config.bay)
+    counts = StallCounts(plan.structure.cells, config.bay)
     draw = _Draw(plan, config, counts)
-    for _ in range(_ROUNDS):
-        draw.even_out(_Fitting(plan, config, draw.runs, counts).fitted())
+    draw.improve(StallSides(plan, config, draw.runs, counts))
     return _with_runs(plan, config, draw.runs, counts)
 
 
@@ -117,12 +112,14 @@ def with_runs(plan: Plan, config: GarageConfig, runs: Iterable[StallRun]) -> Pla
     Plan
         The same S and directions. R and C, where they are chosen, and the score are those of the runs.
     """
-    return _with_runs(plan, config, runs, _Counts(plan.structure, config.bay))
+    return _with_runs(plan, config, runs, StallCounts(plan.structure.cells, config.bay))
 
 
-def _with_runs(plan: Plan, config: GarageConfig, runs: Iterable[StallRun], counts: "_Counts") -> Plan:
+def _with_runs(plan: Plan, config: GarageConfig, runs: Iterable[StallRun], counts: StallCounts) -> Plan:
     ordered = sorted(runs, key=lambda run: (run.first, run.edge))
-    structure = _Fitting(plan, config, ordered, counts).fitted()
+    sides = StallSides(plan, config, ordered, counts)
+    sides.fit()
+    structure = sides.structure
     score = evaluate(structure, bay=config.bay, plan=config.plan, runs=ordered)
     return replace(plan, structure=structure, score=score, runs=tuple(ordered))
 
@@ -156,37 +153,6 @@ def settings_of_runs(runs: Iterable[StallRun], directions: LaneDirections = BOTH
     )
 
 
-class _Counts:
-    """Cache of the number of stalls of runs on the lanes of one plan, by the sides of their squares."""
-
-    def __init__(self, structure: Structure, bay: BayConfig) -> None:
-        self._cells, self._bay = structure.cells, bay
-        self._known: dict[tuple[StallRun, bool, int, bytes], int] = {}
-
-    def of(self, depths_mm: Sides, widths_mm: Sides, run: StallRun, *, is_backed: bool) -> int:
-        """Count the stalls of a run; if it is backed, another run shares its squares.
-
-        Parameters
-        ----------
-        depths_mm, widths_mm
-            Sides of the rows and of the columns.
-        run, is_backed
-            The run.
-        """
-        (row, col), (last_row, last_col) = run.first, run.last
-        if run.edge.along_x:
-            depth, along = int(depths_mm[row]), widths_mm[col : last_col + 1]
-        else:
-            depth, along = int(widths_mm[col]), depths_mm[row : last_row + 1]
-        key = run, is_backed, depth, along.tobytes()
-        if key not in self._known:
-            backs = [replace(run, edge=run.edge.opposite)] if is_backed else []
-            structure = Structure(self._cells, widths_mm, depths_mm)
-            rows = rows_of_runs(structure, self._bay, [run, *backs])
-            self._known[key] = sum(stalls.count for stalls in rows if stalls.edge is run.edge)
-        return self._known[key]
-
-
 _Option = tuple[StallKind, SizeClass]
 _FOR_MOTORCYCLES: _Option = StallKind.PERPENDICULAR, SizeClass.MOTORCYCLE
 
@@ -194,7 +160,7 @@ _FOR_MOTORCYCLES: _Option = StallKind.PERPENDICULAR, SizeClass.MOTORCYCLE
 class _Draw:
     """Draw of the kinds of all runs of a garage, which tracks the shares of stalls of each kind."""
 
-    def __init__(self, plan: Plan, config: GarageConfig, counts: _Counts) -> None:
+    def __init__(self, plan: Plan, config: GarageConfig, counts: StallCounts) -> None:
         structure = plan.structure
         self._config, self._bay, self._counts = config, config.bay, counts
         self._shares = config.stalls.shares
@@ -217,37 +183,58 @@ class _Draw:
         drawn = (options[option] for options, option in zip(self._options, self._chosen, strict=True))
         return [*self._given, *drawn]
 
-    def even_out(self, structure: Structure) -> None:
-        """Change the options of single runs while the shares come closer to the requested ones; sizes stay."""
-        counts = [{option: self._count(structure, run) for option, run in options.items()} for options in self._options]
-        stalls = Counter[_Option]()
-        for own, option in zip(counts, self._chosen, strict=True):
-            stalls[option] += own[option]
-        for _ in counts:
-            error, found = self._error(stalls), None
-            for number, own in enumerate(counts):
-                now = self._chosen[number]
-                for option in own:
-                    changed = stalls.copy()
-                    changed[now] -= own[now]
-                    changed[option] += own[option]
-                    if own[option] and self._error(changed) < error - _LEAST_GAIN:
-                        error, found = self._error(changed), (number, option, changed)
-            if found is None:
-                break
-            number, option, stalls = found
-            self._chosen[number] = option
+    def improve(self, sides: StallSides) -> None:
+        """Give single runs other options, and pairs each other's, while that lowers floor per stall and wrong shares.
 
-    def _error(self, stalls: Mapping[_Option, int]) -> float:
-        total = sum(stalls.values()) or 1
-        return sum(abs(stalls[option] / total - share) for option, share in self._shares.items())
+        `sides` has the given and the drawn runs, and is changed with them.
+        """
+        sides.fit()
+        cost_m2 = self._cost_m2(sides, self._chosen)
+        for _ in range(_PASSES):
+            before_m2 = cost_m2
+            for move in self._moves():
+                if any(self._chosen[number] == option for number, option in move.items()):
+                    continue
+                chosen = [move.get(number, option) for number, option in enumerate(self._chosen)]
+                changes = {len(self._given) + number: self._options[number][option] for number, option in move.items()}
+                with sides.tried(changes):
+                    trial_m2 = self._cost_m2(sides, chosen)
+                if trial_m2 < cost_m2 - _LEAST_GAIN:
+                    sides.change(changes)
+                    self._chosen, cost_m2 = chosen, trial_m2
+            if cost_m2 == before_m2:
+                break
+
+    def _moves(self) -> Iterator[dict[int, _Option]]:
+        """Yield options for single runs by their number, and for pairs the options of each other."""
+        for number, options in enumerate(self._options):
+            for option in options:
+                yield {number: option}
+        for one, other in combinations(range(len(self._options)), 2):
+            own, of_other = self._chosen[one], self._chosen[other]
+            if own != of_other and own in self._options[other] and of_other in self._options[one]:
+                yield {one: of_other, other: own}
+
+    def _cost_m2(self, sides: StallSides, chosen: Sequence[_Option]) -> float:
+        """Floor per stall, and what shares of the stalls that are not as asked for cost."""
+        stalls = Counter[_Option]()
+        for count, option in zip(sides.counts[len(self._given) :], chosen, strict=True):
+            stalls[option] += count
+        return sides.floor_per_stall_m2 + WRONG_SHARE_M2 * _share_error(stalls, self._shares)
 
     def _options_of(self, run: StallRun, angle_deg: float) -> dict[_Option, StallRun]:
-        return {
+        options = {
             (kind, size): replace(run, shape=_shape(self._config, kind, size, angle_deg))
             for kind, size in self._shares
             if size.takes_cars
         }
+        # a single parallel stall takes the depth of a row, and a driver expects none beside other kinds
+        rows = {
+            option: own
+            for option, own in options.items()
+            if option[0] is not StallKind.PARALLEL or len(own.squares) > 1
+        }
+        return rows or options
 
     def _without_motorcycles(
         self, structure: Structure, bare: list[StallRun], rng: np.random.Generator
@@ -289,6 +276,21 @@ class _Draw:
     def _count(self, structure: Structure, run: StallRun) -> int:
         sides = structure.row_depths_mm, structure.column_widths_mm
         return self._counts.of(*sides, run, is_backed=run.squares in self._backed)
+
+
+def wrong_shares(plan: Plan, config: GarageConfig) -> float:
+    """Return the sum of the differences between the shares of the stalls of each kind and size and the wanted ones."""
+    if config.stalls.is_free or not plan.runs:
+        return 0.0
+    stalls = Counter[_Option]()
+    for row in rows_of_runs(plan.structure, config.bay, plan.runs):
+        stalls[row.shape.kind, SizeClass(row.shape.size)] += row.count
+    return _share_error(stalls, config.stalls.shares)
+
+
+def _share_error(stalls: Mapping[_Option, int], shares: Mapping[_Option, float]) -> float:
+    total = sum(stalls.values()) or 1
+    return sum(abs(stalls[option] / total - share) for option, share in shares.items())
 
 
 def _checked_runs(plan: Plan, config: GarageConfig) -> list[StallRun]:
@@ -334,7 +336,7 @@ def _shape(config: GarageConfig, kind: StallKind, size: SizeClass, angle_deg: fl
 
 def _rounded_up_m(clause: Length | None) -> float:
     """Round the length of a clause up to the centimetre; 0 without one."""
-    return 0.0 if clause is None else _rounded_mm(clause.amount) / _MM_PER_M
+    return 0.0 if clause is None else rounded_mm(clause.amount) / _MM_PER_M
 
 
 def _deepened(structure: Structure, bay: BayConfig, run: StallRun) -> Structure:
@@ -344,176 +346,5 @@ def _deepened(structure: Structure, bay: BayConfig, run: StallRun) -> Structure:
     sides = [structure.column_widths_mm.copy(), structure.row_depths_mm.copy()]
     axis = int(run.edge.along_x)
     line = run.first[0] if run.edge.along_x else run.first[1]
-    sides[axis][line] = max(sides[axis][line], _rounded_mm(depth_needed_m(run.shape, bay)))
+    sides[axis][line] = max(sides[axis][line], rounded_mm(depth_needed_m(run.shape, bay)))
     return Structure(structure.cells, *sides)
-
-
-class _Fitting:
-    """Sides of lines without traffic along them, each chosen by the least floor per stall."""
-
-    def __init__(self, plan: Plan, config: GarageConfig, runs: Sequence[StallRun], counts: _Counts) -> None:
-        structure, bay, spacing = plan.structure, config.bay, config.standard.column_spacing
-        self._longest_span_mm = (spacing.bounds[1] if spacing else math.inf) * _MM_PER_M
-        self._cells, self._bay, self._runs, self._known = structure.cells, bay, runs, counts
-        self._inside = (structure.cells != Cell.OBSTACLE).astype(np.int64)
-        self._sides_mm = [structure.row_depths_mm.copy(), structure.column_widths_mm.copy()]
-        self._least_mm = [
-            np.where(has_door, round(bay.portal_side_m * _MM_PER_M), 0) for has_door in lines_with_doors(structure)
-        ]
-        # room behind a door for a gate and a car that waits before it
-        portals = (structure.cells == Cell.ENTRANCE) | (structure.cells == Cell.EXIT)
-        for axis, least_mm in enumerate(self._least_mm):
-            has_portal = portals.any(axis=1 - axis)
-            least_mm[has_portal] = np.maximum(least_mm[has_portal], _rounded_mm(bay.stall_length_m))
-        self._backs = Counter((square, run.edge.along_x) for run in runs for square in run.squares)
-        with_aisles = lines_with_aisles(structure)
-        self._lines = [
-            (axis, line)
-            for axis, is_chosen in enumerate(bay.chosen_sides)
-            if is_chosen
-            for line in range(structure.shape[axis])
-            if not with_aisles[axis][line] and (structure.cells.take(line, axis=axis) == Cell.FREE).any()
-        ]
-        for axis, is_chosen in enumerate(bay.chosen_sides):
-            for line in np.flatnonzero(with_aisles[axis]).tolist() if is_chosen else ():
-                side_mm = _aisle_side_mm(plan, config, runs, axis, line)
-                self._sides_mm[axis][line] = max(side_mm, int(self._least_mm[axis][line]))
-        self._of_line = {line: self._runs_on(*line) for line in self._lines}
-        self._deepest_mm = [
-            max(int(self._sides_mm[axis][line]), self._needed_mm(axis, line)) for axis, line in self._lines
-        ]
-        self._counts: list[int] = []
-
-    def fitted(self) -> Structure:
-        """Improve all lines together, then one after the other until none gains.
-
-        This is done twice, with lines as deep as their stalls need and half a column deeper, where fewer columns touch
-        the rears of angled stalls; the better end is taken.
-        """
-        ends = []
-        for deeper_mm in (0, _rounded_mm(self._bay.column_size_m / 2)):
-            for (axis, line), side_mm in zip(self._lines, self._deepest_mm, strict=True):
-                self._sides_mm[axis][line] = side_mm + deeper_mm
-            self._counts = [self._count(run) for run in self._runs]
-            self._improve_together()
-            for _ in range(_PASSES):
-                if not sum(self._improve(*line) for line in self._lines):
-                    break
-            ends.append((self._floor_per_stall(self._counts), Structure(self._cells, *self._sides_mm[::-1])))
-        return min(ends, key=lambda end: end[0])[1]
-
-    def _improve_together(self) -> None:
-        """Give all lines of an axis that may have it the same side, where that lowers the floor per stall.
-
-        Angled stalls pass the columns in step only if many lines in a row have the same side.
-        """
-        for axis in range(len(self._sides_mm)):
-            choices_mm = {line: self._choices_mm(axis, line) for own, line in self._lines if own == axis}
-            sides_mm = self._sides_mm[axis]
-            best = self._floor_per_stall(self._counts), sides_mm, self._counts
-            for side_mm in sorted({side_mm for choices in choices_mm.values() for side_mm in choices}):
-                self._sides_mm[axis] = sides_mm.copy()
-                for line, choices in choices_mm.items():
-                    if side_mm in choices:
-                        self._sides_mm[axis][line] = side_mm
-                counts = [self._count(run) for run in self._runs]
-                trial = self._floor_per_stall(counts), self._sides_mm[axis], counts
-                best = min(best, trial, key=lambda found: found[0])
-            _, self._sides_mm[axis], self._counts = best
-
-    def _runs_on(self, axis: int, line: int) -> list[int]:
-        """Numbers of the runs with a square on a line."""
-        return [number for number, run in enumerate(self._runs) if any(square[axis] == line for square in run.squares)]
-
-    def _count(self, run: StallRun) -> int:
-        depths_mm, widths_mm = self._sides_mm
-        return self._known.of(depths_mm, widths_mm, run, is_backed=self._backs[run.first, run.edge.along_x] > 1)
-
-    def _needed_mm(self, axis: int, line: int) -> int:
-        """Depth that the runs along a line need."""
-        across = (self._runs[number] for number in self._of_line[axis, line])
-        return max(
-            (
-                _rounded_mm(depth_needed_m(run.shape, self._bay)) * self._backs[square, run.edge.along_x]
-                for run in across
-                if run.edge.along_x == (axis == 0)
-                for square in run.squares
-            ),
-            default=0,
-        )
-
-    def _choices_mm(self, axis: int, line: int) -> list[int]:
-        """Sides to try: as deep as the runs along the line need, and as wide as some stalls of the runs across it."""
-        deep = max(self._needed_mm(axis, line), int(self._least_mm[axis][line]))
-        half_column_m = self._bay.column_size_m / 2
-        found = {deep, deep + _rounded_mm(half_column_m)} if deep else set()
-        shapes = {
-            run.shape
-            for run in (self._runs[number] for number in self._of_line[axis, line])
-            if run.edge.along_x != (axis == 0) and SizeClass(run.shape.size).takes_cars
-        }
-        # ignore parallel stalls beside other kinds: they would require spans that no other row needs
-        spanned = {shape for shape in shapes if shape.kind is not StallKind.PARALLEL} or shapes
-        for shape in spanned:
-            is_angled = shape.kind is StallKind.ANGLED
-            lost_m = {self._bay.row_ends_m, *(lost_at_columns_m(shape, self._bay) if is_angled else ())}
-            counts = _PARALLEL_BETWEEN_COLUMNS if shape.kind is StallKind.PARALLEL else _STALLS_BETWEEN_COLUMNS
-            found |= {_rounded_mm(count * shape.pitch_m + lost) for count in counts for lost in lost_m}
-        found = {side for side in found if side <= self._longest_span_mm} or {min(found, default=deep)}
-        now = int(self._sides_mm[axis][line])
-        return sorted({max(side, deep) for side in found if side} or {now})
-
-    def _improve(self, axis: int, line: int) -> bool:
-        """Give a line the side with the least floor per stall, if that is less than now."""
-        affected, before_mm = self._of_line[axis, line], int(self._sides_mm[axis][line])
-        best = self._floor_per_stall(self._counts), before_mm, self._counts
-        for side in self._choices_mm(axis, line):
-            self._sides_mm[axis][line] = side
-            counts = list(self._counts)
-            for number in affected:
-                counts[number] = self._count(self._runs[number])
-            best = min(best, (self._floor_per_stall(counts), side, counts), key=lambda found: found[0])
-        _, self._sides_mm[axis][line], self._counts = best
-        return best[1] != before_mm
-
-    def _floor_per_stall(self, counts: Sequence[int]) -> float:
-        stalls = sum(counts)
-        depths_mm, widths_mm = self._sides_mm
-        floor_m2 = float(depths_mm @ self._inside @ widths_mm) / _MM_PER_M**2
-        return round(floor_m2 / stalls, 9) if stalls else math.inf
-
-
-def _aisle_side_mm(plan: Plan, config: GarageConfig, runs: Iterable[StallRun], axis: int, line: int) -> int:
-    """Return the side of a row (0) or a column (1) of squares across the aisles along it, for their stalls.
-
-    If all of them are one-way and have stalls, they are as wide as the profile asks for these stalls, and never wider
-    than others.
-    """
-    bay, edge = config.bay, Edge.RIGHT if axis == 0 else Edge.DOWN
-    steps = ((square, edge.beyond(square)) for square in plan.structure.where(Cell.LANE) if square[axis] == line)
-    between_lanes = [step for step in steps if plan.structure.cell_at(step[1]) is Cell.LANE]
-    widths_m = [
-        _aisle_width_m(run, plan.directions, config)
-        for run in runs
-        if run.edge.along_x == (axis == 0) and run.edge.beyond(run.first)[axis] == line
-    ]
-    is_one_way = all(plan.directions.is_one_way(*step) for step in between_lanes)
-    width_m = min(max(widths_m), bay.aisle_width_m) if widths_m and between_lanes and is_one_way else bay.aisle_width_m
-    return _rounded_mm(width_m + 2 * bay.carriageway_setback_m)
-
-
-def _aisle_width_m(run: StallRun, directions: LaneDirections, config: GarageConfig) -> float:
-    """Return the clear width of a one-way aisle that the stalls of a run need."""
-    profile, widest_m = config.standard, config.bay.aisle_width_m
-    if run.shape.kind is StallKind.PARALLEL and profile.parallel_aisle_width:
-        return profile.parallel_aisle_width.amount
-    leans_with_traffic = run.lean == lean_of_traffic(run.first, run.edge, directions)
-    if run.shape.kind is StallKind.ANGLED and profile.angled_aisle_widths and leans_with_traffic:
-        upright = profile.aisle_width
-        return profile.angled_aisle_widths.amount_at(run.shape.angle_deg, upright.amount if upright else widest_m)
-    return widest_m
-
-
-def _rounded_mm(length_m: float) -> int:
-    """Round up to the centimetre, in millimetres."""
-    return math.ceil(round(length_m * _MM_PER_M, 3) / _STEP_MM) * _STEP_MM
