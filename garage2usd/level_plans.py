@@ -4,6 +4,7 @@ The ramps are drawn first, from a random stream of their own. Each level is then
 with the landings as its portals; the levels below take over R and C of the top one.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
@@ -18,7 +19,16 @@ from garage2usd.common.randomness import Step, derived_seed
 from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.config.site import BuildingConfig
 from garage2usd.garage_model import TAPE_JOINT
-from garage2usd.planning import Plan, completed, evaluate, given_plan, is_of_lanes_alone, plan_lanes, play_plan
+from garage2usd.planning import (
+    Plan,
+    alternatives,
+    completed,
+    evaluate,
+    given_plan,
+    is_of_lanes_alone,
+    plan_lanes,
+    play_plan,
+)
 from garage2usd.planning.dimensions import aisle_side_mm, lines_with_aisles
 from garage2usd.site.levels import (
     LevelSites,
@@ -30,6 +40,7 @@ from garage2usd.site.levels import (
 )
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneSquares, build_lane_graph
+from garage2usd.structure.stalls import square_capacity
 
 ATTEMPTS = 4
 """Most places of the ramps that are tried until cars reach every stall: some leave no room to turn before a ramp."""
@@ -122,7 +133,10 @@ def plan_levels(
             seed = derived_seed(config.seed, Step.LEVELS, number) if number else config.seed
             changes = {"seed": seed, "building": BuildingConfig(), "bay": bay}
             of_level = config.model_copy(update=changes)
-        plan = given[number] if given else _planned(static, of_level, tape=tapes[number], progress=told)
+        if given:
+            return PlannedLevel(given[number], static, of_level)
+        top = on if number else None
+        plan = _planned(static, of_level, tape=tapes[number], top=top, bay=config.bay, progress=told)
         return PlannedLevel(plan, static, of_level)
 
     top = level(0, sites.street, config.bay)
@@ -151,10 +165,19 @@ def lane_squares_of(plan: Plan, config: GarageConfig) -> LaneSquares:
     return graph
 
 
-def _planned(site: Structure, config: GarageConfig, *, tape: str | None, progress: Progress) -> Plan:
+def _planned(
+    site: Structure,
+    config: GarageConfig,
+    *,
+    tape: str | None,
+    top: Structure | None,
+    bay: BayConfig,
+    progress: Progress,
+) -> Plan:
     """Plan the lanes of a site, their directions and the kinds of stalls.
 
-    Given ones are taken, a tape is replayed, and the others are learnt and drawn.
+    Given ones are taken, a tape is replayed, and the others are learnt and drawn. Below a top level, the lanes are those
+    of the archive that suit its sides of squares best, as far as `bay` leaves them to be chosen.
     """
     has_lanes = bool((site.cells == Cell.LANE).any())
     if tape is not None:
@@ -164,7 +187,18 @@ def _planned(site: Structure, config: GarageConfig, *, tape: str | None, progres
         return completed(played, config) if is_of_lanes_alone(tape) else played
     if has_lanes:
         return completed(given_plan(site, bay=config.bay, plan=config.plan), config)
-    return completed(plan_lanes(site, plan=config.plan, bay=config.bay, seed=config.seed, progress=progress), config)
+    plan = plan_lanes(site, plan=config.plan, bay=config.bay, seed=config.seed, start=top, progress=progress)
+    if top is not None and any(bay.chosen_sides):
+        plan = min(alternatives(plan, config), key=lambda lanes: _floor_per_stall_m2([top, lanes.structure], bay))
+    return completed(plan, config)
+
+
+def _floor_per_stall_m2(levels: list[Structure], bay: BayConfig) -> float:
+    """Floor of levels over their perpendicular stalls, with the sides of squares that the aisles of all need."""
+    sides = _with_aisles(levels, bay)
+    sized = [sides.with_cells(level.cells) for level in levels]
+    stalls = sum(int(square_capacity(level, bay).sum()) for level in sized)
+    return sum(level.floor_m2 for level in sized) / stalls if stalls else math.inf
 
 
 def _is_on(plan: Plan, sites: LevelSites, level: int) -> bool:

@@ -5,7 +5,7 @@ from garage2usd.planning.dimensions import area_per_stall_m2, dimension, dimensi
 from garage2usd.planning.optimum import Optimum, counting_bound, find_optimum
 from garage2usd.planning.orientation import DrivenLengths, completed, driven_lengths, with_directions
 from garage2usd.planning.plan_tape import is_of_lanes_alone, plan_tape_of, play_plan, read_tail, tail_of
-from garage2usd.planning.planner import ArchivedPlan, Plan, given_plan, plan_lanes
+from garage2usd.planning.planner import ArchivedPlan, Plan, alternatives, given_plan, plan_lanes
 from garage2usd.planning.score import Principles, Score, evaluate, is_feasible, principles
 from garage2usd.planning.stall_kinds import runs_of_settings, settings_of_runs, with_stall_kinds
 from garage2usd.planning.tape import play, rank_of, tape_at, tape_of
@@ -18,6 +18,7 @@ __all__ = [
     "Plan",
     "Principles",
     "Score",
+    "alternatives",
     "area_per_stall_m2",
     "completed",
     "counting_bound",

@@ -106,7 +106,7 @@ def ground_of(site: Structure, *, bay: BayConfig, plan: PlanConfig) -> Ground:
 
 
 def lanes_of(structure: Structure, ground: Ground) -> Lanes:
-    """Read the lanes of a structure, which has the same site as the ground."""
+    """Read the lanes of a structure of as many squares as the ground, as far as they are on its free squares."""
     flat = np.pad(structure.cells, PADDING, constant_values=Cell.OBSTACLE).ravel()
     lanes: Lanes = flat[ground.squares] == Cell.LANE
     return lanes

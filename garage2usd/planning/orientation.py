@@ -12,11 +12,8 @@ from numpy.typing import NDArray
 from garage2usd.common.errors import GenerationError
 from garage2usd.common.randomness import Step, generator
 from garage2usd.config import GarageConfig
-from garage2usd.config.plan import Aisles, Choice
-from garage2usd.planning.circulation import circulation, rules_of
-from garage2usd.planning.dimensions import dimensioned
-from garage2usd.planning.planner import Plan
-from garage2usd.planning.score import evaluate
+from garage2usd.config.plan import Aisles
+from garage2usd.planning.planner import Plan, alternatives
 from garage2usd.planning.stall_kinds import WRONG_SHARE_M2, with_stall_kinds, wrong_shares
 from garage2usd.structure.grid import Cell, Structure, squares_beside
 from garage2usd.structure.lanes import BOTH_WAYS, LaneDirections, given_directions, lane_squares_graph, stretches_of
@@ -301,19 +298,10 @@ def completed(plan: Plan, config: GarageConfig) -> Plan:
 
 
 def _candidates(plan: Plan, config: GarageConfig) -> Iterator[Plan]:
-    """Yield a plan of lanes, and others of its archive that break no more rules, if they may serve better."""
-    yield plan
+    """Yield a plan of lanes, and others of its archive where these may serve better."""
     is_as_planned = config.stalls.is_uniform and config.plan.aisles is Aisles.TWO_WAY
-    is_prescribed = config.plan.one_way or config.stalls.runs or config.plan.choice is not Choice.BEST
-    if is_as_planned or is_prescribed:
-        return
-    rules = rules_of(config.plan, squares=int((plan.structure.cells != Cell.OBSTACLE).sum()))
-    for archived in plan.archive[1:_CANDIDATES]:
-        structure = dimensioned(archived.structure, config.bay)
-        gave_way = circulation(structure).faults(rules)
-        if len(gave_way) <= len(plan.gave_way):
-            score = evaluate(structure, bay=config.bay, plan=config.plan)
-            yield replace(plan, structure=structure, score=score, gave_way=gave_way)
+    is_prescribed = config.plan.one_way or config.stalls.runs
+    yield from [plan] if is_as_planned or is_prescribed else alternatives(plan, config, _CANDIDATES)
 
 
 def _cost_m2(plan: Plan, config: GarageConfig) -> float:

@@ -1,7 +1,7 @@
 """The planner and its plans: Sarsa on a site, then local search from the best plans."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from garage2usd.common.errors import GenerationError
 from garage2usd.common.progress import Progress, silent
 from garage2usd.common.randomness import Step, generator
-from garage2usd.config import BayConfig, PlanConfig
+from garage2usd.config import BayConfig, GarageConfig, PlanConfig
 from garage2usd.config.plan import Choice
 from garage2usd.planning.board import (
     NO_VALUE,
@@ -21,18 +21,25 @@ from garage2usd.planning.board import (
     connect,
     faults_of,
     ground_of,
+    lanes_of,
     lanes_on,
     measure,
     new_board,
     put_lanes,
     value_now,
 )
-from garage2usd.planning.circulation import circulation
+from garage2usd.planning.circulation import circulation, rules_of
 from garage2usd.planning.dimensions import dimensioned
 from garage2usd.planning.learner import learn_aisles, learn_squares, uses_aisles
-from garage2usd.planning.local_search import Ranked, keeping_rules_first, least_floor_first, local_search
+from garage2usd.planning.local_search import (
+    Ranked,
+    keeping_rules_first,
+    least_floor_first,
+    local_search,
+    ranked_plans,
+)
 from garage2usd.planning.score import Score, evaluate
-from garage2usd.structure.grid import Structure
+from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lanes import BOTH_WAYS, LaneDirections, stretches_of
 from garage2usd.structure.stall_runs import StallRun
 
@@ -122,7 +129,15 @@ def given_plan(structure: Structure, *, bay: BayConfig, plan: PlanConfig | None 
     return Plan(sized, evaluate(sized, bay=bay, plan=plan))
 
 
-def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, progress: Progress = silent) -> Plan:
+def plan_lanes(
+    site: Structure,
+    *,
+    plan: PlanConfig,
+    bay: BayConfig,
+    seed: int,
+    start: Structure | None = None,
+    progress: Progress = silent,
+) -> Plan:
     """Plan the lanes of a site by tabular Sarsa.
 
     Parameters
@@ -135,6 +150,8 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
         Size of the stalls.
     seed
         Seed of the step.
+    start
+        Lanes on as many squares, for example of the level above, from which local search begins as well.
     progress
         Called with the number of finished episodes.
 
@@ -174,6 +191,8 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
         reason = f"no way over the {len(ground.squares)} free squares joins all {len(ground.portals)} portals"
         raise GenerationError("plan", reason, seed=seed, attempts=plan.episodes)
     best_learnt = _archived(site, ground, board, keeping_rules_first(ground, board, ranked)[0][1])
+    if start is not None and plan.polishes:
+        ranked = ranked_plans([*ranked, *_repaired(ground, board, lanes_of(start, ground))])
     met = {lanes.tobytes() for _, lanes in ranked}
     if plan.polishes:
         ranked = local_search(site, ground, board, ranked, plan, bay, random)
@@ -190,6 +209,23 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     structure = dimensioned(chosen.structure, bay)
     score = chosen.score if structure is chosen.structure else evaluate(structure, bay=bay, plan=plan)
     return Plan(structure, score, archive, learnt.curve, best_learnt, learnt.steps, gave_way)
+
+
+def alternatives(plan: Plan, config: GarageConfig, count: int | None = None) -> Iterator[Plan]:
+    """Yield a plan of lanes and the next ones of its archive, `count` in all, that break no more rules of circulation.
+
+    With a choice other than the best plan there are none but the plan itself.
+    """
+    yield plan
+    if config.plan.choice is not Choice.BEST:
+        return
+    rules = rules_of(config.plan, squares=int((plan.structure.cells != Cell.OBSTACLE).sum()))
+    for archived in plan.archive[1:count]:
+        structure = dimensioned(archived.structure, config.bay)
+        gave_way = circulation(structure).faults(rules)
+        if len(gave_way) <= len(plan.gave_way):
+            score = evaluate(structure, bay=config.bay, plan=config.plan)
+            yield replace(plan, structure=structure, score=score, gave_way=gave_way)
 
 
 def _check_rules(structure: Structure, ground: Ground, plan: PlanConfig, *, seed: int) -> dict[str, str]:

@@ -97,7 +97,7 @@ class _Kind(NamedTuple):
 
 
 _KINDS = {
-    LinkKind.STRAIGHT: _Kind(flight_places, flight_room, flight_of_tape, with_run),
+    LinkKind.STRAIGHT: _Kind(flight_places, flight_room, flight_of_tape, with_run, helix_cost),
     LinkKind.HELIX: _Kind(helix_places, helix_room, helix_of_tape, with_circles, helix_cost),
 }
 
