@@ -173,7 +173,9 @@ def helix_room(config: GarageConfig) -> str:
 
 
 def with_circles(structure: Structure, helix: Helix, config: GarageConfig) -> Structure:
-    """Lengthen the chosen sides of the helices' squares until their circles are large enough; equally.
+    """Lengthen the chosen sides of the helices' squares until their circles are large enough.
+
+    The shorter sides of the blocks grow first, then both.
 
     Raises
     ------
@@ -181,19 +183,22 @@ def with_circles(structure: Structure, helix: Helix, config: GarageConfig) -> St
         If that takes more than ten metres a square, or a side is not to be chosen.
     """
     sides = [structure.row_depths_mm.copy(), structure.column_widths_mm.copy()]
-    lines: list[set[int]] = [set(), set()]
+    lines: list[list[list[int]]] = [[], []]
+    """For each axis the lines of each block."""
     for block in helix.blocks:
         for way in (block.way, block.aside):
-            lines[0 if way.along_x else 1].update(block.lines(way))
-    for _ in range(0, _MOST_WIDENED_MM, _STEP_MM):
+            lines[0 if way.along_x else 1].append(block.lines(way))
+    for _ in range(0, 2 * _MOST_WIDENED_MM, _STEP_MM):
         made = Structure(structure.cells, sides[1], sides[0])
         if _is_round(made, helix, config):
             return made
         if not any(config.bay.chosen_sides):
             break
-        for axis, is_chosen in enumerate(config.bay.chosen_sides):
-            if is_chosen:
-                sides[axis][sorted(lines[axis])] += _STEP_MM
+        lengths_mm = [min(int(sides[axis][own].sum()) for own in lines[axis]) for axis in range(2)]
+        chosen = [axis for axis, is_chosen in enumerate(config.bay.chosen_sides) if is_chosen]
+        for axis in chosen:
+            if len(chosen) == 1 or lengths_mm[axis] <= lengths_mm[1 - axis]:
+                sides[axis][sorted({line for own in lines[axis] for line in own})] += _STEP_MM
     limit = _steepest_percent(config)
     wanted = f"'straight', a lower building.storey_m, or squares that leave helices gentler than {limit:g} %"
     raise ConfigError("building.ramps", str(config.building.ramps), wanted)
