@@ -176,8 +176,8 @@ def _planned(
 ) -> Plan:
     """Plan the lanes of a site, their directions and the kinds of stalls.
 
-    Given ones are taken, a tape is replayed, and the others are learnt and drawn. Below a top level, the lanes are those
-    of the archive that suit its sides of squares best, as far as `bay` leaves them to be chosen.
+    Given ones are taken, a tape is replayed, and the others are learnt and drawn. Below a top level, the lanes are
+    those of the archive that suit its sides of squares best, as far as `bay` leaves them to be chosen.
     """
     has_lanes = bool((site.cells == Cell.LANE).any())
     if tape is not None:
@@ -189,7 +189,7 @@ def _planned(
         return completed(given_plan(site, bay=config.bay, plan=config.plan), config)
     plan = plan_lanes(site, plan=config.plan, bay=config.bay, seed=config.seed, start=top, progress=progress)
     if top is not None and any(bay.chosen_sides):
-        plan = min(alternatives(plan, config), key=lambda lanes: _floor_per_stall_m2([top, lanes.structure], bay))
+        plan = min(alternatives(plan, config), key=lambda found: _floor_per_stall_m2([top, found.structure], bay))
     return completed(plan, config)
 
 

@@ -1,4 +1,5 @@
 """One-way aisles for finished lanes: an orientation of stretches that reaches every stall, with little detour."""
+# Over 300 lines: the orientation, the drives that it is judged by, and the choice of lanes that it decides.
 
 from collections.abc import Iterator
 from dataclasses import replace

@@ -1,5 +1,5 @@
-"""Kinds and sizes of stalls for finished lanes: drawn run by run, and the sides of squares that they need."""
-# Over 300 lines: the draw, the shapes that it draws and the sides that they need change together.
+"""Kinds and sizes of stalls for finished lanes: drawn run by run, then changed for less floor and better shares."""
+# Over 300 lines: the draw, the shapes that it draws and the moves that improve it change together.
 
 import math
 from collections import Counter
@@ -63,10 +63,11 @@ def with_stall_kinds(plan: Plan, config: GarageConfig) -> Plan:
     Notes
     -----
     Runs are visited by length, equal ones in random order. Each takes the option furthest below its share of the stalls
-    so far, among those that fit: squares whose sides are not chosen must be deep enough. Lines of squares without
-    traffic along them then get the sides with the least floor per stall, and single runs change their option while
-    that brings the shares closer. If kinds are free, the garage is laid out with each kind and angle alone, and gets
-    the one with the least floor per stall; among equal ones the first of perpendicular, angled, parallel.
+    so far, among those that fit: squares whose sides are not chosen must be deep enough. Lines of squares then get the
+    sides with the least floor per stall (`garage2usd.planning.stall_sides`). By first improvement, single runs take
+    another option and pairs that of each other, while that lowers the floor per stall plus the price of wrong shares.
+    If kinds are free, the garage is laid out with each kind and angle alone, and gets the one with the least floor per
+    stall; among equal ones the first of perpendicular, angled, parallel.
     """
     if config.stalls.is_free:
         return _least_floor(plan, config)

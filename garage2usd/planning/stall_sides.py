@@ -1,5 +1,4 @@
 """Sides of squares for stalls of all kinds: lines of squares as deep and as wide as their runs and aisles ask for."""
-# Over 300 lines: the count of stalls, the sides that it depends on and the trial of other runs change together.
 
 import math
 from collections import Counter

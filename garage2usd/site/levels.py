@@ -14,10 +14,10 @@ from garage2usd.garage.levels import level_name
 from garage2usd.site import make_site
 from garage2usd.site.portals import free_squares_connected
 from garage2usd.site.ramp_places import (
+    cost_of_place,
     flight_of_tape,
     flight_places,
     flight_room,
-    helix_cost,
     helix_of_tape,
     helix_places,
     helix_room,
@@ -97,8 +97,8 @@ class _Kind(NamedTuple):
 
 
 _KINDS = {
-    LinkKind.STRAIGHT: _Kind(flight_places, flight_room, flight_of_tape, with_run, helix_cost),
-    LinkKind.HELIX: _Kind(helix_places, helix_room, helix_of_tape, with_circles, helix_cost),
+    LinkKind.STRAIGHT: _Kind(flight_places, flight_room, flight_of_tape, with_run, cost_of_place),
+    LinkKind.HELIX: _Kind(helix_places, helix_room, helix_of_tape, with_circles, cost_of_place),
 }
 
 

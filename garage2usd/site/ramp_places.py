@@ -128,15 +128,16 @@ def helix_places(site: Structure, config: GarageConfig) -> Iterator[Helix]:
             return
 
 
-def helix_cost(site: Structure, helix: Helix) -> int:
-    """Estimate the cost of a place: squares along the blocks whose strip outwards is not a whole number of modules.
+def cost_of_place(site: Structure, ramps: Flight | Helix) -> int:
+    """Estimate the cost of a place: squares along the ramps whose strip outwards is not a whole number of modules.
 
-    A module is a lane with stalls on both sides, three squares. Before the landings in a row, one module is best.
+    A module is a lane with stalls on both sides, three squares. Before the landings of helices in a row, and at the
+    heads of straight ramps, one module is best.
     """
     cost = 0
-    squares = set(helix.squares)
+    squares = set(ramps.squares)
     for edge in Edge:
-        best_m = _MODULE if edge is helix.way.opposite else None
+        best_m = _MODULE if edge is ramps.way.opposite else None
         for square in squares:
             beyond = edge.beyond(square)
             if beyond in squares:

@@ -2,6 +2,7 @@ import dataclasses
 import itertools
 import math
 
+import numpy as np
 import pytest
 import shapely
 
@@ -9,7 +10,7 @@ from garage2usd.config import BayConfig
 from garage2usd.garage import StallKind
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
 from garage2usd.structure.stall_runs import StallRun, capacity_of_runs, rows_of_runs, runs_of_rows, turn_of
-from garage2usd.structure.stalls import Edge, StallShape, stall_rows
+from garage2usd.structure.stalls import Edge, StallRow, StallShape, stall_rows
 
 BAY = BayConfig(square_side_m=8.1)
 GAP_M = BAY.row_ends_m / 2
@@ -74,23 +75,64 @@ def test_no_stall_of_a_run_touches_another_or_a_column_or_leaves_the_run(sides_m
     inside = shapely.box(sides_m[0] + GAP_M, 0, 6 * sides_m[0] - GAP_M, 4 * sides_m[1])
     for number, outline in enumerate(found):
         assert all(outline.intersection(other).area < 1e-2 for other in found[number + 1 :])
-        assert all(outline.intersection(column).area < 1e-5 for column in standing)
+        if angle_deg in {0.0, 90.0}:
+            assert all(outline.intersection(column).area < 1e-5 for column in standing)
         assert outline.difference(inside.buffer(2e-3)).area < 1e-6
     if shape.depth_m > sides_m[1]:
         assert not found
 
 
+def clear_ground(outline, shape, lean, sign):
+    """What columns leave clear for a car in an angled stall: its rectangle, 0.25 m before it, 0.45 of the mouth.
+
+    The car stands between the sides of the outline, on a rectangle that touches the mouth's line in one corner.
+    """
+    (left, mouth), (right, _), _, _, _ = outline.exterior.coords
+    near, far = (right, left) if lean > 0 else (left, right)
+    angle = math.radians(shape.angle_deg)
+    inwards = np.array([lean * math.cos(angle), sign * math.sin(angle)])
+    across = np.array([-lean * math.sin(angle), sign * math.cos(angle)])
+    corner = np.array([near, mouth])
+    spots = [corner + s * inwards + w * across for s in (-0.25, shape.length_m) for w in (0, shape.width_m)]
+    return shapely.MultiPoint([*spots, (near + 0.45 * (far - near), mouth)]).convex_hull
+
+
+@pytest.mark.parametrize("lean", [1, -1])
 @pytest.mark.parametrize("angle_deg", ANGLES_DEG)
-def test_a_run_has_as_many_angled_stalls_as_fit_between_the_columns(angle_deg):
-    # along an endless row, what the columns leave of a square over the pitch; at the end the lean is lost once
-    structure = structure_of(11.1, 8.1)
-    shape = StallShape(2.4, 5.3, angle_deg)
-    cot = 1 / math.tan(math.radians(angle_deg))
-    fits = math.floor((11.1 - 2 * GAP_M - HALF_COLUMN_M * cot) / shape.pitch_m + 1e-9)
-    capacity = capacity_of_runs(structure, BAY, shaped(structure, shape))
-    assert capacity[2, 2:5].tolist() == [fits] * 3
-    end = math.floor((11.1 - 2 * GAP_M - shape.depth_m * cot) / shape.pitch_m + 1e-9)
-    assert capacity[2, 5] == max(end, 0)
+@pytest.mark.parametrize("sides_m", [(8.1, 8.1), (7.86, 6.1), (5.55, 6.0), (11.1, 5.8)])
+def test_a_run_has_no_fewer_angled_stalls_than_a_search_by_geos_finds(sides_m, angle_deg, lean):
+    """The search takes the first of places 1 cm apart at which neither a column nor the stall before is in the way."""
+    structure, shape = structure_of(*sides_m), StallShape(2.4, 5.3, angle_deg)
+    (run,) = (run for run in shaped(structure, shape, lean) if run.edge is Edge.UP and run.first[0] == 2)
+    rows = rows_of_runs(structure, BAY, [run])
+    found = sum(row.count for row in rows)
+    standing, half_m = shapely.STRtree(list(columns(structure))), sides_m[0] / 2
+    for row in rows:
+        for outline in outlines(structure, row):
+            ground = clear_ground(outline, shape, lean, 1)
+            touched = standing.query(ground, predicate="intersects")
+            assert shapely.area(shapely.intersection(standing.geometries[touched], ground)).sum() < 1e-4
+    if shape.depth_m > sides_m[1]:
+        assert not found
+        return
+    lean_m = lean * shape.depth_m / math.tan(math.radians(angle_deg))
+    first_m, end_m = sides_m[0], 6 * sides_m[0]
+    least_m, most_m = first_m + GAP_M - min(0, lean_m), end_m - GAP_M - shape.pitch_m - max(0, lean_m)
+    searched, place_m = 0, least_m
+    while place_m <= most_m + 1e-9:
+        row = StallRow(2, 1, Edge.UP, shape, (place_m - first_m - half_m,), lean)
+        (outline,) = outlines(structure, row)
+        is_free = not len(standing.query(clear_ground(outline, shape, lean, 1), predicate="overlaps"))
+        searched, place_m = searched + is_free, place_m + (shape.pitch_m if is_free else 0.01)
+    assert searched <= found
+
+
+@pytest.mark.parametrize(("angle_deg", "side_m", "stalls"), [(75.0, 8.1, 3), (60.0, 5.55, 2), (45.0, 6.8, 2)])
+def test_columns_in_the_triangles_of_angled_stalls_cost_no_stall(angle_deg, side_m, stalls):
+    capacity = capacity_of_runs(
+        structure_of(side_m, 8.1), BAY, shaped(structure_of(side_m, 8.1), StallShape(2.4, 5.3, angle_deg))
+    )
+    assert capacity[2, 2:5].tolist() == [stalls] * 3
 
 
 def test_perpendicular_runs_are_the_rows_of_the_squares():
