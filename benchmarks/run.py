@@ -1,7 +1,7 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
-Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, optimisers, rules, circulation, scale,
-stages, levels, exports, datasets, workers, looks, lidar, unity, compiled and binding.
+Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, floor, optimisers, rules, circulation,
+scale, stages, levels, exports, datasets, workers, looks, lidar, unity, compiled and binding.
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.
@@ -22,6 +22,7 @@ from binding import binding
 from circulation import circulation
 from datasets import datasets, workers
 from exports import exports
+from floor_use import floor_use
 from levels import levels
 from lidar import lidar
 from looks import looks
@@ -46,6 +47,7 @@ def main() -> None:
         "waiting": waiting,
         "building": _building,
         "planning": planning,
+        "floor": floor_use,
         "optimisers": optimisers,
         "rules": rules,
         "circulation": circulation,

@@ -21,8 +21,10 @@ from garage2usd.common.processes import run_in_forks, without_collector
 from garage2usd.common.progress import Progress, silent
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import UnreachableStalls
+from garage2usd.config.site import BayConfig
 from garage2usd.driving import DesignCar, StallProof, with_clutter, with_truth_of_misparked, without_unreachable
 from garage2usd.driving.layout_garage import refuse_undrivable
+from garage2usd.garage import StallKind
 from garage2usd.garage.levels import level_places, unreached_stalls
 from garage2usd.garage_model import Garage, GarageLevel, PlannedParts
 from garage2usd.layout import Layout, lay_out
@@ -46,6 +48,7 @@ from garage2usd.view.thumbnails import draw_pictures, draw_structures
 _LOG = logging.getLogger(__name__)
 _MOST_CHECKED_STALLS = 10_000
 _NAMED_STALLS = 6
+_ROUNDING_M = 1e-3
 _PICTURES = ("plan", "learning", "best")
 
 
@@ -459,7 +462,7 @@ def _layout(
     """Lay out a level: place its objects, prove its stalls, and add clutter beside the ways into them."""
     well = None if sites.ramps is None else make_well(sites.ramps, number, config)
     layout = lay_out(planned.plan.structure, graph, planned.config, well=well, egress=egress)
-    layout = _driven(layout, planned.config, progress)
+    layout = _driven(layout, planned.config, config.bay, progress)
     return with_things(layout, planned.config, progress=progress)
 
 
@@ -471,12 +474,25 @@ def with_things(layout: Layout, config: GarageConfig, *, progress: Progress = si
     return layout
 
 
-def _driven(layout: Layout, config: GarageConfig, progress: Progress) -> Layout:
-    """Mark, drop or refuse the stalls that no car gets into, as ``plan.unreachable_stalls`` says."""
-    choice = config.plan.unreachable_stalls
+def _driven(layout: Layout, config: GarageConfig, bay: BayConfig, progress: Progress) -> Layout:
+    """Mark, drop or refuse the stalls that no car gets into, as ``plan.unreachable_stalls`` says.
+
+    None is refused where the planner decides how cars get in: beside columns in the triangles of angled stalls, and on
+    aisles that it made narrower than ``bay.aisle_width_m``. There such stalls are marked.
+    """
+    choice, lanes = config.plan.unreachable_stalls, layout.lane_graph
     if choice.are_proven:
-        layout = without_unreachable(layout, config, progress=progress)
-    tight = tight_stalls(layout.lane_graph, layout.quads) if choice is UnreachableStalls.REFUSE else ()
+        return without_unreachable(layout, config, progress=progress)
+    if choice is not UnreachableStalls.REFUSE:
+        return layout
+    tight = tight_stalls(lanes, layout.quads)
+    is_narrowed = any(bay.chosen_sides) and any(
+        lanes.clear_aisle_m(stall.access, stall.outwards) < bay.aisle_width_m - _ROUNDING_M for stall in tight
+    )
+    if is_narrowed or any(stall.kind is StallKind.ANGLED for stall in layout.quads):
+        plan = config.plan.model_copy(update={"unreachable_stalls": UnreachableStalls.MARK})
+        marking = config.model_copy(update={"plan": plan})
+        return without_unreachable(layout, marking, in_full=True, progress=progress)
     if tight:
         refuse_undrivable(layout, config, tight, progress=progress)
     return layout

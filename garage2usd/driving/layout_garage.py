@@ -107,13 +107,17 @@ def prove_stalls(
     return prove_garage(garage, car=car, limits=limits, most_explained=most_explained, progress=progress)
 
 
-def without_unreachable(layout: Layout, config: GarageConfig, *, progress: Progress = silent) -> Layout:
+def without_unreachable(
+    layout: Layout, config: GarageConfig, *, in_full: bool = False, progress: Progress = silent
+) -> Layout:
     """Repeat the layout with unreachable stalls marked or removed.
 
     Parameters
     ----------
     layout, config
         The garage; ``plan.unreachable_stalls`` selects marking or removal.
+    in_full
+        True if a stall also counts as unreachable where a car gets into it only while others are free.
     progress
         As for `garage2usd.driving.prove_garage`.
 
@@ -128,7 +132,7 @@ def without_unreachable(layout: Layout, config: GarageConfig, *, progress: Progr
     layout = layout if config is asked else layout.source.again(config)
     while True:
         proofs = prove_stalls(layout, progress=progress)
-        found = {proof.stall for proof in proofs if not proof.is_proven}
+        found = {proof.stall for proof in proofs if not (proof.is_full if in_full else proof.is_proven)}
         if not found and not unreachable:
             return given
         if not found:

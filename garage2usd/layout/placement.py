@@ -157,6 +157,13 @@ class PlacedStall:
         """(x, z) of the four corners: entry left, entry right, rear right, rear left as seen by an entering driver."""
         return tuple(map(self.to_world, self.outline()))
 
+    def rectangle_m(self) -> Polygon:
+        """(x, z) of the corners of the rectangle for a car, in the order of `corners_m`; all of most stalls."""
+        x, z = self.width_m / 2, self.length_m / 2
+        if self.stall_kind is not StallKind.ANGLED:
+            return self.corners_m()
+        return tuple(self.to_world(corner) for corner in ((-x, z), (x, z), (x, -z), (-x, -z)))
+
     @property
     def stall_kind(self) -> StallKind:
         """Orientation of the stall to the lane."""

@@ -50,7 +50,7 @@ _RAMP_PERCENT, _BUMP_PERCENT, _BUMP_REACH_M = 50, 30, 2.0
 
 
 def floor_of(level: BuiltLevel) -> Grounds:
-    """Return the polygons of the garage's floors and ramps, (x, z) in metres.
+    """Return the polygons of the garage's floors, stalls and ramps, (x, z) in metres; a square may be all stalls.
 
     Raises
     ------
@@ -61,7 +61,7 @@ def floor_of(level: BuiltLevel) -> Grounds:
     if not bodies:
         raise StageError(level.source, "nothing in it has the class floor, so that nothing says where it ends")
     tiles = placed_pieces(bodies, np.array([not body.shape.is_dented for body in bodies])).hulls
-    return np.array([*tiles, *ramp_floors(level)], dtype=object)
+    return np.array([*tiles, *level.stall_grounds.polygons, *ramp_floors(level)], dtype=object)
 
 
 def ramp_floors(level: BuiltLevel) -> Grounds:

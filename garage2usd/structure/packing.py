@@ -14,9 +14,9 @@ from garage2usd.structure.stalls import StallShape
 _MM_PER_M = 1000
 _BEHIND_CAR_M = 0.25
 """What columns leave clear before the rectangle of an angled stall, where the tail of a parked car is."""
-_CLEAR_MOUTH = 0.45
+_CLEAR_MOUTH = 0.5
 """Share of an angled stall's mouth, at the corner of its rectangle, that columns leave clear for cars that turn in.
-With 0.4 the design car gets into 827 of 830 stalls at 60 degrees, with 0.3 into 822 of 835."""
+With 0.45 the design car gets into 2,274 of 2,284 stalls at 60 degrees, with 0.5 into all, on as much floor."""
 
 _Corners = tuple[tuple[float, float], ...]
 

@@ -117,8 +117,21 @@ class Lanelet2Judge:
                 yield f"the left bound of lanelet {number} lies to its right"
 
     def _is_straight_in_a_bend(self, number, side):
-        is_bent = abs(_turned_rad(self.middles[number])) > STRAIGHT_RAD
-        return is_bent and _sags(self.lanelets[number][side]["places"])[0].max(initial=0.0) < 1e-6
+        if abs(_turned_rad(self.middles[number])) <= STRAIGHT_RAD:
+            return False
+        bound = self.lanelets[number][side]["places"]
+        return _sags(bound)[0].max(initial=0.0) < 1e-6 or self._is_centre_of_bend(number, side)
+
+    def _is_centre_of_bend(self, number, side):
+        """Whether a bound has one corner, around which the other bound turns as far from it as the lane is wide."""
+        other = "left" if side == "right" else "right"
+        bound, far = (np.array(self.lanelets[number][which]["places"])[:, :2] for which in (side, other))
+        turned = _turns_rad(bound)
+        if len(turned) == 0 or turned.max() < 0.95 * turned.sum():
+            return False
+        widths = [np.linalg.norm(bound[end] - far[end]) for end in (0, -1)]
+        off = np.linalg.norm(far - bound[1 + turned.argmax()], axis=1)
+        return min(widths) - TIGHT_M <= off.min() and off.max() <= max(widths) + TIGHT_M
 
     def _lanes_of_aisles(self):
         """In squares driven straight through: in each direction one on its right half, with one line between them."""
@@ -377,11 +390,15 @@ def _outline(thing):
 
 def _sags(places):
     """How far the arcs that corners of a polyline stand for lie off it at most, and the shorter side of each corner."""
-    steps = np.diff(np.array(places)[:, :2], axis=0)
-    lengths = np.linalg.norm(steps, axis=1)
-    turned = np.abs([np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b) for a, b in pairwise(steps)])
+    places = np.array(places)[:, :2]
+    lengths = np.linalg.norm(np.diff(places, axis=0), axis=1)
     shorter = np.minimum(lengths[1:], lengths[:-1])
-    return shorter * np.tan(turned / 4) / 2, shorter
+    return shorter * np.tan(_turns_rad(places) / 4) / 2, shorter
+
+
+def _turns_rad(places):
+    """By how much a polyline turns at each of its corners, to either side."""
+    return np.abs([np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b) for a, b in pairwise(np.diff(places, axis=0))])
 
 
 def _turn(lanelet):

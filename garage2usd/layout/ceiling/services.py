@@ -64,6 +64,8 @@ _PIPE = _Service("Sprinkler", 1, 0.5, PIPE_RADIUS_M)
 _TRAY = _Service("CableTray", 1, 1.2, TRAY_WIDTH_M / 2)
 LINES_REACH_M = _DUCT.from_edge_m + _DUCT.half_width_m + 0.05
 """Distance from the carriageway's edge to the far side of ducts with flanges, and of pipes."""
+TRAYS_REACH_M = _TRAY.from_edge_m + _TRAY.half_width_m
+"""Distance from the carriageway's edge to the far side of cable trays."""
 
 
 @dataclass(frozen=True)

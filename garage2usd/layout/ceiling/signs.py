@@ -12,6 +12,7 @@ from garage2usd.assets.mesh import pascal_case
 from garage2usd.config import FittingsConfig
 from garage2usd.garage import LaneKind
 from garage2usd.layout.ceiling.beams import CeilingLevels
+from garage2usd.layout.ceiling.services import TRAYS_REACH_M
 from garage2usd.layout.egress.cores import Core
 from garage2usd.layout.fittings import TUBE_DEPTH_M
 from garage2usd.layout.grounds import Points
@@ -33,7 +34,8 @@ _SIGN_HEIGHT_M = 0.2
 SIGN_FROM_EDGE_M = 0.45
 _LANE_SIGN_M, _LEAST_LANE_SIGN_M = 0.4, 0.2
 _LANE_SIGN_ASIDE_M = 1.0
-"""Distance of signs from the centre of a lane, between the tubes and the ducts and trays."""
+"""Distance of signs from the centre of a lane, between the tubes and the ducts and trays; less over narrow lanes."""
+_FROM_TRAY_M = 0.05
 _MIRROR_RADIUS_M = 0.25
 _MIRROR_GAP_M = 0.05
 _MIRROR_FROM_COLUMN_M, _MIRROR_FROM_WALL_M = 0.07, 0.22
@@ -160,8 +162,11 @@ def lane_signs(grid: Tiles, fittings: FittingsConfig, levels: CeilingLevels) -> 
 def _lane_sign(tile: Tile, edge: Edge, spec: LaneSignSpec, fittings: FittingsConfig) -> Placement:
     """Sign over one edge of a lane square, facing the drivers who cross that edge."""
     half = (tile.half_x_m, tile.half_z_m)
+    clear_m = tile.clear_m[0 if edge.along_x else 1]
+    beside_m = max(clear_m / 2 - TRAYS_REACH_M - _FROM_TRAY_M - spec.width_m / 2, 0.0)
+    aside_m = round(min(_LANE_SIGN_ASIDE_M, beside_m), 6)
     # on the reader's right, which is the sign's local +X
-    to_right = _LANE_SIGN_ASIDE_M if edge in {Edge.DOWN, Edge.LEFT} else -_LANE_SIGN_ASIDE_M
+    to_right = aside_m if edge in {Edge.DOWN, Edge.LEFT} else -aside_m
     x, z, *_ = box_inside(edge, half, (to_right, to_right), (SIGN_FROM_EDGE_M, SIGN_FROM_EDGE_M))
     name = f"{pascal_case(spec.says)}Sign_{edge.name.capitalize()}"
     return tile.placed(name, spec, (x, z), height_m=fittings.ceiling_height_m, yaw_rad=edge_yaw_rad(edge))

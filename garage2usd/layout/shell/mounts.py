@@ -90,7 +90,7 @@ def mounted_objects(
     pillars, walls, blocks = tuple(pillars), tuple(walls), tuple(blocks)
     faces = [*_column_faces(pillars), *_wall_faces(walls), *_block_faces(blocks)]
     driven = [carriageway(tile, grid.setback_m) for tile in grid if tile.cell is not Cell.FREE]
-    parked = shapely.buffer(grounds_of([stall.corners_m() for stall in stalls]), -_TOUCH_M / 2, join_style="mitre")
+    parked = shapely.buffer(grounds_of([stall.rectangle_m() for stall in stalls]), -_TOUCH_M / 2, join_style="mitre")
     taken = [core_and_landing(core) for core in cores] + _outlines((*pillars, *walls, *blocks, *standing))
     used = np.concatenate([parked, grounds_of(taken)])
     lanes = [tile.middle_m for tile in grid if tile.cell is Cell.LANE]

@@ -44,6 +44,10 @@ def test_the_rectangle_for_a_car_lies_between_the_lines_of_an_angled_stall(slope
     assert (stall.width_m, stall.length_m) == (pytest.approx(2.4), pytest.approx(8.0 - 2.4 * abs(slope)))
     assert stall.yaw_rad == 0.0
     assert stall.tail == pytest.approx((0.0, stall.length_m / 2))
+    ground = turned(stall, 0.7).rectangle
+    assert ground.area == pytest.approx(stall.width_m * stall.length_m)
+    assert turned(stall, 0.7).polygon.buffer(1e-9).covers(ground)
+    assert ground.minimum_rotated_rectangle.area == pytest.approx(ground.area)
 
 
 def test_a_car_in_a_parallel_stall_has_the_lane_on_its_left():

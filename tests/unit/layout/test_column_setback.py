@@ -68,7 +68,7 @@ def test_columns_beside_one_lane_stand_back_and_others_stay(seed, setback_m):
 def test_no_column_stands_in_a_stall_and_check_finds_nothing_more(kinds, seeds):
     for seed in seeds:
         usual, made = (garage_with(setback_m, seed=seed, stalls={"kinds": kinds}) for setback_m in (0, 1.0))
-        stalls = shapely.STRtree([shapely.Polygon(stall.corners_m()).buffer(-0.01) for stall in made.layout.stalls])
+        stalls = shapely.STRtree([stall.rectangle.buffer(-0.01) for stall in made.stalls])
         for name, _, _, outlines in feet_of(made):
             assert not any(len(stalls.query(outline, predicate="intersects")) for outline in outlines), name
         assert [stall.name for stall in made.layout.stalls] == [stall.name for stall in usual.layout.stalls]

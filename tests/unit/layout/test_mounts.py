@@ -150,8 +150,8 @@ def test_the_same_in_any_garage_and_each_stall_is_served(seed):
 
 
 def assert_hung_beside_stalls(layout):
-    """No triangle of what hangs lies over a stall below the roof of a car, and none of a kind hang side by side."""
-    stalls = shapely.STRtree([shapely.Polygon(stall.corners_m()).buffer(-1e-4) for stall in layout.stalls])
+    """No triangle of what hangs is over the ground for a car below its roof, and none of a kind hang side by side."""
+    stalls = shapely.STRtree([shapely.Polygon(stall.rectangle_m()).buffer(-1e-4) for stall in layout.stalls])
     for mounted in MOUNTED:
         hung = layout.of_kind(mounted.kind.name)
         assert hung

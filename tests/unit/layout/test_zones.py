@@ -6,6 +6,7 @@ from support.sample_files import each_sample
 
 from garage2usd.config import GarageConfig
 from garage2usd.config.site import SiteConfig
+from garage2usd.garage import StallKind
 from garage2usd.layout import lay_out
 from garage2usd.layout.parking.zones import Zones
 from garage2usd.objects import MOUNTED
@@ -125,5 +126,8 @@ def assert_plates_show_the_zones_before_them(layout):
         # of stalls that are as near as each other, one at least
         nearest = before[distances < distances.min() + 1e-3]
         assert text in zones[nearest], place
-    nearest = cdist(middles, [place for _, place, _ in plates]).argmin(axis=1)
+    # to the mouth of angled stalls, which lean away from the plates of their row
+    quads = {stall.name: stall for stall in layout.quads}
+    at = [quads[stall.name].mouth if stall.stall_kind is StallKind.ANGLED else stall.centre_m for stall in stalls]
+    nearest = cdist(at, [place for _, place, _ in plates]).argmin(axis=1)
     assert [plates[plate][0] for plate in nearest.tolist()] == zones.tolist()

@@ -180,7 +180,12 @@ FAULTS = (
         "            yield solid.footprint",
         "            yield solid.footprint.boundary",
     ),
-    Fault("no floor of ramps", "occupancy", "[*tiles, *ramp_floors(level)]", "tiles"),
+    Fault(
+        "no floor of ramps",
+        "occupancy",
+        "*level.stall_grounds.polygons, *ramp_floors(level)]",
+        "*level.stall_grounds.polygons]",
+    ),
 )
 
 

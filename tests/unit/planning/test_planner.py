@@ -117,6 +117,14 @@ def test_repair_where_learning_meets_nothing():
     assert len(plan.archive) == 1
 
 
+def test_search_begins_from_lanes_that_are_given_as_well():
+    good = plan_lanes(G1, plan=PlanConfig(), bay=BAY, seed=0)
+    short = PlanConfig(episodes=20, starts=1)
+    alone, begun = (plan_lanes(G1, plan=short, bay=BAY, seed=5, start=start) for start in (None, good.structure))
+    check(begun, G1)
+    assert begun.score.value >= good.score.value > alone.score.value
+
+
 def test_archive_size_and_curve():
     plan = plan_lanes(G1, plan=PlanConfig(episodes=300, archive_size=7), bay=BAY, seed=0)
     assert len(plan.archive) == 7

@@ -1,6 +1,10 @@
+from pathlib import Path
+
 import pytest
 
-from garage2usd import ConfigError, GarageConfig, generate
+from garage2usd import ConfigError, GarageConfig, generate, load_config
+from garage2usd.checks import judged_layout
+from garage2usd.garage import StallKind
 from garage2usd.planning import given_plan, runs_of_settings, settings_of_runs, with_stall_kinds
 from garage2usd.structure.grid import cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph
@@ -8,6 +12,7 @@ from garage2usd.structure.stall_runs import capacity_of_runs
 
 SMALL = {"site": {"width_cells": 9, "height_cells": 7}, "plan": {"episodes": 100, "starts": 1}}
 LARGE = {"site": {"width_cells": 20, "height_cells": 16}, "plan": {"episodes": 100, "starts": 1}}
+SAMPLES = Path(__file__).parents[3] / "samples"
 MIXED = {"perpendicular": 0.6, "angled": 0.25, "parallel": 0.15}
 
 
@@ -146,3 +151,32 @@ def test_the_paper_s_matrices_are_those_of_the_plan_before_kinds():
     plan = given_plan(garage.site, bay=config.bay)
     assert (plan.structure.cells == garage.plan.structure.cells).all()
     build_lane_graph(garage.plan.structure, config.bay, garage.plan.runs)
+
+
+@pytest.mark.parametrize(
+    ("sample", "gross_m2"), [("mixed_stalls.toml", 37.0), ("two_levels.toml", 33.0), ("three_levels.toml", 45.0)]
+)
+def test_samples_take_the_floor_that_the_planner_reached(sample, gross_m2):
+    garage = generate(load_config(SAMPLES / sample))
+    ground_m2 = sum(level.layout.area.gross_m2 for level in garage.levels)
+    assert ground_m2 / garage.parking_stalls <= gross_m2
+
+
+@pytest.mark.parametrize(("angle_deg", "clear_m"), [(45, 3.8), (60, 4.5), (75, 5.0)])
+def test_one_way_aisles_of_angled_stalls_are_as_wide_as_the_profile_asks(angle_deg, clear_m):
+    stalls = {"kinds": {"angled": 1}, "angles_deg": [angle_deg]}
+    plan = {**SMALL["plan"], "aisles": "one-way"}
+    garage = generate(GarageConfig(seed=1, site=SMALL["site"], plan=plan, stalls=stalls))
+    widths_m = {round(edge.width_m, 3) for edge in garage.lanes.edges}
+    assert min(widths_m) == pytest.approx(clear_m, abs=0.01)
+    both_ways = generate(GarageConfig(seed=1, stalls=stalls, **SMALL))
+    assert min(edge.width_m for edge in both_ways.lanes.edges) >= garage.config.bay.aisle_width_m - 0.01
+    findings, _ = judged_layout(garage.layout, garage.config)
+    assert not {"angled-aisle-width", "column-clearance", "column-in-stall"} & {finding.rule for finding in findings}
+
+
+def test_parallel_stalls_stand_in_rows():
+    garage = generate(GarageConfig(seed=4, stalls={"kinds": MIXED}, **LARGE))
+    parallel = [run for run in garage.plan.runs if run.shape.kind is StallKind.PARALLEL]
+    assert parallel
+    assert all(len(run.squares) > 1 for run in parallel)

@@ -83,7 +83,7 @@ def test_no_stall_of_a_run_touches_another_or_a_column_or_leaves_the_run(sides_m
 
 
 def clear_ground(outline, shape, lean, sign):
-    """What columns leave clear for a car in an angled stall: its rectangle, 0.25 m before it, 0.45 of the mouth.
+    """What columns leave clear for a car in an angled stall: its rectangle, 0.25 m before it, half of the mouth.
 
     The car stands between the sides of the outline, on a rectangle that touches the mouth's line in one corner.
     """
@@ -94,7 +94,7 @@ def clear_ground(outline, shape, lean, sign):
     across = np.array([-lean * math.sin(angle), sign * math.cos(angle)])
     corner = np.array([near, mouth])
     spots = [corner + s * inwards + w * across for s in (-0.25, shape.length_m) for w in (0, shape.width_m)]
-    return shapely.MultiPoint([*spots, (near + 0.45 * (far - near), mouth)]).convex_hull
+    return shapely.MultiPoint([*spots, (near + 0.5 * (far - near), mouth)]).convex_hull
 
 
 @pytest.mark.parametrize("lean", [1, -1])
