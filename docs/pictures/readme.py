@@ -17,7 +17,7 @@ from garage2usd.render import Picture
 
 _HERE = Path(__file__).parent
 _SAMPLES = _HERE.parents[1] / "samples"
-_ABOVE_STALLS = ("--at", "36", "11", "40", "0", "-42")
+_ABOVE_STALLS = ("--at", "30", "11", "31", "0", "-42")
 """Place of a camera above the angled and parallel stalls, its yaw and its pitch."""
 _VIEWS = {
     "paper_inside.png": ("paper_7x9", ("inside",)),

@@ -37,6 +37,7 @@ that."""
 _MOST_CELLS = 400_000_000
 _AROUND_M = 1.0
 """Margin of the occupancy grid around the floors, for walls."""
+_HAIR_M = 1e-5
 _NEAR_CELLS = 0.25
 _ARC_SIDES = 4
 """Segments of a quarter circle around a corner; they cut off a fiftieth of the radius."""
@@ -61,7 +62,9 @@ def floor_of(level: BuiltLevel) -> Grounds:
     if not bodies:
         raise StageError(level.source, "nothing in it has the class floor, so that nothing says where it ends")
     tiles = placed_pieces(bodies, np.array([not body.shape.is_dented for body in bodies])).hulls
-    return np.array([*tiles, *level.stall_grounds.polygons, *ramp_floors(level)], dtype=object)
+    # a hair smaller, so that rounding does not enlarge the grid
+    stalls = shapely.buffer(level.stall_grounds.polygons, -_HAIR_M, join_style="mitre")
+    return np.array([*tiles, *stalls, *ramp_floors(level)], dtype=object)
 
 
 def ramp_floors(level: BuiltLevel) -> Grounds:

@@ -183,8 +183,8 @@ FAULTS = (
     Fault(
         "no floor of ramps",
         "occupancy",
-        "*level.stall_grounds.polygons, *ramp_floors(level)]",
-        "*level.stall_grounds.polygons]",
+        "*stalls, *ramp_floors(level)]",
+        "*stalls]",
     ),
 )
 
