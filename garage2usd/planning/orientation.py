@@ -14,6 +14,7 @@ from garage2usd.common.errors import GenerationError
 from garage2usd.common.randomness import Step, generator
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import Aisles
+from garage2usd.planning.local_search import distinct_plans
 from garage2usd.planning.planner import Plan, alternatives
 from garage2usd.planning.stall_kinds import WRONG_SHARE_M2, with_stall_kinds, wrong_shares
 from garage2usd.structure.grid import Cell, Structure, squares_beside
@@ -28,8 +29,8 @@ _HOTTEST_M, _COLDEST_M = 15.0, 0.2
 _CLOCKWISE_M = 10.0
 """Metres of mean drive that all lanes turning against the side of traffic are worth."""
 _MM_PER_M = 1000
-_CANDIDATES = 4
-"""Plans of the archive that are completed to be compared."""
+_CANDIDATES = 3
+"""Plans of the archive that are completed to be compared. With six, stalls at 60 degrees take 0.7 % less floor."""
 _DETOUR_M2 = 3.0
 """Floor per stall that drives twice as long are worth."""
 
@@ -299,10 +300,15 @@ def completed(plan: Plan, config: GarageConfig) -> Plan:
 
 
 def _candidates(plan: Plan, config: GarageConfig) -> Iterator[Plan]:
-    """Yield a plan of lanes, and others of its archive where these may serve better."""
+    """Yield a plan of lanes and, where they may serve better, others of its archive with mostly other lanes."""
     is_as_planned = config.stalls.is_uniform and config.plan.aisles is Aisles.TWO_WAY
     is_prescribed = config.plan.one_way or config.stalls.runs
-    yield from [plan] if is_as_planned or is_prescribed else alternatives(plan, config, _CANDIDATES)
+    if is_as_planned or is_prescribed:
+        yield plan
+        return
+    plans = list(alternatives(plan, config))
+    lanes = [(float(number), each.structure.cells == Cell.LANE) for number, each in enumerate(plans)]
+    yield from (plans[int(number)] for number, _ in distinct_plans(lanes, _CANDIDATES))
 
 
 def _cost_m2(plan: Plan, config: GarageConfig) -> float:

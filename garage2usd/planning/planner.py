@@ -211,8 +211,8 @@ def plan_lanes(
     return Plan(structure, score, archive, learnt.curve, best_learnt, learnt.steps, gave_way)
 
 
-def alternatives(plan: Plan, config: GarageConfig, count: int | None = None) -> Iterator[Plan]:
-    """Yield a plan of lanes and the next ones of its archive, `count` in all, that break no more rules of circulation.
+def alternatives(plan: Plan, config: GarageConfig) -> Iterator[Plan]:
+    """Yield a plan of lanes, and the others of its archive that break no more rules of circulation.
 
     With a choice other than the best plan there are none but the plan itself.
     """
@@ -220,7 +220,7 @@ def alternatives(plan: Plan, config: GarageConfig, count: int | None = None) -> 
     if config.plan.choice is not Choice.BEST:
         return
     rules = rules_of(config.plan, squares=int((plan.structure.cells != Cell.OBSTACLE).sum()))
-    for archived in plan.archive[1:count]:
+    for archived in plan.archive[1:]:
         structure = dimensioned(archived.structure, config.bay)
         gave_way = circulation(structure).faults(rules)
         if len(gave_way) <= len(plan.gave_way):

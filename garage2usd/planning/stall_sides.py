@@ -86,12 +86,12 @@ class StallSides:
         with_aisles = lines_with_aisles(structure)
         self._lines: list[Line] = []
         """Lines whose sides are chosen for the stalls on them."""
-        self._aisles: set[Line] = set()
-        """Lines whose sides are chosen for the aisles along them."""
+        self._aisles: dict[Line, bool] = {}
+        """Lines whose sides are chosen for the aisles along them, and whether all of these are one-way."""
         for axis, is_chosen in enumerate(bay.chosen_sides):
             for line in range(structure.shape[axis]) if is_chosen else ():
                 if with_aisles[axis][line]:
-                    self._aisles.add((axis, line))
+                    self._aisles[axis, line] = _is_one_way(plan, axis, line)
                 elif (structure.cells.take(line, axis=axis) == Cell.FREE).any():
                     self._lines.append((axis, line))
         self._on_line = {
@@ -155,7 +155,7 @@ class StallSides:
             self.runs[number] = run
             axis = int(not run.edge.along_x)
             changed |= {(axis, run.first[axis]), (axis, run.edge.beyond(run.first)[axis])}
-        for axis, line in changed & self._aisles:
+        for axis, line in changed & self._aisles.keys():
             self._widen_aisle(axis, line)
         own = [line for line in self._lines if line in changed]
         for axis, line in own:
@@ -166,8 +166,20 @@ class StallSides:
             self._improve(axis, line)
 
     def _widen_aisle(self, axis: int, line: int) -> None:
-        """Make a line as wide as the aisles along it need, or a door across its end."""
-        aisle_mm = _aisle_side_mm(self._plan, self._config, self.runs, axis, line)
+        """Make a line as wide as the aisles along it need for their stalls, or a door across its end.
+
+        If all aisles are one-way and have stalls, they are as wide as the profile asks for these stalls, and never
+        wider than others.
+        """
+        width_m = self._bay.aisle_width_m
+        if self._aisles[axis, line]:
+            widths_m = [
+                _aisle_width_m(run, self._plan.directions, self._config)
+                for run in self.runs
+                if run.edge.along_x == (axis == 0) and run.edge.beyond(run.first)[axis] == line
+            ]
+            width_m = min(max(widths_m, default=width_m), width_m)
+        aisle_mm = rounded_mm(width_m + 2 * self._bay.carriageway_setback_m)
         self._sides_mm[axis][line] = max(aisle_mm, int(self._least_mm[axis][line]))
 
     def _count(self, run: StallRun) -> int:
@@ -253,23 +265,12 @@ def _least_sides_mm(structure: Structure, bay: BayConfig) -> list[Sides]:
     return found
 
 
-def _aisle_side_mm(plan: Plan, config: GarageConfig, runs: Sequence[StallRun], axis: int, line: int) -> int:
-    """Return the side of a row (0) or a column (1) of squares across the aisles along it, for their stalls.
-
-    If all of them are one-way and have stalls, they are as wide as the profile asks for these stalls, and never wider
-    than others.
-    """
-    bay, edge = config.bay, Edge.RIGHT if axis == 0 else Edge.DOWN
+def _is_one_way(plan: Plan, axis: int, line: int) -> bool:
+    """Return True if cars drive along a row (0) or a column (1) of squares, and everywhere in one direction only."""
+    edge = Edge.RIGHT if axis == 0 else Edge.DOWN
     steps = ((square, edge.beyond(square)) for square in plan.structure.where(Cell.LANE) if square[axis] == line)
     between_lanes = [step for step in steps if plan.structure.cell_at(step[1]) is Cell.LANE]
-    widths_m = [
-        _aisle_width_m(run, plan.directions, config)
-        for run in runs
-        if run.edge.along_x == (axis == 0) and run.edge.beyond(run.first)[axis] == line
-    ]
-    is_one_way = all(plan.directions.is_one_way(*step) for step in between_lanes)
-    width_m = min(max(widths_m), bay.aisle_width_m) if widths_m and between_lanes and is_one_way else bay.aisle_width_m
-    return rounded_mm(width_m + 2 * bay.carriageway_setback_m)
+    return bool(between_lanes) and all(plan.directions.is_one_way(*step) for step in between_lanes)
 
 
 def _aisle_width_m(run: StallRun, directions: LaneDirections, config: GarageConfig) -> float:

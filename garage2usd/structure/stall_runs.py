@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import groupby
 
 import numpy as np
@@ -39,7 +40,7 @@ class StallRun:
     shape: StallShape
     lean: int = 1
 
-    @property
+    @cached_property
     def squares(self) -> tuple[Square, ...]:
         """(row, col) of each square, from `first` to `last`."""
         (row, col), (last_row, last_col) = self.first, self.last
