@@ -84,21 +84,17 @@ class _Kind(NamedTuple):
         Reads ramps from their tape, which is split at its commas.
     with_room
         Returns a structure with sides long enough for the ramps.
-    cost
-        Estimates the cost of a place, in any unit; ramps are drawn among the places of least cost. None to draw among
-        all places.
     """
 
     places: Callable[[Structure, GarageConfig], Iterator[Ramps]]
     room: Callable[[GarageConfig], str]
     of_tape: Callable[..., Ramps]
     with_room: Callable[[Structure, Any, GarageConfig], Structure]
-    cost: Callable[[Structure, Any], int] | None = None
 
 
 _KINDS = {
-    LinkKind.STRAIGHT: _Kind(flight_places, flight_room, flight_of_tape, with_run, cost_of_place),
-    LinkKind.HELIX: _Kind(helix_places, helix_room, helix_of_tape, with_circles, cost_of_place),
+    LinkKind.STRAIGHT: _Kind(flight_places, flight_room, flight_of_tape, with_run),
+    LinkKind.HELIX: _Kind(helix_places, helix_room, helix_of_tape, with_circles),
 }
 
 
@@ -133,7 +129,7 @@ def draw_ramps(site: Structure, config: GarageConfig, attempt: int = 0) -> Ramps
             "building.ramp_slope_percent gives them room"
         )
         raise GenerationError("links", reason, seed=config.seed, attempts=attempt + 1)
-    costs = {ramps: 0 if kind.cost is None else kind.cost(site, ramps) for ramps in places}
+    costs = {ramps: cost_of_place(site, ramps) for ramps in places}
     for number in range(attempt + 1):
         least = min(costs.values())
         cheapest = [ramps for ramps, cost in costs.items() if cost == least]

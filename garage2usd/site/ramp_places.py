@@ -8,7 +8,7 @@ import numpy as np
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.config.site import BuildingConfig
-from garage2usd.structure.building import Flight
+from garage2usd.structure.building import Flight, Ramps
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.helix import LANE_M, CoilBlock, Helix
 from garage2usd.structure.stalls import Edge
@@ -128,16 +128,16 @@ def helix_places(site: Structure, config: GarageConfig) -> Iterator[Helix]:
             return
 
 
-def cost_of_place(site: Structure, ramps: Flight | Helix) -> int:
+def cost_of_place(site: Structure, ramps: Ramps) -> int:
     """Estimate the cost of a place: squares along the ramps whose strip outwards is not a whole number of modules.
 
     A module is a lane with stalls on both sides, three squares. Before the landings of helices in a row, and at the
     heads of straight ramps, one module is best.
     """
     cost = 0
-    squares = set(ramps.squares)
+    squares, (_, way, _, _) = set(ramps.squares), ramps.place
     for edge in Edge:
-        best_m = _MODULE if edge is ramps.way.opposite else None
+        best_m = _MODULE if edge is way.opposite else None
         for square in squares:
             beyond = edge.beyond(square)
             if beyond in squares:
