@@ -16,6 +16,7 @@ from garage2usd.config.site import BuildingConfig
 from garage2usd.pipeline import generate
 from garage2usd.profiles import PROFILE_NAMES
 from garage2usd.reading.labels import read_labels
+from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.levels import levels_of
 from garage2usd.sensors.rays.driven_surface import DrivenSurface
 
@@ -67,9 +68,8 @@ def test_four_levels_have_a_helix_down_and_one_up_between_each_two():
 
 def _free_space_covers(drive, stage):
     """The middle of the lane is free on the surface that the triangles have, above and below it nothing is."""
-    surface = DrivenSurface(
-        stage, DrivenFloor.of_levels(levels_of(stage), read_contents(stage).things), read_labels(stage, None)
-    )
+    floors = DrivenFloor.of_levels(levels_of(stage), read_lanes(stage).graph, read_contents(stage).things)
+    surface = DrivenSurface(stage, floors, read_labels(stage, None))
     lane = np.column_stack([drive.line[:, 0], drive.floor_m, drive.line[:, 2]])
     assert surface.is_free(lane).all()
     sloped = lane[np.abs(lane[:, 1] - lane[[0], 1]) > 0.5]
