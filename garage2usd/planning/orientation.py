@@ -16,7 +16,7 @@ from garage2usd.config import GarageConfig
 from garage2usd.config.plan import Aisles
 from garage2usd.planning.local_search import distinct_plans
 from garage2usd.planning.planner import Plan, alternatives
-from garage2usd.planning.stall_kinds import WRONG_SHARE_M2, with_stall_kinds, wrong_shares
+from garage2usd.planning.stall_kinds import WRONG_SHARE_M2, floor_per_stall_m2, with_stall_kinds, wrong_shares
 from garage2usd.structure.grid import Cell, Structure, squares_beside
 from garage2usd.structure.lanes import BOTH_WAYS, LaneDirections, given_directions, lane_squares_graph, stretches_of
 from garage2usd.structure.stall_runs import capacity_of_runs
@@ -314,5 +314,4 @@ def _candidates(plan: Plan, config: GarageConfig) -> Iterator[Plan]:
 def _cost_m2(plan: Plan, config: GarageConfig) -> float:
     """Floor per stall with the prices of detours and of wrong shares."""
     detour = driven_lengths(plan, config, plan.directions).detour
-    floor_m2 = plan.structure.floor_m2 / plan.score.stalls if plan.score.stalls else np.inf
-    return floor_m2 + _DETOUR_M2 * detour + WRONG_SHARE_M2 * wrong_shares(plan, config)
+    return floor_per_stall_m2(plan) + _DETOUR_M2 * detour + WRONG_SHARE_M2 * wrong_shares(plan, config)

@@ -219,7 +219,8 @@ def alternatives(plan: Plan, config: GarageConfig) -> Iterator[Plan]:
     yield plan
     if config.plan.choice is not Choice.BEST:
         return
-    rules = rules_of(config.plan, squares=int((plan.structure.cells != Cell.OBSTACLE).sum()))
+    free = (plan.structure.cells == Cell.FREE) | (plan.structure.cells == Cell.LANE)
+    rules = rules_of(config.plan, squares=int(free.sum()))
     for archived in plan.archive[1:]:
         structure = dimensioned(archived.structure, config.bay)
         gave_way = circulation(structure).faults(rules)

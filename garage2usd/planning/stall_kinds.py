@@ -88,10 +88,10 @@ def _least_floor(plan: Plan, config: GarageConfig) -> Plan:
         stalls.of_kind(StallKind.PARALLEL),
     ]
     plans = (with_stall_kinds(plan, config.model_copy(update={"stalls": of_one})) for of_one in every)
-    return min(plans, key=_floor_per_stall_m2)
+    return min(plans, key=floor_per_stall_m2)
 
 
-def _floor_per_stall_m2(plan: Plan) -> float:
+def floor_per_stall_m2(plan: Plan) -> float:
     """Return the floor of a plan over its stalls, of whatever kind; infinite without stalls."""
     return round(plan.structure.floor_m2 / plan.score.stalls, 9) if plan.score.stalls else math.inf
 

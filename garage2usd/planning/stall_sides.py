@@ -47,11 +47,7 @@ class StallCounts:
         run, is_backed
             The run.
         """
-        (row, col), (last_row, last_col) = run.first, run.last
-        if run.edge.along_x:
-            depth, along = int(depths_mm[row]), widths_mm[col : last_col + 1]
-        else:
-            depth, along = int(widths_mm[col]), depths_mm[row : last_row + 1]
+        along, depth = run.sides_mm(depths_mm, widths_mm)
         key = run, is_backed, depth, along.tobytes()
         if key not in self._known:
             place = run.first, run.last, run.edge

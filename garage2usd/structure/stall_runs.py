@@ -48,6 +48,13 @@ class StallRun:
             return tuple((row, at) for at in range(col, last_col + 1))
         return tuple((at, col) for at in range(row, last_row + 1))
 
+    def sides_mm(self, depths_mm: NDArray[np.int64], widths_mm: NDArray[np.int64]) -> tuple[NDArray[np.int64], int]:
+        """Return the sides of its squares along it, and their depth, from those of all rows and all columns."""
+        (row, col), (last_row, last_col) = self.first, self.last
+        if self.edge.along_x:
+            return widths_mm[col : last_col + 1], int(depths_mm[row])
+        return depths_mm[row : last_row + 1], int(widths_mm[col])
+
 
 def lean_of_traffic(square: Square, edge: Edge, directions: LaneDirections = BOTH_WAYS) -> int:
     """Return the lean of angled stalls for the traffic before them.
@@ -148,13 +155,9 @@ def packing_of(
     structure: Structure, bay: BayConfig, run: StallRun, around: Surroundings, runs_on: Mapping[Square, int]
 ) -> Packing:
     """Return the stalls of a run, side by side; `runs_on` counts the runs that share each square."""
-    (row, col), (last_row, last_col) = run.first, run.last
-    if run.edge.along_x:
-        along_mm, depth_mm = structure.column_widths_mm[col : last_col + 1], structure.row_depths_mm[row]
-    else:
-        along_mm, depth_mm = structure.row_depths_mm[row : last_row + 1], structure.column_widths_mm[col]
+    along_mm, depth_mm = run.sides_mm(structure.row_depths_mm, structure.column_widths_mm)
     shares = [runs_on[square] for square in run.squares]
-    return Packing(bay, run.shape, run.lean, along_mm.tolist(), int(depth_mm), around, shares)
+    return Packing(bay, run.shape, run.lean, along_mm.tolist(), depth_mm, around, shares)
 
 
 def split_for_motorcycles(
