@@ -72,7 +72,7 @@ def import_layout(
     proofs = prove_stalls(layout, progress=progress) if proves else ()
     building = Building((layout.structure,), None, config.building.storey_m)
     level = GarageLevel(building.places[0], config, layout, planned=None)
-    garage = Garage(config, building, (level,), _origin(source))
+    garage = Garage(config, building, (level,), {**_origin(source), **alignment.frame(survey.origin_deg)})
     seconds = {"import": time.perf_counter() - start}
 
     def judge() -> tuple[Judged, ...]:

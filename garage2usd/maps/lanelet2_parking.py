@@ -286,7 +286,8 @@ def _valid(grounds: Sequence[shapely.Geometry] | Grounds) -> Grounds:
 
 def _stall_tags(stall: Stall, *, is_taken: bool) -> dict[str, str]:
     numbered = {} if stall.number is None else {"ref": str(stall.number)}
-    return {"name": stall.name, **numbered, "use": str(stall.use), "occupied": "yes" if is_taken else "no"}
+    sized = {} if stall.size == "standard" else {"size": stall.size}
+    return {"name": stall.name, **numbered, **sized, "use": str(stall.use), "occupied": "yes" if is_taken else "no"}
 
 
 def _side(osm: OsmFile, *points: int, is_open: bool) -> int:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.common.documents import MAX_REPORT_BYTES, read_json
+from garage2usd.garage import Point
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import PortalKind, Survey, Unplaced
 from garage2usd.survey.text import length_of, number_of, portal_kind_of, refuse, size_of, unread_length, use_of
@@ -25,12 +26,14 @@ _KINDS = {
     "service": "lane",
     "column": "column",
     "pillar": "column",
+    "block": "block",
     "outline": "outline",
     "parking": "outline",
 }
 _SHAPES = {
     "stall": ("Polygon", "MultiPolygon"),
     "outline": ("Polygon", "MultiPolygon"),
+    "block": ("Polygon", "MultiPolygon"),
     "lane": ("LineString", "MultiLineString"),
     "column": ("Point", "MultiPoint", "Polygon", "MultiPolygon"),
     "portal": ("Point", "MultiPoint"),
@@ -62,8 +65,9 @@ def read_geojson_survey(path: Path) -> Survey:
         ``"coordinates": "metres"`` of the outermost object metres east and north. The first of the properties ``kind``,
         ``type``, ``amenity``, ``service``, ``entrance`` and ``highway`` that has a known value tells what a feature is:
         ``stall`` or ``parking_space``, ``lane``, ``parking_aisle`` or ``service`` (with ``width``, ``oneway``),
-        ``column`` (with ``size_m`` if it is a point), ``entrance``, ``exit`` or ``portal``, and ``outline`` or
-        ``parking``. Stalls may have ``use``, ``size`` and ``number``.
+        ``column`` (with ``size_m`` if it is a point), ``entrance``, ``exit`` or ``portal``, ``block``, and
+        ``outline`` or ``parking``. Stalls may have ``use``, ``size``, ``number`` and ``mouth``, the number of the
+        position of their ring at which the side begins that cars cross.
 
     Raises
     ------
@@ -185,7 +189,7 @@ def _check_degrees(shape: _Shape) -> None:
             refuse(f"{shape.place}.geometry.coordinates", (longitude, latitude), allowed)
 
 
-def _add(parts: SurveyParts, shape: _Shape, points: Sequence[tuple[float, float]]) -> None:
+def _add(parts: SurveyParts, shape: _Shape, points: Sequence[Point]) -> None:
     properties = shape.properties
     if shape.kind == "stall":
         said = [str(properties[key]) for key in ("use", "parking_space", "access") if key in properties]
@@ -193,7 +197,8 @@ def _add(parts: SurveyParts, shape: _Shape, points: Sequence[tuple[float, float]
             said.append("disabled")
         number = next((properties[key] for key in ("number", "ref") if properties.get(key) is not None), "")
         size = size_of(str(properties[key]) for key in ("size", "parking_space") if key in properties)
-        parts.add_stall(shape.name, points, use=use_of(said), size=size, number=str(number))
+        mouth_at = _mouth(parts, shape, points)
+        parts.add_stall(shape.name, points, mouth_at=mouth_at, use=use_of(said), size=size, number=str(number))
     elif shape.kind == "lane":
         key = next((key for key in ("width_m", "width") if properties.get(key) is not None), None)
         width_m = None if key is None else length_of(properties[key])
@@ -204,6 +209,8 @@ def _add(parts: SurveyParts, shape: _Shape, points: Sequence[tuple[float, float]
         parts.add_lane(shape.name, line, width_m, one_way=direction in _TRUE)
     elif shape.kind == "outline":
         parts.add_outline(shape.name, points)
+    elif shape.kind == "block":
+        parts.add_solid(shape.name, points[:-1] if points[0] == points[-1] else points)
     elif shape.kind == "portal":
         parts.add_portal(points[0], shape.portal)
     elif shape.is_area:
@@ -213,6 +220,19 @@ def _add(parts: SurveyParts, shape: _Shape, points: Sequence[tuple[float, float]
         if size_m is None:
             parts.unread.append(Unplaced(shape.name, unread_length("size_m", properties["size_m"])))
         parts.add_square_column(points[0], size_m or _COLUMN_M)
+
+
+def _mouth(parts: SurveyParts, shape: _Shape, points: Sequence[Point]) -> Point | None:
+    """Return the middle of the side of a stall that cars cross; None if it has none, or one that is noted as unread."""
+    given = shape.properties.get("mouth")
+    if given is None:
+        return None
+    ring = points[:-1] if points[0] == points[-1] else points
+    if isinstance(given, bool) or not isinstance(given, int) or not 0 <= given < len(ring):
+        parts.unread.append(Unplaced(shape.name, f"the mouth {given!r}, which is no number from 0 to {len(ring) - 1}"))
+        return None
+    (x, z), (next_x, next_z) = ring[given], ring[(given + 1) % len(ring)]
+    return (x + next_x) / 2, (z + next_z) / 2
 
 
 def _is_true(value: object) -> bool:

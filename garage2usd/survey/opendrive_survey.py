@@ -17,7 +17,7 @@ from garage2usd.survey.opendrive_lanes import lanes_of_road
 from garage2usd.survey.opendrive_lines import RoadLine, road_line
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import Survey, Unplaced
-from garage2usd.survey.text import number_of, positive_of, read_xml, refuse, use_of
+from garage2usd.survey.text import MOST_M, number_of, portal_kind_of, positive_of, read_xml, refuse, size_of, use_of
 
 Floats = NDArray[np.float64]
 
@@ -51,7 +51,8 @@ def read_opendrive_survey(path: Path) -> Survey:
     path
         OpenDRIVE 1.4 to 1.8. Stalls are objects of the type ``parkingSpace``, or ``parking`` as in some maps, with
         outlines, repetitions or as boxes; objects named ``column`` or ``pillar`` are columns. The driving lanes of a
-        road are one lane, two-way if they lead in both directions.
+        road are one lane, two-way if they lead in both directions. The user data ``outline``, ``block``, ``entrance``
+        and ``exit`` of the header are those of `garage2usd.maps.opendrive`.
 
     Raises
     ------
@@ -69,7 +70,26 @@ def read_opendrive_survey(path: Path) -> Survey:
             parts.add_lane(title, (lane.points * (1.0, -1.0)).tolist(), lane.width_m, one_way=lane.one_way)
         for element in road.findall("objects/object"):
             _add_object(parts, element, line, name, place)
+    _add_told(parts, root)
     return parts.survey(origin_deg=_origin(root))
+
+
+def _add_told(parts: SurveyParts, root: ET.Element) -> None:
+    """Add the outline, the blocks and the doors that the user data of the header tell as x y after x y."""
+    for data in root.findall("header/userData"):
+        code, kind = data.get("code", ""), portal_kind_of(data.get("code", ""))
+        if code not in {"outline", "block"} and kind is None:
+            continue
+        numbers = [_float_of(word) for word in data.get("value", "").split()]
+        points = [(x, -y) for x, y in zip(numbers[::2], numbers[1::2], strict=False)]
+        if not numbers or len(numbers) % 2 or not all(abs(number) <= MOST_M for number in numbers):
+            parts.unread.append(Unplaced(code, "user data that are not pairs of metres"))
+        elif code == "outline":
+            parts.add_outline(code, points)
+        elif kind is None:
+            parts.add_solid(code, points)
+        else:
+            parts.add_portal(points[0], kind)
 
 
 def _origin(root: ET.Element) -> tuple[float, float] | None:
@@ -121,7 +141,8 @@ def _add_object(parts: SurveyParts, element: ET.Element, line: RoadLine, road: s
         else:
             mouth_at = None if mouth is None else _middle(corners, mouth)
             use = use_of([facts.get("use", ""), access])
-            parts.add_stall(name, _ground(corners), mouth_at=mouth_at, use=use, number=facts.get("number", ""))
+            size, number = size_of([facts.get("size", "")]), facts.get("number", "")
+            parts.add_stall(name, _ground(corners), mouth_at=mouth_at, use=use, size=size, number=number)
     if not poses:
         parts.unread.append(Unplaced(title, "an object that is repeated without distance, as one long body"))
 

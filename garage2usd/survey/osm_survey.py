@@ -1,9 +1,12 @@
 """Surveys as OSM XML: parking lots of OpenStreetMap, and garages as Lanelet2 maps with Autoware's tags."""
 
+import math
+import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
+import numpy as np
 import shapely
 
 from garage2usd.garage import Point, StallUse
@@ -11,12 +14,13 @@ from garage2usd.survey.lanelets import lanes_of_lanelets
 from garage2usd.survey.osm_elements import OsmElements, OsmWay, read_osm, ring_of
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import PortalKind, Survey, Unplaced
-from garage2usd.survey.text import length_of, levels_of, size_of, unread_length, use_of
+from garage2usd.survey.text import length_of, levels_of, portal_kind_of, size_of, unread_length, use_of
 
 _MOST_IN_A_ROW = 1000
 _STALL_AMENITIES = {"parking_space"}
 _STALL_SUBTYPES = {"parking", "parking_spot", "parking_space"}
 _HATCHED = "hatched_road_markings"
+_COLUMNS = {"column", "columns", "pillar"}
 _GATES = {"entrance", "gate", "lift_gate", "swing_gate", "sliding_gate", "toll_booth"}
 _YES = {"yes", "true", "designated"}
 _USE_TAGS = {
@@ -42,8 +46,8 @@ def read_osm_survey(path: Path) -> Survey:
         with a ``width``. With a ``capacity`` above 1, an area is a row of as many stalls. Lanes are lanelets for
         vehicles, and ways ``service=parking_aisle``, and within the outline any ``highway=service``; areas of these are
         ground. The outline is
-        the one of ``amenity=parking`` with the most stalls. Columns are areas of the subtype ``Columns``. Entrances
-        are nodes ``amenity=parking_entrance`` or gates, and service roads that cross the outline. If the stalls have
+        the one of ``amenity=parking`` with the most stalls. Columns are areas of the subtype ``Columns`` or
+        ``indoor=column``, blocks ``indoor=room``. Entrances are nodes ``amenity=parking_entrance`` or gates, and service roads that cross the outline. If the stalls have
         tags ``level``, the level with the most stalls is read.
 
     Raises
@@ -62,8 +66,10 @@ def read_osm_survey(path: Path) -> Survey:
         if ring is None or not _is_on(tags, level):
             continue
         points = osm.line(ring)
-        if tags.get("subtype", "").lower() in {"column", "columns", "pillar"}:
+        if not _COLUMNS.isdisjoint(tags.get(key, "").lower() for key in ("subtype", "indoor", "building:part")):
             parts.add_column(name, points)
+        elif tags.get("indoor") == "room" or (tags.get("type") == "building" and tags.get("subtype") == "core"):
+            parts.add_solid(name, points)
         elif tags.get("amenity") == "parking" or tags.get("building") == "parking":
             parts.add_outline(name, points)
     outline = parts.outline()
@@ -77,7 +83,7 @@ def _is_stall(tags: Mapping[str, str]) -> bool:
     return (
         tags.get("amenity") in _STALL_AMENITIES
         or (is_area and tags.get("subtype") in _STALL_SUBTYPES)
-        or (tags.get("type") == _HATCHED and "use" in tags)
+        or ("use" in tags and (tags.get("type") == _HATCHED or tags.get("area:highway") == "prohibited"))
     )
 
 
@@ -133,7 +139,7 @@ def _add_stalls(parts: SurveyParts, osm: OsmElements, level: str | None) -> None
             if count.isdecimal() and 1 < float(count) <= _MOST_IN_A_ROW:
                 parts.add_row(title, osm.line(ring), int(count), use=_use(tags, of=count), size=size)
                 continue
-            parts.add_stall(title, osm.line(ring), mouth_at=_mouth(osm, name, ring), use=use, size=size, number=number)
+            parts.add_stall(title, osm.line(ring), mouth_at=_mouth(osm, name, tags, ring), use=use, size=size, number=number)
     for node in osm.nodes.values():
         if node.tags.get("amenity") in _STALL_AMENITIES:
             parts.unread.append(Unplaced(node.tags.get("name") or node.name, "a stall as a point, without an outline"))
@@ -177,17 +183,35 @@ def _lies_in(line: Sequence[Point], stall: shapely.Polygon) -> bool:
     return bool(stall.buffer(_SPACE_M).contains(shapely.LineString(line)))
 
 
-def _mouth(osm: OsmElements, name: str, ring: tuple[int, ...]) -> Point | None:
-    """Return the middle of the only side of a stall's relation that is virtual, so that cars cross it."""
+def _mouth(osm: OsmElements, name: str, tags: Mapping[str, str], ring: tuple[int, ...]) -> Point | None:
+    """Return the middle of the side of a stall that cars cross; None if unknown.
+
+    It is the side that looks to the bearing ``mouth:direction``, or of a relation the only side that is virtual.
+    """
     kind, _, number = name.partition(" ")
     if kind != "relation":
-        return None
+        return _towards(osm.line(ring), tags.get("mouth:direction", ""))
     ways = [osm.ways[way] for way in osm.relations[int(number)].ways("outer", "") if way in osm.ways]
     virtual = [way for way in ways if way.tags.get("type") == "virtual"]
     if len(virtual) != 1 or len(ways) != len(ring):
         return None
     (x, z), (end_x, end_z) = osm.line(virtual[0].nodes)[:2]
     return (x + end_x) / 2, (z + end_z) / 2
+
+
+def _towards(ring: Sequence[Point], bearing: str) -> Point | None:
+    """Return the middle of the side of a ring that looks to a bearing in degrees, clockwise from north."""
+    if not re.fullmatch(r"\d{1,3}(\.\d{1,9})?", bearing) or len(ring) < 3:  # noqa: PLR2004 - a triangle
+        return None
+    clockwise = -1.0 if shapely.is_ccw(shapely.LinearRing(ring)) else 1.0  # as z leads downwards, seen from below
+    bearing_rad = math.radians(float(bearing))
+    ahead = np.array([math.sin(bearing_rad), -math.cos(bearing_rad)])
+    corners = np.array(ring)
+    sides = np.roll(corners, -1, axis=0) - corners
+    outwards = clockwise * np.stack([-sides[:, 1], sides[:, 0]], axis=1) / np.linalg.norm(sides, axis=1)[:, None]
+    side = int(np.argmax(outwards @ ahead))
+    x, z = (corners[side] + sides[side] / 2).tolist()
+    return x, z
 
 
 def _use(tags: Mapping[str, str], *, of: str = "") -> StallUse:
@@ -221,7 +245,13 @@ def _add_portals(parts: SurveyParts, osm: OsmElements, level: str | None, outlin
     for node in osm.nodes.values():
         is_gate = node.tags.get("barrier") in _GATES and _is_near(node.position, outline)
         if (is_gate or node.tags.get("amenity") == "parking_entrance") and _is_on(node.tags, level):
-            parts.add_portal(node.position)
+            kind = portal_kind_of(node.tags.get("entrance", "")) or PortalKind.BOTH
+            parts.add_portal(node.position, kind)
+    for way in osm.ways.values():
+        told = portal_kind_of(way.tags.get("subtype", ""))
+        if way.tags.get("type") == "gate" and told is not None and len(way.nodes) == 2 and _is_on(way.tags, level):  # noqa: PLR2004
+            (x, z), (end_x, end_z) = osm.line(way.nodes)
+            parts.add_portal(((x + end_x) / 2, (z + end_z) / 2), told)
 
 
 def _add_ways(parts: SurveyParts, osm: OsmElements, level: str | None, outline: tuple[Point, ...] | None) -> None:

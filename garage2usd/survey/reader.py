@@ -17,6 +17,7 @@ _READERS: dict[str, Callable[[Path], Survey]] = {
     ".geojson": read_geojson_survey,
     ".json": read_geojson_survey,
     ".osm": read_osm_survey,
+    ".osm.xml": read_osm_survey,
     ".xodr": read_opendrive_survey,
 }
 SURVEY_SUFFIXES = tuple(_READERS)
@@ -30,8 +31,8 @@ def read_survey(path: Path) -> Survey:
     Parameters
     ----------
     path
-        A drawing in metres (``.toml``), rectangles (``.csv``), GeoJSON (``.geojson``, ``.json``), OpenStreetMap or
-        Lanelet2 (``.osm``), or OpenDRIVE (``.xodr``).
+        A drawing in metres (``.toml``), rectangles (``.csv``), GeoJSON (``.geojson``, ``.json``), OpenStreetMap
+        (``.osm``, ``.osm.xml``) or Lanelet2 (``.osm``), or OpenDRIVE (``.xodr``).
 
     Raises
     ------
@@ -40,7 +41,7 @@ def read_survey(path: Path) -> Survey:
     MissingExtraError
         For coordinates in degrees, without the extra ``maps``.
     """
-    read = _READERS.get(path.suffix.lower())
+    read = _READERS.get(path.suffix.lower()) or _READERS.get("".join(path.suffixes[-2:]).lower())
     if read is None:
         raise ConfigError("SOURCE", str(path), f"a path that ends in {', '.join(SURVEY_SUFFIXES)}")
     survey = read(path)
