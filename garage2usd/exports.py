@@ -67,8 +67,8 @@ class _Source:
         if len({_LANELET2, _MAP, _AREAS} & {*of_lanes}) > 1:
             _ = self.networks
         if len({_LANELET2, _MAP, _AREAS, _DRAWING, _GEOJSON, _OPENSTREETMAP} & {*of_lanes}) > 1:
-            for level in self.plan.levels:
-                _ = level.lanes
+            for ground in self.plan.levels:
+                _ = ground.lanes
 
     @cached_property
     def objects(self) -> list[PlacedObject]:
@@ -261,11 +261,11 @@ def export(
         (``.json``), whose garage is rebuilt.
     outputs
         One or more files, whose extensions select the formats: ``.glb`` a scene as binary glTF 2.0, ``.osm`` a Lanelet2
-        map, ``.osm.xml`` OpenStreetMap's XML, ``.geojson`` and ``.dxf`` the ground plan, ``.xodr`` an OpenDRIVE 1.8 map, ``.xosc`` an OpenSCENARIO 1.2 scenario with a ``.xodr`` map of the same
-        stem beside it, ``.yaml`` an occupancy grid for robots with its image (``.pgm``) and, depending on the settings,
-        masks, for each level of a garage of several levels (``a_U1.yaml``), ``.add.xml`` the stalls as parking areas of
-        SUMO, with the map that their network is made of and
-        netconvert's configuration for it (``.netccfg``) beside it.
+        map, ``.osm.xml`` OpenStreetMap's XML, ``.geojson`` GeoJSON, ``.dxf`` a drawing, ``.xodr`` an OpenDRIVE 1.8 map,
+        ``.xosc`` an OpenSCENARIO 1.2 scenario with a ``.xodr`` map of the same stem beside it, ``.yaml`` an occupancy
+        grid for robots with its image (``.pgm``) and, depending on the settings, masks, for each level of a garage of
+        several levels (``a_U1.yaml``), ``.add.xml`` the stalls as parking areas of SUMO, with the map that their
+        network is made of and netconvert's configuration for it (``.netccfg``) beside it.
     settings
         Settings of maps, grids and drives; if left out, those of the report, else the defaults.
     scenario

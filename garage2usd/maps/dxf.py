@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from garage2usd.as_built import BuiltGarage
 from garage2usd.common.package import of_extra
@@ -14,9 +15,13 @@ from garage2usd.garage import StallUse
 from garage2usd.maps.ground_plan import GroundPlan, LevelPlan, ground_plan
 
 with of_extra("a drawing in DXF"):
-    import ezdxf
+    from ezdxf._options import options
     from ezdxf.enums import TextEntityAlignment
-    from ezdxf.layouts import Modelspace
+    from ezdxf.filemanagement import new
+    from ezdxf.layouts.layout import Modelspace
+    from ezdxf.units import M
+
+Floats = NDArray[np.float64]
 
 _COLOURS = {
     "OUTLINE": 7,
@@ -33,7 +38,6 @@ _COLOURS = {
 """Layers and their colours of AutoCAD's index."""
 _TEXT_M = 0.6
 _DIGITS = 6
-_UPRIGHT_RAD = math.pi / 2 + 1e-3
 
 
 def write_dxf(garage: BuiltGarage, path: Path, *, plan: GroundPlan | None = None) -> None:
@@ -59,7 +63,7 @@ def write_dxf(garage: BuiltGarage, path: Path, *, plan: GroundPlan | None = None
     """
     plan = plan or ground_plan(garage)
     with _fixed_metadata():
-        drawing = ezdxf.new("R2010", units=ezdxf.units.M)
+        drawing = new("R2010", units=M)
         space = drawing.modelspace()
         for level in plan.levels:
             for layer, colour in _COLOURS.items():
@@ -77,49 +81,55 @@ def write_dxf(garage: BuiltGarage, path: Path, *, plan: GroundPlan | None = None
 @contextmanager
 def _fixed_metadata() -> Iterator[None]:
     """Give drawings the same dates and identities every time."""
-    before = ezdxf.options.write_fixed_meta_data_for_testing
-    ezdxf.options.write_fixed_meta_data_for_testing = True
+    before = options.write_fixed_meta_data_for_testing
+    options.write_fixed_meta_data_for_testing = True
     try:
         yield
     finally:
-        ezdxf.options.write_fixed_meta_data_for_testing = before
+        options.write_fixed_meta_data_for_testing = before
 
 
 def _add_level(space: Modelspace, level: LevelPlan) -> None:
-    floor_m = level.place.floor_m
-
-    def on(layer: str) -> dict[str, object]:
-        return {"layer": level.place.after(layer, joint="_"), "elevation": floor_m}
-
-    def write(text: str, layer: str, at: tuple[float, float], turn_deg: float, height_m: float = _TEXT_M) -> None:
-        attributes = {"layer": level.place.after(layer, joint="_"), "rotation": turn_deg}
-        entity = space.add_text(text, height=height_m, dxfattribs=attributes)
-        entity.set_placement((*np.round(at, _DIGITS).tolist(), floor_m), align=TextEntityAlignment.MIDDLE_CENTER)
-
     for lane in level.lanes:
         layer = "LANES_ONE_WAY" if lane.one_way else "LANES"
-        attributes = {**on(layer), "const_width": round(lane.width_m, _DIGITS)}
-        space.add_lwpolyline(lane.points.round(_DIGITS).tolist(), dxfattribs=attributes)
+        width = {"const_width": round(lane.width_m, _DIGITS)}
+        space.add_lwpolyline(lane.points.round(_DIGITS).tolist(), dxfattribs={**_on(level, layer), **width})
     outline = [] if level.outline is None else [level.outline]
     for layer, grounds in (("OUTLINE", outline), ("BLOCKS", level.blocks), ("COLUMNS", level.columns)):
         for ground in grounds:
-            ring = shapely.get_coordinates(ground.exterior)[:-1].round(_DIGITS).tolist()
-            space.add_lwpolyline(ring, close=True, dxfattribs=on(layer))
+            _add_ring(space, level, layer, shapely.get_coordinates(ground.exterior)[:-1])
     for door in level.doors:
-        start, end = ((*jamb, floor_m) for jamb in door.jambs.round(_DIGITS).tolist())
+        start, end = ((*jamb, level.place.floor_m) for jamb in door.jambs.round(_DIGITS).tolist())
         space.add_line(start, end, dxfattribs={"layer": level.place.after("DOORS", joint="_")})
-        write(door.kind, "DOORS", door.position, 0.0)
+        _add_text(space, level, "DOORS", door.kind, np.array(door.position), 0.0, _TEXT_M)
     for stall, corners in zip(level.stalls, level.corners, strict=True):
-        space.add_lwpolyline(corners.round(_DIGITS).tolist(), close=True, dxfattribs=on("STALLS"))
-        along = corners[1] - corners[0]
-        turn_rad = math.atan2(along[1], along[0])
-        if not -_UPRIGHT_RAD < turn_rad < _UPRIGHT_RAD:
-            turn_rad -= math.copysign(math.pi, turn_rad)
+        _add_ring(space, level, "STALLS", corners)
         middle, inwards = corners.mean(axis=0), (corners[2] + corners[3] - corners[0] - corners[1]) / 2
-        depth_m = float(np.linalg.norm(inwards)) or 1.0
-        turn_deg = round(math.degrees(turn_rad), 4)
-        if stall.number is not None:
-            write(str(stall.number), "NUMBERS", tuple(middle), turn_deg)
+        turn_deg = _readable_deg(corners[1] - corners[0])
+        if stall.number:
+            _add_text(space, level, "NUMBERS", str(stall.number), middle, turn_deg, _TEXT_M)
         if stall.use is not StallUse.STANDARD:
-            beside = middle + inwards / depth_m * min(2 * _TEXT_M, depth_m / 4)
-            write(str(stall.use), "USES", tuple(beside), turn_deg, _TEXT_M / 2)
+            _add_text(space, level, "USES", str(stall.use), middle + inwards / 4, turn_deg, _TEXT_M / 2)
+
+
+def _on(level: LevelPlan, layer: str) -> dict[str, str | float]:
+    return {"layer": level.place.after(layer, joint="_"), "elevation": level.place.floor_m}
+
+
+def _add_ring(space: Modelspace, level: LevelPlan, layer: str, corners: Floats) -> None:
+    space.add_lwpolyline(corners.round(_DIGITS).tolist(), close=True, dxfattribs=_on(level, layer))
+
+
+def _add_text(
+    space: Modelspace, level: LevelPlan, layer: str, text: str, at: Floats, turn_deg: float, height_m: float
+) -> None:
+    attributes = {"layer": level.place.after(layer, joint="_"), "rotation": turn_deg}
+    place = *(at.round(_DIGITS) + 0.0).tolist(), level.place.floor_m
+    entity = space.add_text(text, height=height_m, dxfattribs=attributes)
+    entity.set_placement(place, align=TextEntityAlignment.MIDDLE_CENTER)
+
+
+def _readable_deg(along: Floats) -> float:
+    """Return the direction of a text along a line or against it, which is not upside down."""
+    turn_deg = round(math.degrees(math.atan2(along[1], along[0])), 4)
+    return turn_deg if -90.0 <= turn_deg <= 90.0 else turn_deg - math.copysign(180.0, turn_deg)  # noqa: PLR2004

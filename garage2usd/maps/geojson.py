@@ -22,9 +22,7 @@ _Geometry = tuple[str, ArrayLike]
 """Type of a geometry, and the points (x, y) of the map frame of its only line or ring."""
 
 
-def write_geojson(
-    garage: BuiltGarage, path: Path, settings: MapsConfig, *, plan: GroundPlan | None = None
-) -> None:
+def write_geojson(garage: BuiltGarage, path: Path, settings: MapsConfig, *, plan: GroundPlan | None = None) -> None:
     """Write the ground plan of a garage as a FeatureCollection.
 
     Parameters
@@ -42,8 +40,8 @@ def write_geojson(
     -----
     The property ``kind`` tells the features apart: ``outline``, ``block``, ``column``, ``lane``, ``entrance``, ``exit``
     and ``stall``. Features of a garage of several levels have ``level`` (-1 is U1), lanes of ramps both of theirs. The
-    ring of a stall begins at the left end of its mouth, which is the side ``mouth``, 0. The member ``local_frame`` has the
-    projection by which positions become the stage's metres, with the turn and shift that follow it.
+    ring of a stall begins at the left end of its mouth, which is the side ``mouth``, 0. The member ``local_frame`` has
+    the projection by which positions become the stage's metres, with the turn and shift that follow it.
     """
     place = georeference(garage.stage, settings)
     found = list(_features(plan or ground_plan(garage)))
@@ -56,7 +54,7 @@ def write_geojson(
     ]
     head = {
         "type": "FeatureCollection",
-        "garage2usd": {name: value for name, value in stage_facts(garage.stage).items()},
+        "garage2usd": stage_facts(garage.stage),
         "local_frame": _frame(place),
     }
     opening = json.dumps(head, ensure_ascii=False).removesuffix("}")
@@ -124,7 +122,7 @@ def _of_level(level: LevelPlan) -> Iterator[tuple[_Geometry, dict[str, Any]]]:
         yield ("Point", [door.position]), {"kind": door.kind}
     taken = level.taken_stalls
     for stall, corners in zip(level.stalls, level.corners, strict=True):
-        numbered = {} if stall.number is None else {"number": str(stall.number)}
+        numbered = {"number": str(stall.number)} if stall.number else {}
         yield (
             ("Polygon", corners),
             {
@@ -142,5 +140,6 @@ def _of_level(level: LevelPlan) -> Iterator[tuple[_Geometry, dict[str, Any]]]:
 
 def _ring(ground: shapely.Polygon) -> Sequence[Sequence[float]]:
     """Return the corners of a polygon counter-clockwise, as RFC 7946 asks."""
-    corners: list[list[float]] = shapely.get_coordinates(shapely.geometry.polygon.orient(ground).exterior)[:-1].tolist()
+    ring = shapely.geometry.polygon.orient(ground).exterior
+    corners: list[list[float]] = shapely.get_coordinates(ring)[:-1].tolist()
     return corners

@@ -15,7 +15,7 @@ from garage2usd.as_built import BuiltGarage
 from garage2usd.config.outputs import MapsConfig
 from garage2usd.maps.facts import stage_facts
 from garage2usd.maps.frame import projection
-from garage2usd.maps.ground_plan import GroundPlan, LevelPlan, ground_plan
+from garage2usd.maps.ground_plan import GroundPlan, ground_plan
 from garage2usd.maps.level_networks import LevelNetwork, level_networks
 from garage2usd.maps.network import LEFT, RIGHT, Junction, Neighbour, Network, Road, RoadPlaces
 from garage2usd.maps.opendrive_objects import (
@@ -95,8 +95,7 @@ def write_opendrive(
         roads += [*network.roads, *places.lines]
     root = ET.Element("OpenDRIVE")
     header = _add_header(root, garage.source, garage.stage, [network for _, network in levels], settings)
-    for level_plan in (plan or ground_plan(garage)).levels:
-        _add_outline(header, level_plan)
+    _add_outlines(header, plan or ground_plan(garage))
     for road in roads:
         element = _add_road(root, road, settings)
         if road in objects:
@@ -136,15 +135,16 @@ def _add_header(
     return header
 
 
-def _add_outline(header: ET.Element, plan: LevelPlan) -> None:
-    """Tell the outline, the blocks and the doors of a level, for which OpenDRIVE has no element."""
-    grounds = [] if plan.outline is None else [("outline", plan.outline)]
-    grounds += [("block", block) for block in plan.blocks]
-    told = [(code, shapely.get_coordinates(ground.exterior)[:-1].ravel()) for code, ground in grounds]
-    told += [(door.kind, np.array(door.position)) for door in plan.doors]
-    for code, numbers in told:
-        words = " ".join(map(number_text, numbers.round(_DIGITS).tolist()))
-        child(header, "userData", code=plan.place.after(code, joint=" "), value=words)
+def _add_outlines(header: ET.Element, plan: GroundPlan) -> None:
+    """Tell the outline, the blocks and the doors of each level, for which OpenDRIVE has no element."""
+    for level in plan.levels:
+        grounds = [] if level.outline is None else [("outline", level.outline)]
+        grounds += [("block", block) for block in level.blocks]
+        told = [(code, shapely.get_coordinates(ground.exterior)[:-1].ravel()) for code, ground in grounds]
+        told += [(door.kind, np.array(door.position)) for door in level.doors]
+        for code, numbers in told:
+            words = " ".join(map(number_text, numbers.round(_DIGITS).tolist()))
+            child(header, "userData", code=level.place.after(code, joint=" "), value=words)
 
 
 def _add_road(root: ET.Element, road: Road, settings: MapsConfig) -> ET.Element:

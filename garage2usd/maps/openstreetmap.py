@@ -59,8 +59,9 @@ def write_openstreetmap(
     Notes
     -----
     Stalls are areas ``amenity=parking_space``, hatched ground ``area:highway=prohibited``, lanes ways
-    ``service=parking_aisle``, ``mouth:direction`` the bearing out of a stall, doors nodes ``amenity=parking_entrance``, and the outline ``amenity=parking``. Elements
-    of a garage of several levels have ``level``. Editors are told never to upload the file.
+    ``service=parking_aisle``, ``mouth:direction`` the bearing out of a stall, doors nodes ``amenity=parking_entrance``,
+    and the outline ``amenity=parking``. Elements of a garage of several levels have ``level``. Editors are told never
+    to upload the file.
     """
     place = georeference(garage.stage, settings)
     elements = list(_elements(plan or ground_plan(garage), place.turn_rad))
@@ -135,7 +136,7 @@ def _road(width_m: float, *, one_way: bool) -> dict[str, str]:
 
 def _stall(stall: Stall, bearing_deg: float) -> dict[str, str]:
     """Return the tags of a stall whose mouth looks to a bearing, clockwise from north."""
-    numbered = {} if stall.number is None else {"ref": str(stall.number)}
+    numbered = {"ref": str(stall.number)} if stall.number else {}
     sized = {} if stall.size == "standard" else {"size": stall.size}
     if not stall.is_parked_in:
         return {"area:highway": "prohibited", "use": str(stall.use), **numbered}

@@ -12,6 +12,7 @@ import shapely
 from garage2usd.garage import Point, StallUse
 from garage2usd.survey.lanelets import lanes_of_lanelets
 from garage2usd.survey.osm_elements import OsmElements, OsmWay, read_osm, ring_of
+from garage2usd.survey.parking_spaces import ParkingSpace
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import PortalKind, Survey, Unplaced
 from garage2usd.survey.text import length_of, levels_of, portal_kind_of, size_of, unread_length, use_of
@@ -31,6 +32,7 @@ _USE_TAGS = {
     "charging": "ev",
 }
 _ONE_WAY = {"yes": 1, "true": 1, "1": 1, "-1": -1, "reverse": -1}
+_BESIDE_M = 6.0
 _SPACE_M = 0.05
 """Distance from a stall's outline up to which the ends of Autoware's line for the same stall lie on it."""
 
@@ -43,12 +45,12 @@ def read_osm_survey(path: Path) -> Survey:
     path
         OSM XML. Stalls are closed ways and multipolygons with ``amenity=parking_space`` or one of the subtypes
         ``parking``, ``parking_spot`` and ``parking_space``, and Autoware's ways ``type=parking_space`` of two points
-        with a ``width``. With a ``capacity`` above 1, an area is a row of as many stalls. Lanes are lanelets for
-        vehicles, and ways ``service=parking_aisle``, and within the outline any ``highway=service``; areas of these are
-        ground. The outline is
-        the one of ``amenity=parking`` with the most stalls. Columns are areas of the subtype ``Columns`` or
-        ``indoor=column``, blocks ``indoor=room``. Entrances are nodes ``amenity=parking_entrance`` or gates, and service roads that cross the outline. If the stalls have
-        tags ``level``, the level with the most stalls is read.
+        with a ``width``, or as far apart as they lie side by side. With a ``capacity`` above 1, an area is a row of as
+        many stalls. Lanes are lanelets for vehicles, and ways ``service=parking_aisle``, and within the outline any
+        ``highway=service``; areas of these are ground. The outline is the one of ``amenity=parking`` with the most
+        stalls. Columns are areas of the subtype ``Columns`` or ``indoor=column``, blocks ``indoor=room``. Entrances are
+        nodes ``amenity=parking_entrance`` or gates, and service roads that cross the outline. If the stalls have tags
+        ``level``, the level with the most stalls is read.
 
     Raises
     ------
@@ -139,7 +141,9 @@ def _add_stalls(parts: SurveyParts, osm: OsmElements, level: str | None) -> None
             if count.isdecimal() and 1 < float(count) <= _MOST_IN_A_ROW:
                 parts.add_row(title, osm.line(ring), int(count), use=_use(tags, of=count), size=size)
                 continue
-            parts.add_stall(title, osm.line(ring), mouth_at=_mouth(osm, name, tags, ring), use=use, size=size, number=number)
+            parts.add_stall(
+                title, osm.line(ring), mouth_at=_mouth(osm, name, tags, ring), use=use, size=size, number=number
+            )
     for node in osm.nodes.values():
         if node.tags.get("amenity") in _STALL_AMENITIES:
             parts.unread.append(Unplaced(node.tags.get("name") or node.name, "a stall as a point, without an outline"))
@@ -149,34 +153,28 @@ def _add_stalls(parts: SurveyParts, osm: OsmElements, level: str | None) -> None
 def _add_spaces(parts: SurveyParts, osm: OsmElements) -> None:
     """Add Autoware's parking spaces, lines along the middle of a stall, except those of stalls that are known."""
     known = shapely.STRtree(parts.stall_polygons())
-    for way in osm.ways.values():
+    spaces = {}
+    for number, way in osm.ways.items():
         if way.tags.get("type") != "parking_space":
             continue
-        name = way.tags.get("name") or way.name
-        line = osm.line(way.nodes)
+        name, line = way.tags.get("name") or way.name, osm.line(way.nodes)
         if len(line) != 2 or line[0] == line[1]:  # noqa: PLR2004 - from one end to the other
             parts.unread.append(Unplaced(name, f"a parking space of {len(way.nodes)} points instead of 2 apart"))
             continue
-        middle = shapely.LineString(line).interpolate(0.5, normalized=True)
-        around = known.query(middle, predicate="within")
-        if len(around) and _lies_in(line, known.geometries[int(around[0])]):
-            continue
-        width_m = _width(parts, name, way.tags)
-        if width_m is None:
-            if "width" not in way.tags:
-                parts.unread.append(Unplaced(name, f"a parking space without a width among {', '.join(way.tags)}"))
-            continue
-        half = width_m / 2
-        (x, z), (end_x, end_z) = line
-        length_m = ((end_x - x) ** 2 + (end_z - z) ** 2) ** 0.5
-        off_x, off_z = -(end_z - z) / length_m * half, (end_x - x) / length_m * half
-        ring = [
-            (x - off_x, z - off_z),
-            (x + off_x, z + off_z),
-            (end_x + off_x, end_z + off_z),
-            (end_x - off_x, end_z - off_z),
-        ]
-        parts.add_stall(name, ring, use=_use(way.tags), number=way.tags.get("ref", ""))
+        around = known.query(shapely.LineString(line).interpolate(0.5, normalized=True), predicate="within")
+        if not len(around) or not _lies_in(line, known.geometries[int(around[0])]):
+            spaces[number] = ParkingSpace(name, *line)
+    found = list(spaces.values())
+    middles = shapely.STRtree([shapely.LineString(space[1:]).centroid for space in found])
+    for number, (key, space) in enumerate(spaces.items()):
+        way = osm.ways[key]
+        width_m = _width(parts, space.name, way.tags)
+        if width_m is None and "width" not in way.tags:
+            near = middles.query(middles.geometries[number], predicate="dwithin", distance=_BESIDE_M)
+            width_m = space.usual_width_m(found[other] for other in sorted(near.tolist()) if other != number)
+            parts.unread.append(Unplaced(space.name, f"a parking space without a width; {width_m:g} m are taken"))
+        if width_m is not None:
+            parts.add_stall(space.name, space.ring(width_m), use=_use(way.tags), number=way.tags.get("ref", ""))
 
 
 def _lies_in(line: Sequence[Point], stall: shapely.Polygon) -> bool:
@@ -248,9 +246,9 @@ def _add_portals(parts: SurveyParts, osm: OsmElements, level: str | None, outlin
             kind = portal_kind_of(node.tags.get("entrance", "")) or PortalKind.BOTH
             parts.add_portal(node.position, kind)
     for way in osm.ways.values():
-        told = portal_kind_of(way.tags.get("subtype", ""))
-        if way.tags.get("type") == "gate" and told is not None and len(way.nodes) == 2 and _is_on(way.tags, level):  # noqa: PLR2004
-            (x, z), (end_x, end_z) = osm.line(way.nodes)
+        told = portal_kind_of(way.tags.get("subtype", "")) if way.tags.get("type") == "gate" else None
+        if told is not None and len(way.nodes) > 1 and _is_on(way.tags, level):
+            (x, z), (end_x, end_z) = osm.line((way.nodes[0], way.nodes[-1]))
             parts.add_portal(((x + end_x) / 2, (z + end_z) / 2), told)
 
 
