@@ -9,9 +9,10 @@ from garage2usd.survey.geojson_survey import read_geojson_survey
 from garage2usd.survey.opendrive_survey import read_opendrive_survey
 from garage2usd.survey.osm_survey import read_osm_survey
 from garage2usd.survey.survey import Survey
+from garage2usd.survey.surveyed_building import SurveyedBuilding
 from garage2usd.survey.toml_survey import read_toml_survey
 
-_READERS: dict[str, Callable[[Path], Survey]] = {
+_READERS: dict[str, Callable[[Path], Survey | SurveyedBuilding]] = {
     ".toml": read_toml_survey,
     ".csv": read_csv_survey,
     ".geojson": read_geojson_survey,
@@ -26,7 +27,13 @@ _REASONS = 3
 
 
 def read_survey(path: Path) -> Survey:
-    """Read the layout of an existing garage.
+    """Read the level with the most stalls of an existing garage; parameters and errors are those of `read_building`."""
+    levels = read_building(path).in_order
+    return max(levels, key=lambda level: len(level.survey.stalls)).survey
+
+
+def read_building(path: Path) -> SurveyedBuilding:
+    """Read the layout of an existing garage, level by level.
 
     Parameters
     ----------
@@ -44,10 +51,11 @@ def read_survey(path: Path) -> Survey:
     read = _READERS.get(path.suffix.lower()) or _READERS.get("".join(path.suffixes[-2:]).lower())
     if read is None:
         raise ConfigError("SOURCE", str(path), f"a path that ends in {', '.join(SURVEY_SUFFIXES)}")
-    survey = read(path)
-    if not survey.stalls:
-        reasons = "; ".join(f"{name}: {reason}" for name, reason in survey.unread[:_REASONS])
+    building = SurveyedBuilding.of(read(path))
+    if not any(level.survey.stalls for level in building.levels):
+        unread = [part for level in building.levels for part in level.survey.unread]
+        reasons = "; ".join(f"{name}: {reason}" for name, reason in unread[:_REASONS])
         raise ConfigError(
             "SOURCE", str(path), "a file with a stall of four corners" + (f" ({reasons})" if reasons else "")
         )
-    return survey
+    return building
