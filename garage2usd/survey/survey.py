@@ -2,6 +2,7 @@
 
 import math
 from collections import defaultdict
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from itertools import pairwise
@@ -133,11 +134,7 @@ class Survey:
 
     def moved(self, turn_rad: float, shift_m: Point) -> "Survey":
         """Return the survey turned about (0, 0), from x towards z, and then shifted."""
-        cos, sin = float(np.cos(turn_rad)), float(np.sin(turn_rad))
-
-        def place(point: Point) -> Point:
-            x, z = point
-            return round(x * cos - z * sin + shift_m[0], 6), round(x * sin + z * cos + shift_m[1], 6)
+        place = mover(turn_rad, shift_m)
 
         def places(points: tuple[Point, ...]) -> tuple[Point, ...]:
             return tuple(map(place, points))
@@ -176,6 +173,17 @@ class Alignment(NamedTuple):
     shift_m: Point
 
 
+def mover(turn_rad: float, shift_m: Point) -> Callable[[Point], Point]:
+    """Return the function that turns a point (x, z) about (0, 0), from x towards z, and then shifts it."""
+    cos, sin = float(np.cos(turn_rad)), float(np.sin(turn_rad))
+
+    def place(point: Point) -> Point:
+        x, z = point
+        return round(x * cos - z * sin + shift_m[0], _DIGITS), round(x * sin + z * cos + shift_m[1], _DIGITS)
+
+    return place
+
+
 def aligned(survey: Survey) -> tuple[Survey, Alignment]:
     """Turn a survey so that most sides of its stalls lie along the axes, and shift its outline to (0, 0).
 
@@ -184,21 +192,27 @@ def aligned(survey: Survey) -> tuple[Survey, Alignment]:
     tuple
         The survey, which has an outline, and how it was moved.
     """
-    turn_rad = -_main_direction_rad(survey)
-    turned = survey.moved(turn_rad, (0.0, 0.0)) if turn_rad else survey
-    if turned.outline is None:
-        turned = replace(turned, outline=_outline_around(turned))
-    assert turned.outline is not None
-    left, top, _, _ = shapely.Polygon(turned.outline).bounds
+    (found,), alignment = aligned_together([survey])
+    return found, alignment
+
+
+def aligned_together(surveys: Sequence[Survey]) -> tuple[list[Survey], Alignment]:
+    """Turn and shift surveys in one frame alike, as `aligned` does a single one."""
+    turn_rad = -_main_direction_rad([stall for survey in surveys for stall in survey.stalls])
+    turned = [survey.moved(turn_rad, (0.0, 0.0)) if turn_rad else survey for survey in surveys]
+    turned = [
+        replace(survey, outline=_outline_around(survey)) if survey.outline is None else survey for survey in turned
+    ]
+    left, top, _, _ = shapely.total_bounds([shapely.Polygon(survey.outline) for survey in turned]).tolist()
     shift_m = round(-left, _DIGITS), round(-top, _DIGITS)
-    return turned.moved(0.0, shift_m), Alignment(turn_rad, shift_m)
+    return [survey.moved(0.0, shift_m) for survey in turned], Alignment(turn_rad, shift_m)
 
 
-def _main_direction_rad(survey: Survey) -> float:
+def _main_direction_rad(stalls: Iterable[SurveyedStall]) -> float:
     """Return the direction of most metres of the sides of stalls, within an eighth of a turn either way of an axis."""
     lengths_m: defaultdict[int, float] = defaultdict(float)
     moments: defaultdict[int, float] = defaultdict(float)
-    for stall in survey.stalls:
+    for stall in stalls:
         for (x, z), (next_x, next_z) in pairwise((*stall.corners, stall.corners[0])):
             length_m = math.hypot(next_x - x, next_z - z)
             angle = math.remainder(math.atan2(next_z - z, next_x - x), _QUARTER)
