@@ -32,6 +32,8 @@ _BROUGHT = {
     "trimesh": ("sensors", "trimesh"),
     "DracoPy": ("models", "DracoPy"),
     "rosbags": ("sensors", "rosbags"),
+    "ezdxf": ("cad", "ezdxf"),
+    "ifcopenshell": ("cad", "IfcOpenShell"),
 }
 """Extra and display name of each optional module."""
 _PYTHON_OF_BLENDER = (3, 11)
