@@ -56,12 +56,15 @@ class GarageLevel:
     planned
         What it was planned from and as; None for a level that was surveyed. ``site``, ``plan`` and ``graph`` are its
         parts, and raise an error there.
+    source_name
+        Its name in the file that it was imported from; empty for others, and in a file without levels.
     """
 
     place: LevelPlace
     config: GarageConfig
     layout: Layout
     planned: PlannedParts | None
+    source_name: str = ""
 
     @property
     def name(self) -> str:
@@ -96,7 +99,8 @@ class GarageLevel:
     @property
     def metadata(self) -> dict[str, str | int]:
         """Description of the making of the level, for its stage."""
-        return _metadata(self.config, *(() if self.planned is None else (self.planned.plan,)))
+        made = _metadata(self.config, *(() if self.planned is None else (self.planned.plan,)))
+        return {**made, "sourceLevel": self.source_name} if self.source_name else made
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,34 +3,50 @@
 import hashlib
 import math
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import pairwise
 from pathlib import Path
+from typing import cast
 
+import shapely
+
+from garage2usd.as_built.garage import garage_as_made
+from garage2usd.as_built.proofs import prove_built
 from garage2usd.checks import judged_layout
+from garage2usd.common.errors import ConfigError
 from garage2usd.common.processes import without_collector
 from garage2usd.common.progress import Progress, silent
+from garage2usd.common.randomness import Step, derived_seed
 from garage2usd.config import GarageConfig
-from garage2usd.driving import prove_stalls
+from garage2usd.config.fittings import CEILING_ROOM_M
+from garage2usd.driving import StallProof, prove_stalls
+from garage2usd.garage.levels import level_places, places_at
 from garage2usd.garage_model import Garage, GarageLevel
-from garage2usd.layout.surveyed import SurveyedFloor, lay_out_survey
+from garage2usd.layout.surveyed import FloorAbove, SurveyedFloor, lay_out_survey
 from garage2usd.pipeline import Build, Judged, checked_output, with_things, written
 from garage2usd.reading.report import SurveyFigures
 from garage2usd.report import make_report
 from garage2usd.structure.building import Building
 from garage2usd.survey.clear_ground import with_medial_lanes
-from garage2usd.survey.reader import read_survey
-from garage2usd.survey.survey import Alignment, Survey, aligned
+from garage2usd.survey.reader import read_building
+from garage2usd.survey.survey import Alignment, Survey, Unplaced
+from garage2usd.survey.surveyed_building import SurveyedBuilding, SurveyedLevel, aligned_building
 from garage2usd.view.thumbnails import draw_pictures
+
+_LEAST_SLAB_M = 0.25
+"""Least distance of a ceiling's underside from the floor above."""
+_ROUNDING_M = 1e-6
 
 
 @without_collector()
 def import_layout(
-    source: str | Path | Survey,
+    source: str | Path | Survey | SurveyedBuilding,
     output: str | Path,
     *,
     config: GarageConfig | None = None,
+    level: str | None = None,
     proves: bool = True,
     progress: Progress = silent,
 ) -> Build:
@@ -39,12 +55,16 @@ def import_layout(
     Parameters
     ----------
     source
-        A file: a Lanelet2 map or OpenStreetMap extract (``.osm``), OpenDRIVE (``.xodr``), GeoJSON (``.geojson``), a
-        table of rectangles (``.csv``) or a drawing (``.toml``); or a survey.
+        A file: a Lanelet2 map or OpenStreetMap extract (``.osm``), OpenDRIVE (``.xodr``), GeoJSON (``.geojson``), IMDF
+        (``.zip`` or its folder), a CAD drawing (``.dxf``), a building model (``.ifc``), a table of rectangles
+        (``.csv``) or a drawing in metres (``.toml``); or a survey, or one of a building of several levels.
     output
         Path of the stage; ``.usda``, ``.usdc`` or ``.usdz``. The other files are written beside it under its name.
     config
-        Fittings, parking, look and seed; site, bay, stalls and plan do not apply. The default ones if left out.
+        Fittings, parking, look and seed; site, bay, stalls and plan do not apply. The default ones if left out. Where
+        the source has no heights of floors, levels are `building.storey_m` apart.
+    level
+        Name in the source of the only level to import. All levels if left out.
     proves
         True to prove for each stall that a car drives in and out, to put the proofs into the report, and to check the
         garage by the rules that need them.
@@ -54,61 +74,162 @@ def import_layout(
     Returns
     -------
     Build
-        The garage and its files. `surveyed_floor` returns the parts of the source that the garage lacks.
+        The garage and its files. `surveyed_floors` returns the parts of the source that the garage lacks.
 
     Raises
     ------
     ConfigError
-        If the source or a setting is invalid, or none of the stalls can be placed.
+        If the source or a setting is invalid, there is no such level, or none of the stalls can be placed.
     OutputError
         If the files cannot be written. They appear whole or not at all.
     """
     config = config or GarageConfig()
-    path = checked_output(output, config)
+    checked_output(output, config)
     start = time.perf_counter()
-    survey = source if isinstance(source, Survey) else read_survey(Path(source))
-    survey, alignment = aligned(with_medial_lanes(survey))
-    layout = with_things(lay_out_survey(survey, config), config, progress=progress)
-    proofs = prove_stalls(layout, progress=progress) if proves else ()
-    building = Building((layout.structure,), None, config.building.storey_m)
-    level = GarageLevel(building.places[0], config, layout, planned=None)
-    garage = Garage(config, building, (level,), _origin(source))
+    building = read_building(Path(source)) if isinstance(source, str | Path) else SurveyedBuilding.of(source)
+    if level is not None:
+        building = building.only(level)
+    garage, alignment, remarks = _laid_out(building, config, _origin(source), progress)
+    path = checked_output(output, config, places=garage.building.places)
+    proofs: tuple[StallProof, ...] = ()
+    if proves and len(garage.levels) == 1:
+        proofs = prove_stalls(garage.layout, progress=progress)
+    elif proves:
+        proofs = prove_built(garage_as_made(garage, source=str(path), kind="a layout"), progress=progress)
     seconds = {"import": time.perf_counter() - start}
 
     def judge() -> tuple[Judged, ...]:
-        findings, unmet = judged_layout(layout, config, with_ways=proves)
-        return (Judged(tuple(findings), unmet),)
+        judged = (judged_layout(each.layout, each.config, with_ways=proves) for each in garage.levels)
+        return tuple(Judged(tuple(findings), unmet) for findings, unmet in judged)
 
-    report = partial(make_report, garage, survey=_survey_figures(garage, alignment), proofs=proofs)
+    report = partial(make_report, garage, survey=_survey_figures(garage, alignment), proofs=proofs, remarks=remarks)
     draw = partial(draw_pictures, garage)
     made = written(garage, path, seconds, draw=draw, judge=judge, report=report, progress=progress)
-    return replace(made, proofs=proofs)
+    return replace(made, proofs=proofs, remarks=remarks)
 
 
 def surveyed_floor(garage: Garage) -> SurveyedFloor:
-    """Return the source of an imported garage: its survey, its stalls, and the parts that could not be placed."""
-    floor = garage.layout.source
-    assert isinstance(floor, SurveyedFloor)
+    """Return the source of an imported garage of one level: its survey, its stalls, and parts that are not placed."""
+    (floor,) = surveyed_floors(garage)
     return floor
 
 
-def _origin(source: str | Path | Survey) -> Mapping[str, str]:
-    """Return the name of an imported file and the digest of its bytes."""
-    if isinstance(source, Survey):
+def surveyed_floors(garage: Garage) -> tuple[SurveyedFloor, ...]:
+    """Return the source of each level of an imported garage, as `surveyed_floor` does of an only one."""
+    floors = tuple(level.layout.source for level in garage.levels)
+    assert all(isinstance(floor, SurveyedFloor) for floor in floors)
+    return cast("tuple[SurveyedFloor, ...]", floors)
+
+
+def unplaced_parts(garage: Garage) -> tuple[Unplaced, ...]:
+    """Return the parts of the source that an imported garage lacks, each once."""
+    return tuple(dict.fromkeys(part for floor in surveyed_floors(garage) for part in floor.unplaced))
+
+
+def _laid_out(
+    building: SurveyedBuilding, config: GarageConfig, origin: Mapping[str, str], progress: Progress
+) -> tuple[Garage, Alignment, tuple[str, ...]]:
+    """Lay out the levels of a building, and return also how it was moved, and remarks on its levels."""
+    building, remarks = _with_lanes(building)
+    building, alignment = aligned_building(building)
+    levels = building.levels
+    floors_m, told = _floors_m(levels, config)
+    remarks += told
+    found: list[GarageLevel] = []
+    places = places_at(floors_m)
+    for number, (level, place) in enumerate(zip(levels, places, strict=True)):
+        above, own = None, config
+        if number:
+            above = FloorAbove(round(floors_m[number - 1] - floors_m[number], 6), _ground(levels[number - 1].survey))
+            own = _config_below(config, number, above.storey_m)
+        layout = with_things(lay_out_survey(level.survey, own, above=above), own, progress=progress)
+        found.append(GarageLevel(place, own, layout, planned=None, source_name=level.name))
+    structures = tuple(level.layout.structure for level in found)
+    whole = Building(structures, None, config.building.storey_m, tuple(floors_m) if len(found) > 1 else None)
+    garage = Garage(config, whole, tuple(found), origin)
+    return garage, alignment, (*remarks, *_unjoined(garage))
+
+
+def _ground(survey: Survey) -> shapely.Polygon:
+    return shapely.Polygon(survey.outline)
+
+
+def _with_lanes(building: SurveyedBuilding) -> tuple[SurveyedBuilding, list[str]]:
+    """Return the levels that have stalls and lanes, those without lanes with derived ones; name the others."""
+    if len(building.levels) == 1:
+        (level,) = building.levels
+        survey = with_medial_lanes(level.survey)
+        return replace(building, levels=(replace(level, survey=survey),)), []
+    levels, remarks = [], []
+    for level in building.in_order:
+        if not level.survey.stalls:
+            remarks.append(f"level {level.name} is left out: it has no stall")
+            continue
+        try:
+            levels.append(replace(level, survey=with_medial_lanes(level.survey)))
+        except ConfigError as error:
+            remarks.append(f"level {level.name} is left out: {error}")
+    if not levels:
+        raise ConfigError("levels", "; ".join(remarks), "a level that can be laid out")
+    top, *lower = levels
+    top = replace(top, survey=replace(top.survey, unread=(*top.survey.unread, *building.unread)))
+    return replace(building, levels=(top, *lower)), remarks
+
+
+def _floors_m(levels: Sequence[SurveyedLevel], config: GarageConfig) -> tuple[list[float], list[str]]:
+    """Return the height of the floor of each level below the top one, as surveyed where that leaves room for cars."""
+    heights_m = [level.height_m for level in levels]
+    known = [height_m for height_m in heights_m if height_m is not None]
+    least_m = config.fittings.clear_height_m + CEILING_ROOM_M + _LEAST_SLAB_M
+    remarks = []
+    if len(known) == len(levels) > 1:
+        storeys_m = [upper - lower for upper, lower in pairwise(known)]
+        if min(storeys_m) > least_m - _ROUNDING_M:
+            return [round(height_m - known[0], 3) + 0.0 for height_m in known], []
+        placed_m, near_m = config.building.storey_m, min(storeys_m)
+        needed = f"{least_m:.2f} m or more leave room for cars"
+        remarks = [f"floors that are {near_m:.2f} m apart in the source are placed {placed_m:g} m apart: {needed}"]
+    return [place.floor_m for place in level_places(len(levels), config.building.storey_m)], remarks
+
+
+def _config_below(config: GarageConfig, number: int, storey_m: float) -> GarageConfig:
+    """Return the settings of a level below the top one: a seed of its own, and a ceiling under the floor above."""
+    seed = derived_seed(config.seed, Step.LEVELS, number)
+    ceiling_m = round(min(config.fittings.ceiling_height_m, storey_m - _LEAST_SLAB_M), 6)
+    fittings = config.fittings.model_copy(update={"ceiling_height_m": ceiling_m})
+    return config.model_copy(update={"seed": seed, "fittings": fittings})
+
+
+def _unjoined(garage: Garage) -> list[str]:
+    """Name the levels that no ramp joins with others."""
+    return [
+        f"level {level.source_name} ({level.name}) is placed alone: no ramp of the source joins it with another level"
+        for level in garage.levels
+        if len(garage.levels) > 1
+    ]
+
+
+def _origin(source: str | Path | Survey | SurveyedBuilding) -> Mapping[str, str]:
+    """Return the name of an imported file or folder and the digest of its bytes."""
+    if not isinstance(source, str | Path):
         return {}
-    return {"source": Path(source).name, "sourceDigest": hashlib.sha256(Path(source).read_bytes()).hexdigest()}
+    path, digest = Path(source), hashlib.sha256()
+    for file in sorted(path.iterdir()) if path.is_dir() else [path]:
+        digest.update(file.read_bytes() if file.is_file() else b"")
+    return {"source": path.resolve().name, "sourceDigest": digest.hexdigest()}
 
 
 def _survey_figures(garage: Garage, alignment: Alignment) -> SurveyFigures:
     """Return the figures of an import for its report: source, frame, and parts that are missing or changed."""
-    surveyed, lanes = surveyed_floor(garage), garage.lanes
+    floors, lanes = surveyed_floors(garage), garage.lanes
+    notes = [(stall.source.name, stall.note) for floor in floors for stall in floor.fitted if stall.note]
     return SurveyFigures(
         source=garage.origin.get("source"),
         source_digest=garage.origin.get("sourceDigest"),
         turn_deg=round(math.degrees(alignment.turn_rad), 6),
         shift_m=alignment.shift_m,
-        origin_deg=surveyed.survey.origin_deg,
-        unplaced=tuple({"id": part.name, "reason": part.reason} for part in surveyed.unplaced),
-        changed=tuple({"id": stall.source.name, "change": stall.note} for stall in surveyed.fitted if stall.note),
+        origin_deg=floors[0].survey.origin_deg,
+        unplaced=tuple({"id": part.name, "reason": part.reason} for part in unplaced_parts(garage)),
+        changed=tuple({"id": name, "change": note} for name, note in notes),
         lane_m=round(sum(lanes.length_m(edge.start, edge.end) for edge in lanes.edges), 2),
     )

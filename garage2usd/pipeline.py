@@ -25,7 +25,7 @@ from garage2usd.config.site import BayConfig
 from garage2usd.driving import DesignCar, StallProof, with_clutter, with_truth_of_misparked, without_unreachable
 from garage2usd.driving.layout_garage import refuse_undrivable
 from garage2usd.garage import StallKind
-from garage2usd.garage.levels import level_places, unreached_stalls
+from garage2usd.garage.levels import LevelPlace, level_places, unreached_stalls
 from garage2usd.garage_model import Garage, GarageLevel, PlannedParts
 from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.egress.exits import Egress, plan_egress
@@ -91,6 +91,8 @@ class Build:
         Result of the quick rules on each level; None for more than 10,000 stalls, which would take too long.
     proofs
         For each stall of an imported garage that takes cars, whether a car drives in and out; empty unless requested.
+    remarks
+        Remarks on the levels of an imported garage.
     """
 
     garage: Garage
@@ -103,6 +105,7 @@ class Build:
     seconds: dict[str, float]
     judged: tuple[Judged, ...] | None = None
     proofs: tuple[StallProof, ...] = ()
+    remarks: tuple[str, ...] = ()
 
     @property
     def findings(self) -> tuple[Finding, ...] | None:
@@ -228,13 +231,16 @@ def build(
     return written(garage, path, seconds, draw=draw, judge=judge, report=report, progress=progress)
 
 
-def checked_output(output: str | Path, config: GarageConfig) -> Path:
-    """Check that a stage and the files beside it can be written, and return its path; raises as `build`."""
+def checked_output(output: str | Path, config: GarageConfig, *, places: Sequence[LevelPlace] = ()) -> Path:
+    """Check that a stage and the files beside it can be written, and return its path; raises as `build`.
+
+    Its levels are at `places`, or else as many as the settings tell.
+    """
     path = Path(output)
     if path.suffix.lower() not in set(StageFormat) or not path.stem:
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
     check_name(path, of_layer=True)
-    check_file(path, with_it=(path.with_name(f"{path.stem}_{name}") for name in _names_beside(config)))
+    check_file(path, with_it=(path.with_name(f"{path.stem}_{name}") for name in _names_beside(config, places)))
     if shared := shared_folder(path, config.stage):
         check_writable(shared)
     return path
@@ -307,9 +313,9 @@ def written(
     )
 
 
-def _names_beside(config: GarageConfig) -> Iterator[str]:
+def _names_beside(config: GarageConfig, places: Sequence[LevelPlace]) -> Iterator[str]:
     """Yield the names of the files that may be written beside a stage, without ``STEM_``."""
-    for place in level_places(config.building.levels, config.building.storey_m):
+    for place in places or level_places(config.building.levels, config.building.storey_m):
         for picture in _PICTURES:
             yield place.in_whole(f"{picture}.png", joint="_")
     yield "labels.json"

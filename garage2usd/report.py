@@ -83,6 +83,7 @@ def make_report(
     learning: LearningFigures | None = None,
     survey: SurveyFigures | None = None,
     proofs: Sequence[StallProof] = (),
+    remarks: Sequence[str] = (),
 ) -> Report:
     """Make the report of a garage; it is reproducible, except for ``seconds``.
 
@@ -100,6 +101,8 @@ def make_report(
         Figures of an import; None for a generated garage.
     proofs
         Proofs of the stalls of an imported garage, if requested.
+    remarks
+        Remarks beside those of the settings.
 
     Notes
     -----
@@ -117,7 +120,7 @@ def make_report(
         tape=_tape_or_none(lambda: garage.tape) if garage.plans else None,
         parking_stalls=garage.parking_stalls,
         **area_figures([level.layout for level in garage.levels]),
-        remarks=config.remarks(),
+        remarks=(*config.remarks(), *remarks),
         survey=survey,
         links=reported_links(garage),
         levels=tuple(
@@ -137,6 +140,7 @@ def _level_report(
     layout = level.layout
     return LevelReport(
         name=level.name,
+        source_name=level.source_name or None,
         floor_m=level.floor_m,
         look=layout.look,
         **area_figures([layout]),
@@ -147,7 +151,7 @@ def _level_report(
         object_counts=layout.counts(),
         unreachable_stalls=tuple(sorted(layout.unreachable)),
         undecided_stalls=tuple(sorted(layout.undecided)),
-        **(_surveyed(layout, proofs) if level.planned is None else _planned(level, learning)),
+        **(_surveyed(level, proofs) if level.planned is None else _planned(level, learning)),
     )
 
 
@@ -180,9 +184,10 @@ def _planned(level: GarageLevel, learning: LearningFigures | None) -> dict[str, 
     }
 
 
-def _surveyed(layout: Layout, proofs: Sequence[StallProof]) -> dict[str, Any]:
+def _surveyed(level: GarageLevel, proofs: Sequence[StallProof]) -> dict[str, Any]:
     """Return the stalls of a level that was surveyed, with their ids in the source."""
-    proven = {proof.stall: proof.outcome.value for proof in proofs}
+    proven = {level.place.own_name(proof.stall): proof.outcome.value for proof in proofs}
+    layout = level.layout
     floor = layout.source
     assert isinstance(floor, SurveyedFloor)
     return {

@@ -18,7 +18,7 @@ _MOST_NAMED = 20
 
 
 @click.command("import", short_help="Make a garage of a layout that others made.")
-@click.argument("source", type=INPUT_FILE)
+@click.argument("source", type=click.Path(path_type=Path))
 @click.option(
     "--config",
     "-c",
@@ -28,6 +28,7 @@ _MOST_NAMED = 20
 )
 @seed_option
 @profile_option("The standard whose clauses apply, in place of the configuration's")
+@click.option("--level", metavar="NAME", help="Import this level alone, by its name in SOURCE, such as -1.")
 @click.option("--no-proofs", is_flag=True, help="Do not prove for each stall that a car drives in and out.")
 @click.option(
     "--output",
@@ -39,13 +40,24 @@ _MOST_NAMED = 20
     help="The stage: .usda, .usdc or .usdz. Its folder is made; files of that name are replaced.",
 )
 def import_layout(
-    *, source: Path, config: Path | None, seed: int | None, profile: str | None, no_proofs: bool, output: Path
+    *,
+    source: Path,
+    config: Path | None,
+    seed: int | None,
+    profile: str | None,
+    level: str | None,
+    no_proofs: bool,
+    output: Path,
 ) -> None:
     """Make a garage of the stalls, lanes and columns in SOURCE and write it as a USD stage.
 
-    SOURCE is a Lanelet2 map or an OpenStreetMap extract (.osm), an OpenDRIVE map (.xodr), GeoJSON (.geojson), a table
-    of rectangles (.csv), or a drawing in metres (.toml). Its stalls stay where they are, on no grid. Without lanes,
-    these are derived from the ground between the stalls.
+    SOURCE is a CAD drawing (.dxf) or a building model (.ifc), which need the extra `cad`; a Lanelet2 map or an
+    OpenStreetMap extract (.osm), an OpenDRIVE map (.xodr), GeoJSON (.geojson), IMDF (.zip or its folder), a table of
+    rectangles (.csv), or a drawing in metres (.toml). Its stalls stay where they are, on no grid. Without lanes, these
+    are derived from the ground between the stalls.
+
+    Levels in SOURCE (in .osm by level, repeat_on, layer or the heights of nodes, in .dxf by height, in .ifc and IMDF
+    by storey) become the levels of one garage, U1 being the top one. --level picks one of them.
 
     Parts that the garage lacks are named on stderr, a line each with the reason, and under unplaced in the report,
     which stands beside the stage with a plan (out/a_plan.png) and the table of all objects (a_labels.json).
@@ -57,7 +69,7 @@ def import_layout(
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.config import GarageConfig, load_config, profile_setting  # noqa: PLC0415 - keeps --help instant
     from garage2usd.imports import import_layout as make  # noqa: PLC0415
-    from garage2usd.imports import surveyed_floor  # noqa: PLC0415
+    from garage2usd.imports import surveyed_floors, unplaced_parts  # noqa: PLC0415
 
     if config:
         settings = load_config(config, profile=profile)
@@ -67,29 +79,29 @@ def import_layout(
         settings = settings.with_seed(seed)
     echo_notices(settings.remarks())
     with Bars(sys.stderr) as progress:
-        made = make(source, output, config=settings, proves=not no_proofs, progress=progress)
-    surveyed = surveyed_floor(made.garage)
-    unplaced = surveyed.unplaced
+        made = make(source, output, config=settings, level=level, proves=not no_proofs, progress=progress)
+    echo_notices(map(printable, made.remarks))
+    unplaced = unplaced_parts(made.garage)
     for name, reason in unplaced[:_MOST_NAMED]:
         click.echo(f"not placed: {printable(name)}: {printable(reason)}", err=True)
     if len(unplaced) > _MOST_NAMED:
         click.echo(f"not placed: {len(unplaced) - _MOST_NAMED} more, see {made.report}", err=True)
-    for stall in surveyed.fitted:
-        if stall.note:
-            click.echo(f"changed: {printable(stall.source.name)}: {printable(stall.note)}", err=True)
+    for stall in (stall for floor in surveyed_floors(made.garage) for stall in floor.fitted if stall.note):
+        click.echo(f"changed: {printable(stall.source.name)}: {printable(stall.note)}", err=True)
     _describe(made, len(unplaced))
 
 
 def _describe(made: "Build", unplaced: int) -> None:
     from garage2usd.checks import clauses_checked, found_in_words  # noqa: PLC0415 - keeps --help instant
 
-    layout = made.garage.layout
-    kinds = Counter(stall.kind.value for stall in layout.quads if stall.takes_cars)
-    of_kinds = ", ".join(f"{count} {kind}" for kind, count in kinds.most_common())
-    rows = [
-        ("stalls", f"{layout.parking_stalls} ({of_kinds}); {layout.uses_in_words()}"),
-        ("not placed", str(unplaced)),
-    ]
+    rows = []
+    for level in made.garage.levels:
+        layout = level.layout
+        kinds = Counter(stall.kind.value for stall in layout.quads if stall.takes_cars)
+        of_kinds = ", ".join(f"{count} {kind}" for kind, count in kinds.most_common())
+        name = "" if level.place.is_only else f"{level.name}, level {printable(level.source_name)}: "
+        rows.append(("stalls", f"{name}{layout.parking_stalls} ({of_kinds}); {layout.uses_in_words()}"))
+    rows.append(("not placed", str(unplaced)))
     if made.proofs:
         outcomes = Counter(proof.outcome.value for proof in made.proofs)
         rows.append(("driven", ", ".join(f"{count} {outcome}" for outcome, count in outcomes.most_common())))
@@ -98,5 +110,6 @@ def _describe(made: "Build", unplaced: int) -> None:
     found = found_in_words(made.findings or (), clauses, profile.name)
     ways = "" if made.proofs else ", without ways into stalls"
     rows.append(("check", f"{found}{ways}: garage2usd check {made.stage}"))
-    rows += [("stage", str(made.stage)), ("plan", str(made.pictures[0])), ("report", str(made.report))]
+    rows += [("stage", str(made.stage)), *(("plan", str(each)) for each in made.pictures)]
+    rows.append(("report", str(made.report)))
     echo_table(rows)

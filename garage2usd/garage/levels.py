@@ -70,13 +70,17 @@ ONLY_LEVEL = LevelPlace("", f"/{GARAGE_NAME}", 0.0)
 
 
 def level_places(count: int, storey_m: float) -> list[LevelPlace]:
-    """Return the places of the levels of a garage, the top one first, whose floor lies at 0."""
-    if count == 1:
+    """Return the places of levels of one height, the top one first, whose floor lies at 0."""
+    return places_at([round(-number * storey_m, _DECIMALS) + 0.0 for number in range(count)])
+
+
+def places_at(floors_m: Sequence[float]) -> list[LevelPlace]:
+    """Return the places of levels by the heights of their floors, the top one first."""
+    if len(floors_m) == 1:
         return [ONLY_LEVEL]
-    return [
-        LevelPlace(name, f"/{GARAGE_NAME}/{LEVELS_NAME}/{name}", round(-number * storey_m, _DECIMALS) + 0.0)
-        for number, name in enumerate(map(level_name, range(count)))
-    ]
+    names = map(level_name, range(len(floors_m)))
+    paths = [(name, f"/{GARAGE_NAME}/{LEVELS_NAME}/{name}") for name in names]
+    return [LevelPlace(name, path, floor_m) for (name, path), floor_m in zip(paths, floors_m, strict=True)]
 
 
 def level_name(level: int) -> str:

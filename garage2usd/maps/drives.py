@@ -5,6 +5,7 @@ import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 from garage2usd.as_built.driven_road import BEYOND_TOP_M, bent_floors
 from garage2usd.as_built.garage import BuiltGarage
@@ -24,7 +25,6 @@ from garage2usd.maps.level_routes import LevelRoutes
 
 _STEP_S = 0.05
 _BEYOND_FOOT_M = 2.0
-_RISE_M = 0.01
 _EASING_M = 8.0
 """Length of the clothoids on a helix between straights and circle: the car's rear then runs inside its middle line by
 about as much as its front runs outside."""
@@ -151,27 +151,28 @@ class DrivePlanner:
         ConfigError
             If the stall, entrance or exit does not exist, or no drive connects them.
         """
-        street = {
-            kind: _portals_asked(field, number, self._ends(0, kind, from_above=True))
-            for kind, field, number in (
-                (LaneKind.ENTRANCE, "entrance", entrance),
-                (LaneKind.EXIT, "exit", exit),
-            )
-        }
         found = None if stall is None else self._stall(stall)
         driven = self._garage.lanes.driven
         joined = [each for each in self._garage.stalls if each.takes_cars and each.access in driven]
         if not joined or (found is not None and found not in joined):
             raise ConfigError("stall", stall, "a stall that lanes and ramps join with the street")
         level = max(each.level for each in joined) if found is None else found.level
+        way = self._way_to_street(level)
+        street = {
+            kind: _portals_asked(field, number, self._ends(way[-1], kind, None))
+            for kind, field, number in (
+                (LaneKind.ENTRANCE, "entrance", entrance),
+                (LaneKind.EXIT, "exit", exit),
+            )
+        }
         place = self._garage.levels[level].place
         route = self._on(level).route_of(
             None if found is None else place.own_name(found.name),
-            entrances=self._to_street(level, LaneKind.ENTRANCE, street),
-            exits=self._to_street(level, LaneKind.EXIT, street),
+            entrances=self._towards_street(way, LaneKind.ENTRANCE, street),
+            exits=self._towards_street(way, LaneKind.EXIT, street),
         )
-        into, start = self._led(level, route.entrance, _Part(route.arrival.pieces, level), street, is_in=True)
-        out, end = self._led(level, route.exit, _Part(route.departure.pieces, level), street, is_in=False)
+        into, start = self._led(way, route.entrance, _Part(route.arrival.pieces, level), street, is_in=True)
+        out, end = self._led(way, route.exit, _Part(route.departure.pieces, level), street, is_in=False)
         arrival = Path(start.pose, tuple(piece for part in into for piece in part.pieces))
         departure = Path(route.departure.start, tuple(piece for part in out for piece in part.pieces))
         whole = Route(place.in_whole(route.stall), route.nose, start, end, arrival, departure, route.is_full)
@@ -186,12 +187,11 @@ class DrivePlanner:
 
         The first, the middle and the last stall of that level are tried.
         """
-        street = {kind: self._ends(0, kind, from_above=True) for kind in (LaneKind.ENTRANCE, LaneKind.EXIT)}
         lowest = len(self._garage.levels) - 1
         for level in range(lowest):
-            router = self._on(level).router
-            down = self._to_street(level, LaneKind.ENTRANCE, street), self._ends(level, LaneKind.EXIT, from_above=False)
-            up = self._ends(level, LaneKind.ENTRANCE, from_above=False), self._to_street(level, LaneKind.EXIT, street)
+            router, out = self._on(level).router, level - 1 if level else None
+            down = self._ends(level, LaneKind.ENTRANCE, out), self._ends(level, LaneKind.EXIT, level + 1)
+            up = self._ends(level, LaneKind.ENTRANCE, level + 1), self._ends(level, LaneKind.EXIT, out)
             for entrances, exits in (down, up):
                 if not any(router.through(entrance, exits) for entrance in entrances):
                     return False
@@ -221,44 +221,55 @@ class DrivePlanner:
             self._routes[level] = LevelRoutes(self._garage.levels[level], self._settings, self._car)
         return self._routes[level]
 
-    def _ends(self, level: int, kind: LaneKind, *, from_above: bool) -> tuple[Portal, ...]:
-        """Return the portals of a level that lead to the level above or the street, or else to the level below."""
-        garage = self._garage.levels[level]
-        portals = self._on(level).router.portals(kind)
-        names = self._below(level)
+    @cached_property
+    def _beyond(self) -> dict[tuple[int, str], int]:
+        """Level at the other end of the ramp at each landing, by the level and the name of the landing."""
+        nodes = self._garage.lanes.nodes
+        found = {}
+        for line in self._garage.ramp_lines:
+            ends = [nodes[number] for number in (line.nodes[0], line.nodes[-1])]
+            for end, other in (ends, ends[::-1]):
+                found[end.level, end.name.rpartition("/")[2]] = other.level
+        return found
+
+    def _ends(self, level: int, kind: LaneKind, other: int | None) -> tuple[Portal, ...]:
+        """Return the portals of a level that lead to another level, or to the street if that is None."""
+        landings = self._garage.levels[level].landings
         return tuple(
-            portal for portal in portals if (portal.name in garage.landings and portal.name in names) is not from_above
+            portal
+            for portal in self._on(level).router.portals(kind)
+            if (self._beyond.get((level, portal.name)) == other if portal.name in landings else other is None)
         )
 
-    def _to_street(self, level: int, kind: LaneKind, street: _Street) -> tuple[Portal, ...]:
-        """Return the portals of a level that lead towards the street; on the top level, the chosen entrance or exit."""
-        return self._ends(level, kind, from_above=True) if level else street[kind]
+    def _way_to_street(self, level: int) -> tuple[int, ...]:
+        """Return the levels from one to the nearest one with portals to the street, in the order of driving out."""
+        ways: list[tuple[int, ...]] = [(level,)]
+        for way in ways:
+            if all(self._ends(way[-1], kind, None) for kind in (LaneKind.ENTRANCE, LaneKind.EXIT)):
+                return way
+            beside = sorted({other for (own, _), other in self._beyond.items() if own == way[-1]})
+            seen = {each for known in ways for each in known}
+            ways += [(*way, other) for other in beside if other not in seen]
+        return (level,)
 
-    def _below(self, level: int) -> frozenset[str]:
-        """Return the names of the landings of a level at the heads of ramps from and to the level below."""
-        lanes = self._garage.lanes
-        floor_m = self._garage.levels[level].place.floor_m
-        names = set()
-        for node, number in ((node, number) for number, node in enumerate(lanes.nodes) if node.level == level):
-            lower = [other for other in lanes.beside[number] if lanes.nodes[other].level == level + 1]
-            if lower and abs(node.height_m - floor_m) < _RISE_M:
-                names.add(node.name.rpartition("/")[2])
-        return frozenset(names)
+    def _towards_street(self, way: Sequence[int], kind: LaneKind, street: _Street) -> tuple[Portal, ...]:
+        """Return the portals of the first level of a way to the next level, or else the chosen ones to the street."""
+        return self._ends(way[0], kind, way[1]) if len(way) > 1 else street[kind]
 
     def _led(
-        self, level: int, portal: Portal, part: _Part, street: _Street, *, is_in: bool
+        self, way: Sequence[int], portal: Portal, part: _Part, street: _Street, *, is_in: bool
     ) -> tuple[list[_Part], Portal]:
-        """Extend a path from a level's landing to the street, or from the street to the landing."""
+        """Extend a path from a level's landing to the street, or from the street to the landing, over all levels."""
         parts, end = [part], portal
-        for upper in range(level - 1, -1, -1):
-            planner = self._on(upper)
+        for number, (level, other) in enumerate(pairwise(way), 1):
+            planner = self._on(other)
             pose, portal_name = end.pose, end.name
             if is_in:
-                exits = self._ends(upper, LaneKind.EXIT, from_above=False)
-                entrances = self._to_street(upper, LaneKind.ENTRANCE, street)
+                exits = self._ends(other, LaneKind.EXIT, level)
+                entrances = self._towards_street(way[number:], LaneKind.ENTRANCE, street)
             else:
-                exits = self._to_street(upper, LaneKind.EXIT, street)
-                entrances = self._ends(upper, LaneKind.ENTRANCE, from_above=False)
+                exits = self._towards_street(way[number:], LaneKind.EXIT, street)
+                entrances = self._ends(other, LaneKind.ENTRANCE, level)
             found = [
                 (path, entrance, exit_)
                 for entrance in entrances
@@ -266,12 +277,12 @@ class DrivePlanner:
                 for path, exit_ in [led]
             ]
             if not found:
-                raise ConfigError("stall", portal.name, f"a garage whose level {upper + 1} is driven through")
+                raise ConfigError("stall", portal.name, f"a garage whose level {other + 1} is driven through")
             path, entrance, exit_ = min(found, key=lambda each: each[0].length_m)
-            one, other = (path.end, pose) if is_in else (pose, path.start)
+            one, two = (path.end, pose) if is_in else (pose, path.start)
             names = (exit_.name, portal_name) if is_in else (portal_name, entrance.name)
-            between = self._over_ramp(upper, one, other, names)
-            own = _Part(path.pieces, upper)
+            between = self._over_ramp(min(level, other), one, two, names)
+            own = _Part(path.pieces, other)
             parts = [own, between, *parts] if is_in else [*parts, between, own]
             end = entrance if is_in else exit_
         return parts, end
@@ -342,7 +353,8 @@ class DrivePlanner:
     def _span(self, end_m: float, level: int, upper: int | None) -> FloorSpan:
         """Return the floors of a level with the ramps down from an upper level, and with those to the street."""
         own_m = self._garage.levels[level].place.floor_m
-        ramps = [] if level else [_lifted(ramp, own_m, math.inf) for ramp in self._on(0).road.ramps]
+        is_street = level == 0 or (upper is None and bool(self._ends(level, LaneKind.ENTRANCE, None)))
+        ramps = [_lifted(ramp, own_m, math.inf) for ramp in self._on(level).road.ramps] if is_street else []
         if upper is not None:
             foot_m = self._garage.levels[upper + 1].place.floor_m
             ramps += [

@@ -139,12 +139,14 @@ class UnmetClause(Record):
 class LevelReport(Record):
     """One level in a report, key by key in the order of the file.
 
-    ``S`` has the rows of symbols, ``R`` and ``C`` are metres by column and by row; landings of ramps are portals of
-    ``S``. They, and what else squares are needed for, are missing for a level that was surveyed. An entry of
-    ``stalls`` that is not a stall is kept unchanged: `garage2usd.checks` reports it.
+    ``source_name`` is the name of an imported level in its file. ``S`` has the rows of symbols, ``R`` and ``C`` are
+    metres by column and by row; landings of ramps are portals of ``S``. They, and what else squares are needed for, are
+    missing for a level that was surveyed. An entry of ``stalls`` that is not a stall is kept unchanged:
+    `garage2usd.checks` reports it.
     """
 
     name: str
+    source_name: str | None = Field(None, exclude_if=lambda name: name is None)
     floor_m: float
     structure_digest: str | None = None
     look: LookConfig | None = None

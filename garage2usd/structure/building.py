@@ -15,7 +15,7 @@ import numpy as np
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.site import LinkKind
-from garage2usd.garage.levels import LevelPlace, level_places
+from garage2usd.garage.levels import LevelPlace, level_places, places_at
 from garage2usd.structure.grid import Cell, CellArray, Structure
 from garage2usd.structure.stalls import Edge
 
@@ -204,20 +204,23 @@ class Building:
         The ramps between each two levels; None of a single level.
     storey_m
         Height from floor to floor in metres.
+    floors_m
+        Height of the floor of each level that was surveyed, where each has tiles of its own; None if it was planned.
 
     Raises
     ------
     ConfigError
-        If the levels differ in R or C, or a square of a ramp is not an obstacle on a level.
+        If planned levels differ in R or C, or a square of a ramp is not an obstacle on a level.
     """
 
     levels: tuple[Structure, ...]
     ramps: Ramps | None
     storey_m: float
+    floors_m: tuple[float, ...] | None = None
 
     def __post_init__(self) -> None:
-        """Refuse levels that do not stand above one another."""
-        first, *others = self.levels
+        """Refuse planned levels that do not stand above one another."""
+        first, *others = self.levels if self.floors_m is None else self.levels[:1]
         for level, structure in enumerate(others, start=1):
             for name, one, other in (
                 ("R", first.column_widths_mm, structure.column_widths_mm),
@@ -243,9 +246,9 @@ class Building:
     @property
     def places(self) -> list[LevelPlace]:
         """Places of the levels, the top one first."""
-        return level_places(len(self.levels), self.storey_m)
+        return level_places(len(self.levels), self.storey_m) if self.floors_m is None else places_at(self.floors_m)
 
     def digest(self) -> str:
         """Return the SHA-256 of the digests of all levels; of a single level its own digest."""
         digests = [structure.digest() for structure in self.levels]
-        return digests[0] if self.ramps is None else hashlib.sha256("".join(digests).encode()).hexdigest()
+        return digests[0] if len(digests) == 1 else hashlib.sha256("".join(digests).encode()).hexdigest()

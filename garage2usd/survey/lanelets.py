@@ -1,5 +1,6 @@
 """Lanes of a Lanelet2 map: centre lines between the bounds of lanelets, in their direction."""
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
@@ -22,13 +23,14 @@ _NO = {"no", "false", "0"}
 
 
 class CentreLine(NamedTuple):
-    """The centre line (x, z) of one lanelet, or of the two of an aisle, with its mean width."""
+    """The centre line (x, z) of one lanelet, or of the two of an aisle, with its mean width and heights at its ends."""
 
     name: str
     tags: Mapping[str, str]
     points: list[tuple[float, float]]
     width_m: float
     one_way: bool
+    heights_m: tuple[float | None, float | None] = (None, None)
 
 
 class Lanelet(NamedTuple):
@@ -79,7 +81,18 @@ def lanes_of_lanelets(osm: OsmElements) -> Iterator[CentreLine | Unplaced]:
                 right = lanelets[other].left_line[::-1]
         line, width_m = _between(left, right)
         one_way = other is None and lanelet.is_one_way
-        yield CentreLine(lanelet.relation.name, lanelet.relation.tags, line, width_m, one_way)
+        heights_m = _height_m(osm, lanelet, line[0]), _height_m(osm, lanelet, line[-1])
+        yield CentreLine(lanelet.relation.name, lanelet.relation.tags, line, width_m, one_way, heights_m)
+
+
+def _height_m(osm: OsmElements, lanelet: Lanelet, point: tuple[float, float]) -> float | None:
+    """Return the mean height of the nodes of both bounds that are nearest to a point; None without heights."""
+    heights = []
+    for ways in (lanelet.left, lanelet.right):
+        nodes = [osm.nodes[node] for number in ways if number in osm.ways for node in osm.ways[number].nodes]
+        heights.append(min(nodes, key=lambda node: math.dist(node.position, point)).height_m)
+    known = [height for height in heights if height is not None]
+    return sum(known) / len(known) if known else None
 
 
 def _partners(lanelets: Sequence[Lanelet]) -> list[tuple[int | None, str]]:

@@ -2,6 +2,7 @@
 
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
@@ -16,6 +17,15 @@ class OsmNode(NamedTuple):
     name: str
     position: Point
     tags: Mapping[str, str]
+
+    @property
+    def height_m(self) -> float | None:
+        """Its height by ``ele`` or ``local_z``; None without one that is a number of metres."""
+        for key in ("ele", "local_z"):
+            if key in self.tags:
+                with suppress(ConfigError):
+                    return number_of(self.tags[key].removesuffix("m").strip(), key)
+        return None
 
 
 class OsmWay(NamedTuple):

@@ -1,22 +1,22 @@
 """Surveys as OSM XML: parking lots of OpenStreetMap, and garages as Lanelet2 maps with Autoware's tags."""
 
-from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import shapely
 
 from garage2usd.garage import Point, StallUse
 from garage2usd.survey.lanelets import lanes_of_lanelets
-from garage2usd.survey.osm_elements import OsmElements, OsmWay, read_osm, ring_of
+from garage2usd.survey.osm_areas import SPACE, STALL_AMENITIES, areas_of, is_stall, stalls_of
+from garage2usd.survey.osm_elements import OsmElements, OsmWay, read_osm
+from garage2usd.survey.osm_levels import OsmArea, OsmLevel, OsmLevels, one_way_of
+from garage2usd.survey.osm_ramps import ramps_of
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import PortalKind, Survey, Unplaced
-from garage2usd.survey.text import length_of, levels_of, size_of, unread_length, use_of
+from garage2usd.survey.surveyed_building import SurveyedBuilding, SurveyedLevel
+from garage2usd.survey.text import length_of, size_of, unread_length, use_of
 
 _MOST_IN_A_ROW = 1000
-_STALL_AMENITIES = {"parking_space"}
-_STALL_SUBTYPES = {"parking", "parking_spot", "parking_space"}
-_HATCHED = "hatched_road_markings"
 _GATES = {"entrance", "gate", "lift_gate", "swing_gate", "sliding_gate", "toll_booth"}
 _YES = {"yes", "true", "designated"}
 _USE_TAGS = {
@@ -26,12 +26,11 @@ _USE_TAGS = {
     "capacity:charging": "ev",
     "charging": "ev",
 }
-_ONE_WAY = {"yes": 1, "true": 1, "1": 1, "-1": -1, "reverse": -1}
 _SPACE_M = 0.05
 """Distance from a stall's outline up to which the ends of Autoware's line for the same stall lie on it."""
 
 
-def read_osm_survey(path: Path) -> Survey:
+def read_osm_survey(path: Path) -> Survey | SurveyedBuilding:
     """Read a survey from OpenStreetMap's data or a Lanelet2 map.
 
     Parameters
@@ -43,8 +42,8 @@ def read_osm_survey(path: Path) -> Survey:
         vehicles, and ways ``service=parking_aisle``, and within the outline any ``highway=service``; areas of these are
         ground. The outline is
         the one of ``amenity=parking`` with the most stalls. Columns are areas of the subtype ``Columns``. Entrances
-        are nodes ``amenity=parking_entrance`` or gates, and service roads that cross the outline. If the stalls have
-        tags ``level``, the level with the most stalls is read.
+        are nodes ``amenity=parking_entrance`` or gates, and service roads that cross the outline. Stalls on several
+        levels (`OsmLevels`) make a building, with the ramps of `garage2usd.survey.osm_ramps`.
 
     Raises
     ------
@@ -54,12 +53,26 @@ def read_osm_survey(path: Path) -> Survey:
         For nodes without ``local_x`` and ``local_y``, without the extra ``maps``.
     """
     osm = read_osm(path)
-    parts = SurveyParts()
-    level = _level(osm)
-    _add_stalls(parts, osm, level)
-    _add_lanelets(parts, osm, level)
-    for name, tags, ring in _areas(osm):
-        if ring is None or not _is_on(tags, level):
+    levels = OsmLevels(osm, [*stalls_of(osm)])
+    if len(levels.names) < 2:  # noqa: PLR2004 - one above another
+        return _survey(OsmLevel(osm, levels, levels.names[0] if levels.names else None))
+    found = ramps_of(osm, levels)
+    surveys = [_survey(OsmLevel(osm, levels, name, found.parts, found.to_street)) for name in levels.names]
+    named = zip(levels.names, surveys, strict=True)
+    return SurveyedBuilding(
+        tuple(SurveyedLevel(name, each, levels.ordinals[name], levels.floors_m.get(name)) for name, each in named),
+        found.ramps,
+        found.unread,
+    )
+
+
+def _survey(level: OsmLevel) -> Survey:
+    """Return the survey of one level."""
+    osm, parts = level.osm, SurveyParts()
+    _addstalls(parts, level)
+    _add_lanelets(parts, level)
+    for name, tags, ring in areas_of(osm):
+        if ring is None or not level.holds(tags, ring):
             continue
         points = osm.line(ring)
         if tags.get("subtype", "").lower() in {"column", "columns", "pillar"}:
@@ -67,64 +80,20 @@ def read_osm_survey(path: Path) -> Survey:
         elif tags.get("amenity") == "parking" or tags.get("building") == "parking":
             parts.add_outline(name, points)
     outline = parts.outline()
-    _add_ways(parts, osm, level, outline)
-    _add_portals(parts, osm, level, outline)
+    _add_ways(parts, level, outline)
+    _add_portals(parts, level, outline)
     return parts.survey(origin_deg=osm.origin_deg)
 
 
-def _is_stall(tags: Mapping[str, str]) -> bool:
-    is_area = tags.get("type") in {"multipolygon", "area"} or tags.get("area") == "yes"
-    return (
-        tags.get("amenity") in _STALL_AMENITIES
-        or (is_area and tags.get("subtype") in _STALL_SUBTYPES)
-        or (tags.get("type") == _HATCHED and "use" in tags)
-    )
-
-
-def _areas(osm: OsmElements) -> Iterator[tuple[str, Mapping[str, str], tuple[int, ...] | None]]:
-    """Yield relations and ways that may enclose ground, as name, tags and ring of nodes; None if they are not closed.
-
-    A way whose relation is yielded with the same meaning is left out.
-    """
-    of_relations = set()
-    for relation in osm.relations.values():
-        if relation.tags.get("type") == "multipolygon":
-            outer = relation.ways("outer", "")
-            if _is_stall(relation.tags):
-                of_relations.update(outer)
-            lines = [osm.ways[way].nodes for way in outer if way in osm.ways]
-            is_whole = len(lines) == len(outer)
-            yield relation.name, relation.tags, ring_of(lines) if is_whole else None
-    for number, way in osm.ways.items():
-        if number in of_relations and _is_stall(way.tags):
-            continue
-        if way.is_closed or way.tags.get("area") == "yes" or way.tags.get("type") in {"area", _HATCHED}:
-            ring = way.nodes[:-1] if way.is_closed else way.nodes
-            yield way.name, way.tags, ring if len(ring) > 2 else None  # noqa: PLR2004 - a triangle
-        elif _is_stall(way.tags):
-            yield way.name, way.tags, None
-
-
-def _level(osm: OsmElements) -> str | None:
-    """Return the level with the most stalls, the first in the file of equal ones; None if no stall has one."""
-    stalls = (tags for _, tags, _ in _areas(osm) if _is_stall(tags))
-    levels = Counter(level for tags in stalls for level in sorted(levels_of(tags)))
-    return levels.most_common(1)[0][0] if levels else None
-
-
-def _is_on(tags: Mapping[str, str], level: str | None) -> bool:
-    levels = levels_of(tags) if level is not None else set()
-    return not levels or level in levels
-
-
-def _add_stalls(parts: SurveyParts, osm: OsmElements, level: str | None) -> None:
-    for name, tags, ring in _areas(osm):
-        if not _is_stall(tags):
+def _addstalls(parts: SurveyParts, level: OsmLevel) -> None:
+    osm = level.osm
+    for name, tags, ring in areas_of(osm):
+        if not is_stall(tags):
             continue
         title = tags.get("name") or name
-        if not _is_on(tags, level):
-            parts.unread.append(Unplaced(title, f"a stall on level {_told_level(tags)} instead of {level}"))
-        elif ring is None:
+        if not _is_read(parts, level, title, OsmArea(tags, ring or ())):
+            continue
+        if ring is None:
             parts.unread.append(Unplaced(title, "a stall whose ways do not close a ring"))
         else:
             use = _use(tags)
@@ -134,20 +103,30 @@ def _add_stalls(parts: SurveyParts, osm: OsmElements, level: str | None) -> None
                 parts.add_row(title, osm.line(ring), int(count), use=_use(tags, of=count), size=size)
                 continue
             parts.add_stall(title, osm.line(ring), mouth_at=_mouth(osm, name, ring), use=use, size=size, number=number)
-    for node in osm.nodes.values():
-        if node.tags.get("amenity") in _STALL_AMENITIES:
+    for place, node in osm.nodes.items():
+        if node.tags.get("amenity") in STALL_AMENITIES and level.holds(node.tags, (place,)):
             parts.unread.append(Unplaced(node.tags.get("name") or node.name, "a stall as a point, without an outline"))
-    _add_spaces(parts, osm)
+    _add_spaces(parts, level)
 
 
-def _add_spaces(parts: SurveyParts, osm: OsmElements) -> None:
+def _is_read(parts: SurveyParts, level: OsmLevel, name: str, stall: OsmArea) -> bool:
+    """Return True for a stall of the level; note one that is on none with stalls."""
+    reason = level.reason_against("a stall", stall.tags, level.levels.of_stall(stall))
+    if reason:
+        parts.unread.append(Unplaced(name, reason))
+    return reason is None
+
+
+def _add_spaces(parts: SurveyParts, level: OsmLevel) -> None:
     """Add Autoware's parking spaces, lines along the middle of a stall, except those of stalls that are known."""
     known = shapely.STRtree(parts.stall_polygons())
-    for way in osm.ways.values():
-        if way.tags.get("type") != "parking_space":
+    for way in level.osm.ways.values():
+        if way.tags.get("type") != SPACE:
             continue
         name = way.tags.get("name") or way.name
-        line = osm.line(way.nodes)
+        if not _is_read(parts, level, name, OsmArea(way.tags, way.nodes)):
+            continue
+        line = level.osm.line(way.nodes)
         if len(line) != 2 or line[0] == line[1]:  # noqa: PLR2004 - from one end to the other
             parts.unread.append(Unplaced(name, f"a parking space of {len(way.nodes)} points instead of 2 apart"))
             continue
@@ -206,36 +185,39 @@ def _holds(value: str, of: str) -> bool:
     return value.lower() in _YES
 
 
-def _add_lanelets(parts: SurveyParts, osm: OsmElements, level: str | None) -> None:
-    for lane in lanes_of_lanelets(osm):
+def _add_lanelets(parts: SurveyParts, level: OsmLevel) -> None:
+    for lane in lanes_of_lanelets(level.osm):
         if isinstance(lane, Unplaced):
             parts.unread.append(lane)
-        elif _is_on(lane.tags, level):
-            parts.add_lane(lane.name, lane.points, lane.width_m, one_way=lane.one_way)
-        else:
-            parts.unread.append(Unplaced(lane.name, f"a lane on level {_told_level(lane.tags)} instead of {level}"))
+        elif lane.name not in level.on_ramps:
+            reason = level.reason_against("a lane", lane.tags, level.levels_of(lane))
+            if reason is None:
+                parts.add_lane(lane.name, lane.points, lane.width_m, one_way=lane.one_way)
+            elif reason:
+                parts.unread.append(Unplaced(lane.name, reason))
 
 
-def _add_portals(parts: SurveyParts, osm: OsmElements, level: str | None, outline: tuple[Point, ...] | None) -> None:
+def _add_portals(parts: SurveyParts, level: OsmLevel, outline: tuple[Point, ...] | None) -> None:
     """Add the nodes that are entrances, and gates on the outline."""
-    for node in osm.nodes.values():
+    for number, node in level.osm.nodes.items():
         is_gate = node.tags.get("barrier") in _GATES and _is_near(node.position, outline)
-        if (is_gate or node.tags.get("amenity") == "parking_entrance") and _is_on(node.tags, level):
+        if (is_gate or node.tags.get("amenity") == "parking_entrance") and level.holds_portal(number):
             parts.add_portal(node.position)
 
 
-def _add_ways(parts: SurveyParts, osm: OsmElements, level: str | None, outline: tuple[Point, ...] | None) -> None:
+def _add_ways(parts: SurveyParts, level: OsmLevel, outline: tuple[Point, ...] | None) -> None:
     """Add parking aisles, and the parts of other service roads that lie within the outline, with portals on it."""
+    osm = level.osm
     ground = None if outline is None else shapely.Polygon(outline)
     for way in osm.ways.values():
-        if way.tags.get("highway") != "service":
+        if way.tags.get("highway") != "service" or way.name in level.on_ramps:
             continue
         reason = _reason_against_lane(way, level)
-        if reason:
-            parts.unread.append(Unplaced(way.name, reason))
+        if reason is not None:
+            parts.unread += [Unplaced(way.name, reason)] if reason else []
             continue
         width_m = _width(parts, way.name, way.tags)
-        direction = _ONE_WAY.get(way.tags.get("oneway", "no").lower(), 0)
+        direction = one_way_of(way.tags)
         line = osm.line(way.nodes)[:: -1 if direction < 0 else 1]
         is_aisle = way.tags.get("service") == "parking_aisle"
         if ground is None or not ground.crosses(shapely.LineString(line)):
@@ -256,13 +238,12 @@ def _add_ways(parts: SurveyParts, osm: OsmElements, level: str | None, outline: 
                     parts.add_portal(points[end], kind if direction else PortalKind.BOTH)
 
 
-def _reason_against_lane(way: OsmWay, level: str | None) -> str:
-    """Explain why a service way is not a lane of a level; empty if it is one."""
-    if not _is_on(way.tags, level):
-        return f"a lane on level {_told_level(way.tags)} instead of {level}"
-    if way.tags.get("area") == "yes":
+def _reason_against_lane(way: OsmWay, level: OsmLevel) -> str | None:
+    """Explain why a service way is not a lane of a level, as `OsmLevel.reason_against`; None if it is one."""
+    reason = level.reason_against("a lane", way.tags, level.levels.of_way(way))
+    if reason is None and way.tags.get("area") == "yes":
         return "a service area, which is ground and no lane"
-    return "a lane without length" if len(way.nodes) < 2 else ""  # noqa: PLR2004 - a line
+    return "a lane without length" if reason is None and len(way.nodes) < 2 else reason  # noqa: PLR2004 - a line
 
 
 def _is_near(position: Point, outline: tuple[Point, ...] | None) -> bool:
@@ -279,7 +260,3 @@ def _width(parts: SurveyParts, name: str, tags: Mapping[str, str]) -> float | No
     if width_m is None:
         parts.unread.append(Unplaced(name, unread_length("width", tags["width"])))
     return width_m
-
-
-def _told_level(tags: Mapping[str, str]) -> str:
-    return tags.get("level") or tags.get("repeat_on", "")

@@ -2,9 +2,9 @@
 
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
@@ -37,7 +37,16 @@ from garage2usd.survey.fitted_stalls import FittedStall, fitted_stalls
 from garage2usd.survey.lane_network import lane_network
 from garage2usd.survey.survey import Survey, Unplaced
 
-__all__ = ["SurveyedFloor", "lay_out_survey"]
+__all__ = ["FloorAbove", "SurveyedFloor", "lay_out_survey"]
+_UNDER_FLOOR_M = 0.02
+"""Distance of a ceiling slab's upper face from a floor above that covers a part of it."""
+
+
+class FloorAbove(NamedTuple):
+    """The level above a surveyed one: height of its floor over that of this level, and its ground (x, z)."""
+
+    storey_m: float
+    ground: shapely.Geometry
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +65,8 @@ class SurveyedFloor(FloorSource):
         Parts of the survey that the garage lacks, with the reasons.
     labels
         Semantic label of each tile with a lane or stalls.
+    above
+        The level above; None of the top one.
     """
 
     survey: Survey
@@ -63,6 +74,7 @@ class SurveyedFloor(FloorSource):
     fitted: tuple[FittedStall, ...]
     unplaced: tuple[Unplaced, ...]
     labels: Mapping[Square, str] = field(repr=False)
+    above: FloorAbove | None = None
     matrices: None = None
 
     @property
@@ -73,7 +85,7 @@ class SurveyedFloor(FloorSource):
     @property
     def again(self) -> "partial[Layout]":
         """Lay out the same survey again."""
-        return partial(lay_out_survey, self.survey)
+        return partial(lay_out_survey, self.survey, above=self.above)
 
     @property
     def area(self) -> FloorArea:
@@ -105,6 +117,7 @@ def lay_out_survey(
     survey: Survey,
     config: GarageConfig,
     *,
+    above: FloorAbove | None = None,
     unreachable: Collection[str] = (),
     held_back: Collection[str] = (),
     kept_clear: shapely.Geometry | None = None,
@@ -119,6 +132,8 @@ def lay_out_survey(
         A survey that `garage2usd.survey.survey.aligned` returned.
     config
         Sizes, fittings, parking, look and seed.
+    above
+        The level above; None of the top one.
     unreachable
         Names of stalls that cars do not get into; they stay as they are.
     held_back
@@ -161,7 +176,7 @@ def lay_out_survey(
     stalls, fitted = placed_stalls(found, ground)
     labels = {stall.square: f"stall_{StallType.TYPE_3.value}" for stall in stalls}
     labels |= {ground.square_at(node.position): node.kind for node in reversed(network.nodes)}
-    source = SurveyedFloor(survey, network, fitted, (*survey.unread, *unplaced), labels)
+    source = SurveyedFloor(survey, network, fitted, (*survey.unread, *unplaced), labels, above)
     tiles = SurveyedTiles(ground, network, stalls, config.bay, survey.solid_polygons())
     pillars = _columns(survey, config, look)
     cores = surveyed_cores(tiles, stalls, pillars, config)
@@ -174,7 +189,7 @@ def lay_out_survey(
         shell=surveyed_walls(ground, gates, fittings, look.walls),
         pillars=pillars,
         blocks=surveyed_blocks(tiles, cores, fittings.ceiling_height_m, look.walls),
-        ceilings=list(_ceiling(ground, config)),
+        ceilings=list(_ceiling(ground, config, above)),
         beams=surveyed_beams(ground, config.bay, fittings.ceiling_height_m, depth_m, pillars),
         cores=cores,
         shafts=(),
@@ -213,10 +228,17 @@ def _columns(survey: Survey, config: GarageConfig, look: LookConfig) -> list[Pla
     ]
 
 
-def _ceiling(ground: SurveyedGround, config: GarageConfig) -> Iterator[Placement]:
-    """Yield the ceiling slab over the part of each tile inside the outline."""
+def _ceiling(ground: SurveyedGround, config: GarageConfig, above: FloorAbove | None) -> Iterator[Placement]:
+    """Yield the ceiling slab over the part of each tile inside the outline; its upper face may be a floor."""
+    ceiling_m = config.fittings.ceiling_height_m
     for tile in ground:
         left, back, right, front = shapely.intersection(tile.box, ground.polygon).bounds
         spec = CeilingSpec(round(right - left, 6), round(front - back, 6), CEILING_THICKNESS_M)
+        if above is not None:
+            room_m = round(above.storey_m - ceiling_m, 6)
+            if above.ground.covers(shapely.box(left, back, right, front)):
+                spec = replace(spec, thickness_m=room_m, bears_floor=True)
+            else:
+                spec = replace(spec, thickness_m=min(spec.thickness_m, round(room_m - _UNDER_FLOOR_M, 6)))
         place = (left + right) / 2, (back + front) / 2
-        yield placed("Ceiling", spec, place, height_m=config.fittings.ceiling_height_m, square=tile.square)
+        yield placed("Ceiling", spec, place, height_m=ceiling_m, square=tile.square)

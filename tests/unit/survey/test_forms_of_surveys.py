@@ -7,7 +7,7 @@ from pxr import Usd
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.imports import import_layout
-from garage2usd.survey.reader import read_survey
+from garage2usd.survey.reader import read_building, read_survey
 from garage2usd.survey.text import length_of
 
 
@@ -80,20 +80,23 @@ AISLE = '<way id="90">{{ends}}<tag k="highway" v="service"/><tag k="service" v="
 
 def test_levels_are_numbers_lists_and_runs(tmp_path):
     levels = ["-1", "-1.0", "-2;-1", "-3--1", "-2", "P1"]
-    read = read_survey(
+    lanes = [("90", "-2.00"), ("91", "-1"), ("92", "5")]
+    read = read_building(
         write_osm(
             tmp_path / "a.osm",
             [{"level": level} for level in levels],
-            AISLE.format('<tag k="level" v="-2.00"/>') + AISLE.replace("90", "91").format('<tag k="level" v="-1"/>'),
+            "".join(AISLE.replace("90", way).format(f'<tag k="level" v="{level}"/>') for way, level in lanes),
         )
     )
-    assert len(read.stalls) == 4
-    assert [part.reason for part in read.unread] == [
-        "a stall on level -2 instead of -1",
-        "a stall on level P1 instead of -1",
-        "a lane on level -2.00 instead of -1",
+    assert [(level.name, len(level.survey.stalls), len(level.survey.lanes)) for level in read.in_order] == [
+        ("-1", 4, 1),
+        ("-2", 3, 1),
+        ("-3", 1, 0),
+        ("P1", 1, 0),
     ]
-    assert len(read.lanes) == 1
+    assert {part for level in read.levels for part in level.survey.unread} == {
+        ("way 92", "a lane on level 5, which has no stall"),
+    }
 
 
 def test_a_service_area_is_no_lane(tmp_path):

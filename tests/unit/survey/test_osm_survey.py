@@ -7,7 +7,7 @@ import shapely
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.stalls import SizeClass
 from garage2usd.garage import StallUse
-from garage2usd.survey.reader import read_survey
+from garage2usd.survey.reader import read_building, read_survey
 from garage2usd.survey.survey import PortalKind
 
 
@@ -30,7 +30,7 @@ class Map:
         self.relations.append((members, tags))
         return len(self.relations)
 
-    def read(self, tmp_path):
+    def read(self, tmp_path, reader=read_survey):
         def lines(tags):
             return "".join(f'<tag k="{key.replace("__", ":")}" v="{value}"/>' for key, value in tags.items())
 
@@ -51,7 +51,7 @@ class Map:
         ]
         path = tmp_path / "lot.osm"
         path.write_text("".join([*text, "</osm>"]))
-        return read_survey(path)
+        return reader(path)
 
 
 def box(x, y, width=2.5, length=5.0):
@@ -211,14 +211,14 @@ def test_columns_sizes_and_levels_are_read(tmp_path):
     lot.way(box(9, 0, 0.5, 0.5), type="area", subtype="Columns", level="2")
     lot.way(box(12, 0, 0.5, 0.5), type="area", subtype="Columns", level="1")
     lanelet(lot, [(0, 14), (20, 14)], [(0, 10), (20, 10)], level="1")
-    survey = lot.read(tmp_path)
-    large, accessible = survey.stalls
+    upper, lower = lot.read(tmp_path, read_building).in_order
+    large, accessible = upper.survey.stalls
     assert (large.size, accessible.use) == (SizeClass.LARGE, StallUse.ACCESSIBLE)
-    assert survey.columns == (((9.25, -0.25), 0.5),)
-    assert survey.unread == (
-        ("below", "a stall on level 1 instead of 2"),
-        ("relation 1", "a lane on level 1 instead of 2"),
-    )
+    assert upper.survey.columns == (((9.25, -0.25), 0.5),)
+    assert lower.survey.columns == (((12.25, -0.25), 0.5),)
+    assert [stall.name for stall in lower.survey.stalls] == ["below"]
+    assert [len(level.survey.lanes) for level in (upper, lower)] == [0, 1]
+    assert upper.survey.unread == lower.survey.unread == ()
 
 
 def test_what_is_left_out_is_named(tmp_path):
