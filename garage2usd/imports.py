@@ -55,8 +55,9 @@ def import_layout(
     Parameters
     ----------
     source
-        A file: a Lanelet2 map or OpenStreetMap extract (``.osm``), OpenDRIVE (``.xodr``), GeoJSON (``.geojson``), a
-        table of rectangles (``.csv``) or a drawing (``.toml``); or a survey, or one of a building of several levels.
+        A file: a Lanelet2 map or OpenStreetMap extract (``.osm``), OpenDRIVE (``.xodr``), GeoJSON (``.geojson``), IMDF
+        (``.zip`` or its folder), a CAD drawing (``.dxf``), a building model (``.ifc``), a table of rectangles
+        (``.csv``) or a drawing in metres (``.toml``); or a survey, or one of a building of several levels.
     output
         Path of the stage; ``.usda``, ``.usdc`` or ``.usdz``. The other files are written beside it under its name.
     config
@@ -210,10 +211,13 @@ def _unjoined(garage: Garage) -> list[str]:
 
 
 def _origin(source: str | Path | Survey | SurveyedBuilding) -> Mapping[str, str]:
-    """Return the name of an imported file and the digest of its bytes."""
+    """Return the name of an imported file or folder and the digest of its bytes."""
     if not isinstance(source, str | Path):
         return {}
-    return {"source": Path(source).name, "sourceDigest": hashlib.sha256(Path(source).read_bytes()).hexdigest()}
+    path, digest = Path(source), hashlib.sha256()
+    for file in sorted(path.iterdir()) if path.is_dir() else [path]:
+        digest.update(file.read_bytes() if file.is_file() else b"")
+    return {"source": path.resolve().name, "sourceDigest": digest.hexdigest()}
 
 
 def _survey_figures(garage: Garage, alignment: Alignment) -> SurveyFigures:

@@ -18,7 +18,7 @@ _MOST_NAMED = 20
 
 
 @click.command("import", short_help="Make a garage of a layout that others made.")
-@click.argument("source", type=INPUT_FILE)
+@click.argument("source", type=click.Path(path_type=Path))
 @click.option(
     "--config",
     "-c",
@@ -51,12 +51,13 @@ def import_layout(
 ) -> None:
     """Make a garage of the stalls, lanes and columns in SOURCE and write it as a USD stage.
 
-    SOURCE is a Lanelet2 map or an OpenStreetMap extract (.osm), an OpenDRIVE map (.xodr), GeoJSON (.geojson), a table
-    of rectangles (.csv), or a drawing in metres (.toml). Its stalls stay where they are, on no grid. Without lanes,
-    these are derived from the ground between the stalls.
+    SOURCE is a CAD drawing (.dxf) or a building model (.ifc), which need the extra `cad`; a Lanelet2 map or an
+    OpenStreetMap extract (.osm), an OpenDRIVE map (.xodr), GeoJSON (.geojson), IMDF (.zip or its folder), a table of
+    rectangles (.csv), or a drawing in metres (.toml). Its stalls stay where they are, on no grid. Without lanes, these
+    are derived from the ground between the stalls.
 
-    Levels in SOURCE (in .osm by level, repeat_on, layer or the heights of nodes) become the levels of one garage, U1
-    being the top one. --level picks one of them.
+    Levels in SOURCE (in .osm by level, repeat_on, layer or the heights of nodes, in .dxf by height, in .ifc and IMDF
+    by storey) become the levels of one garage, U1 being the top one. --level picks one of them.
 
     Parts that the garage lacks are named on stderr, a line each with the reason, and under unplaced in the report,
     which stands beside the stage with a plan (out/a_plan.png) and the table of all objects (a_labels.json).

@@ -24,6 +24,8 @@ CASES = {
     "a recipe with LiDARs": (["embreex"], ["dataset", "lidar.toml", "-o", "out"], "sensors"),
     "a recipe with bags": (["rosbags"], ["dataset", "lidar.toml", "-o", "out"], "sensors"),
     "maps of a build": (["scenariogeneration", "pyproj"], ["build", "--with", "xosc,osm", "-o", "g.usdz"], "maps"),
+    "a drawing": (["ezdxf"], ["import", "none.dxf", "-o", "g.usdz"], "cad"),
+    "a building model": (["ifcopenshell"], ["import", "none.ifc", "-o", "g.usdz"], "cad"),
     "an export": (["pyproj"], ["export", "none.usdz", "-o", "out.osm"], "maps"),
     "pictures": (["bpy"], RENDER, "blender"),
     "pictures that are read": (["OpenEXR"], RENDER, "blender"),
