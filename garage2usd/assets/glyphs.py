@@ -311,17 +311,8 @@ _UNDER_MARK, _FINE_STROKE = 0.76, 0.1
 """Height of a letter with a mark, as a share of those without; and the pen of marks."""
 
 
-def drawn_form(text: str) -> str:
-    """Return a text as it is drawn: in capital letters, with each mark joined to its letter."""
-    return unicodedata.normalize("NFC", unicodedata.normalize("NFC", text.replace("\u2013", "-")).upper())
-
-
-def undrawn(text: str) -> list[str]:
-    """Return the characters of a text that cannot be drawn, each once."""
-    return [sign for sign in dict.fromkeys(drawn_form(text)) if not _is_drawn(sign) and not is_han(sign)]
-
-
-def _is_drawn(character: str) -> bool:
+def is_drawn(character: str) -> bool:
+    """True for a letter, digit or sign of this module, also with a mark; False for Chinese characters."""
     apart = unicodedata.normalize("NFD", character)
     return apart[0] in _STROKES and (len(apart) == 1 or apart[1:] in _ABOVE)
 
@@ -332,7 +323,7 @@ def text_shape(text: str, height_m: float) -> shapely.Geometry:
     Parameters
     ----------
     text
-        Characters without those of `undrawn`, in the form of `drawn_form`.
+        Characters of this module, Chinese ones only among themselves.
     height_m
         Height of the characters.
     """
@@ -340,8 +331,7 @@ def text_shape(text: str, height_m: float) -> shapely.Geometry:
     shapes = []
     for index, character in enumerate(text):
         across = (index - (len(text) - 1) / 2) * pitch
-        glyph = han_glyph if is_han(character) else _glyph
-        shapes.append(affinity.translate(glyph(character), across))
+        shapes.append(affinity.translate(glyph_of(character), across))
     return affinity.scale(shapely.union_all(shapes), height_m, height_m, origin=(0, 0))
 
 
@@ -352,8 +342,10 @@ def text_length(text: str) -> float:
 
 
 @lru_cache(maxsize=128)
-def _glyph(character: str) -> shapely.Geometry:
+def glyph_of(character: str) -> shapely.Geometry:
     """Outline of a character of height 1, centred at the origin."""
+    if is_han(character):
+        return han_glyph(character)
     apart = unicodedata.normalize("NFD", character)
     glyph = _drawn(_STROKES[apart[0]], _STROKE)
     for mark in apart[1:]:

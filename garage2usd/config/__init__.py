@@ -138,9 +138,11 @@ class GarageConfig(Settings):
     def digest(self) -> str:
         """SHA-256 of the canonical JSON of all settings that decide the garage.
 
-        ``maps`` is left out. Of texture and model folders, the digest of the contents counts and the path does not.
+        ``maps`` is left out. Of texture and model folders and a font, the digest of the contents counts, not the path.
         """
-        of_look = {"textures": {"folder"}} if self.look.textures else {"textures"}
+        of_look: dict[str, Any] = {"textures": {"folder"} if self.look.textures else True}
+        if self.look.font:
+            of_look["font"] = {"file"}
         # keeps the digests of garages without models, which are older than this setting
         of_vehicles = {"models": {"folder"}} if self.vehicles.models else True
         excluded: dict[str, Any] = {"maps": True, "look": of_look, "vehicles": of_vehicles}

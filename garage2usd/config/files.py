@@ -24,8 +24,8 @@ _MATRICES = (
 )
 
 
-FOLDERS = (("look", "textures"), ("vehicles", "models"))
-"""Section and setting of each folder of the user's files."""
+FOLDERS = (("look", "textures"), ("look", "font"), ("vehicles", "models"))
+"""Section and setting of each folder of the user's files, and of the user's font."""
 
 
 def is_array_file(path: Path) -> bool:
@@ -79,7 +79,7 @@ def with_files(settings: Mapping[str, Any], folder: Path) -> dict[str, Any]:
 
 
 def with_textures(settings: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """Make the paths of texture and model folders absolute; other settings are returned unchanged, valid or not."""
+    """Make the paths of texture and model folders and of a font absolute; other settings stay, valid or not."""
     result = dict(settings)
     for section, key in FOLDERS:
         match result.get(section):

@@ -12,6 +12,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, Field, ValidationInfo, field_validator
 
 from garage2usd.common.settings import Settings
+from garage2usd.config.font_file import FontFile, read_font
 from garage2usd.config.texture_sets import TextureFolder, read_texture_sets
 
 NATURAL = "natural"
@@ -418,6 +419,19 @@ class LookConfig(Settings):
 
     textures: TextureFolder | None = None
     """Folder of the user's textures by role (see the page on looks); they replace those of the chosen finishes."""
+    font: FontFile | None = Field(None, exclude_if=lambda font: font is None)
+    """The user's font for stall numbers (.ttf, .otf), in place of the package's lettering."""
+
+    @field_validator("font", mode="before")
+    @classmethod
+    def _file(cls, font: object) -> object:
+        return {"file": font} if isinstance(font, str) else font
+
+    @field_validator("font")
+    @classmethod
+    def _with_digest(cls, font: FontFile | None) -> FontFile | None:
+        """Add the digest of the font; one that has a digest is read on use."""
+        return read_font(font) if font is not None and not font.sha256 else font
 
     @field_validator("textures", mode="before")
     @classmethod
@@ -466,8 +480,9 @@ class LookConfig(Settings):
 def look_text(look: LookConfig) -> str:
     """Write a look as TOML tables of a configuration, with the values that the seed drew."""
     tables = {name: group for name in type(look).model_fields if isinstance(group := getattr(look, name), Settings)}
-    textures = tables.pop("textures", None)
-    blocks = [] if textures is None else [_table("look", {"textures": getattr(textures, "folder")})]  # noqa: B009
+    of_user = {"textures": look.textures and look.textures.folder, "font": look.font and look.font.file}
+    given = {name: path for name, path in of_user.items() if tables.pop(name, None) is not None}
+    blocks = [_table("look", given)] if given else []
     blocks += [_table(f"look.{name}", group.model_dump(mode="json")) for name, group in tables.items()]
     return "\n\n".join(blocks) + "\n"
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from garage2usd.common.randomness import Step, derived_seed
 from garage2usd.config.files import with_textures
+from garage2usd.config.font_file import FontFile, read_font
 from garage2usd.config.texture_sets import TextureFolder, read_texture_sets
 from garage2usd.datasets.distribution import distribution_of
 
@@ -59,7 +60,7 @@ def first_value(
 
 
 def pin_textures(recipe: Mapping[str, Any], folder: Path) -> None:
-    """Make paths of texture folders in a recipe absolute, and add digests of their contents.
+    """Make paths of texture folders and of fonts in a recipe absolute, and add digests of their contents.
 
     Parameters
     ----------
@@ -71,7 +72,7 @@ def pin_textures(recipe: Mapping[str, Any], folder: Path) -> None:
     Raises
     ------
     ConfigError
-        If textures are invalid.
+        If textures or a font are invalid.
     """
     groups = recipe.get("groups")
     of_groups = groups.values() if isinstance(groups, dict) else ()
@@ -83,6 +84,9 @@ def pin_textures(recipe: Mapping[str, Any], folder: Path) -> None:
                     case {"look": {"textures": str(named)} as look}:
                         textures, _ = read_texture_sets(TextureFolder(folder=named))
                         table["look"] = {**look, "textures": textures.model_dump()}
+                match with_textures(table, folder):
+                    case {"look": {"font": str(named)} as look}:
+                        table["look"] = {**look, "font": read_font(FontFile(file=named)).model_dump()}
 
 
 def setting_generator(seed: int, field: str) -> np.random.Generator:

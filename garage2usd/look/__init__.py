@@ -36,6 +36,7 @@ def drawn_look(look: LookConfig, seed: int) -> LookConfig:
         lights=drawn_lights(axes.of("lights")),
         signs=drawn_signs(axes.of("signs")),
         textures=look.textures,
+        font=look.font,
     )
 
 

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import shapely
 
 from garage2usd.assets.flat import flat_part, upright_triangles
-from garage2usd.assets.glyphs import text_shape
+from garage2usd.assets.lettering import number_shape
 from garage2usd.assets.mesh import Asset, make_part
+from garage2usd.config.font_file import FontFile
 from garage2usd.objects.kind import Kind, Spec
 
 KIND = Kind(
@@ -24,10 +25,27 @@ class NumberSpec(Spec, kind=KIND):
     digits: str
     height_m: float
 
+    @property
+    def font(self) -> FontFile | None:
+        """The user's font, if any."""
+        return None
+
     def asset(self) -> Asset:
         """Make the mesh of a painted stall number a few millimetres over the floor."""
-        shape = text_shape(self.digits, self.height_m)
+        shape = number_shape(self.digits, self.height_m, self.font)
         return Asset((flat_part("Paint", shape, "paint_number", height_m=PAINT_LIFT_M, collider=None),))
+
+
+@dataclass(frozen=True)
+class FontNumberSpec(NumberSpec, kind=KIND):
+    """A stall number painted on the floor in the user's font."""
+
+    own_font: FontFile
+
+    @property
+    def font(self) -> FontFile:
+        """The user's font."""
+        return self.own_font
 
 
 @dataclass(frozen=True)
@@ -52,8 +70,25 @@ class WallNumberSpec(Spec, kind=KIND):
     digits: str
     height_m: float
 
+    @property
+    def font(self) -> FontFile | None:
+        """The user's font, if any."""
+        return None
+
     def asset(self) -> Asset:
         """Make the mesh of an upright stall number on a wall."""
-        shape = text_shape(self.digits, self.height_m)
+        shape = number_shape(self.digits, self.height_m, self.font)
         faces = list(upright_triangles(shape, middle_m=0.0, front_m=0.0))
         return Asset((make_part("Paint", faces, "paint_number", collider=None),))
+
+
+@dataclass(frozen=True)
+class WallFontNumberSpec(WallNumberSpec, kind=KIND):
+    """A stall number painted on a wall in the user's font."""
+
+    own_font: FontFile
+
+    @property
+    def font(self) -> FontFile:
+        """The user's font."""
+        return self.own_font

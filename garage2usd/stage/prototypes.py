@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import TypeAdapter
+from pydantic import BaseModel, TypeAdapter
 
 from garage2usd.assets import Asset, Collider, Part, pascal_case
 from garage2usd.assets.mesh import Pose
@@ -222,7 +222,9 @@ def _key(shape: Spec) -> str:
     return json.dumps([type(shape).__name__, shape], default=_measures)
 
 
-def _measures(value: Any) -> dict[str, object]:  # noqa: ANN401 - of any dataclass
+def _measures(value: Any) -> dict[str, object]:  # noqa: ANN401 - of any dataclass, or of settings
+    if isinstance(value, BaseModel):
+        return dict(value)
     return {field.name: getattr(value, field.name) for field in fields(value)}
 
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
@@ -78,6 +79,8 @@ class Text:
         True if the text runs upwards.
     kind
         Class of the text.
+    font
+        Font file of the text in images; empty for the usual one, which has Latin letters without marks only.
     """
 
     at: Point
@@ -87,6 +90,7 @@ class Text:
     is_left: bool = False
     is_turned: bool = False
     kind: str = ""
+    font: str = ""
 
 
 @dataclass(frozen=True)
@@ -115,19 +119,14 @@ class Drawing:
     elements: Iterable[Region | Line | Disc | Text] = field(default_factory=list)
 
 
-def text_width(text: str, height: float) -> float:
-    """Width of a text of a given height, in the height's unit."""
-    return _measured(text) / _MEASURED_PX * height
+def text_width(text: str, height: float, font: str = "") -> float:
+    """Width of a text of a given height, in the height's unit; with a font file as in `Text`."""
+    return _measured(text, font) / _MEASURED_PX * height
 
 
 @lru_cache(maxsize=4096)
-def _measured(text: str) -> float:
-    return float(_font().getlength(text))
-
-
-@lru_cache(maxsize=1)
-def _font() -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
-    return ImageFont.load_default(size=_MEASURED_PX)
+def _measured(text: str, font: str) -> float:
+    return float(_letters_font(_MEASURED_PX, font).getlength(text))
 
 
 def to_image(drawing: Drawing) -> Image.Image:
@@ -177,7 +176,7 @@ def _write(image: Image.Image, text: Text, at: tuple[float, float], size_px: int
     """Draw text in few shades at whole pixels, since the rims of letters make up most of a plan's bytes."""
     if size_px < _LEAST_LETTERS_PX:
         return
-    font = _letters_font(size_px)
+    font = _letters_font(size_px, text.font)
     width = math.ceil(font.getlength(text.text)) + 2 * _ROOM_PX
     letters = Image.new("L", (width, 2 * size_px))
     ImageDraw.Draw(letters).text((_ROOM_PX, size_px), text.text, fill=255, font=font, anchor="lm")
@@ -189,7 +188,10 @@ def _write(image: Image.Image, text: Text, at: tuple[float, float], size_px: int
 
 
 @lru_cache(maxsize=64)
-def _letters_font(size_px: int) -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
+def _letters_font(size_px: int, file: str) -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
+    with suppress(OSError):  # a font that FreeType does not take
+        if file:
+            return ImageFont.truetype(file, size_px)
     return ImageFont.load_default(size=size_px)
 
 

@@ -8,8 +8,10 @@ from dataclasses import dataclass
 
 import shapely
 
+from garage2usd.assets.lettering import font_with
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.spelling import find_named
+from garage2usd.config.font_file import FontFile
 from garage2usd.config.vehicles import CarBody
 from garage2usd.garage import LaneGraph, LaneKind, Stall, StallUse
 from garage2usd.layout import Layout, Placement
@@ -214,7 +216,7 @@ def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
         for car in cars.values()
         if isinstance(car.spec, CarSpec)
     )
-    yield from (_number(stall, _short_number(stall)) for stall in layout.quads if stall.number)
+    yield from (_number(stall, _short_number(stall), layout.look.font) for stall in layout.quads if stall.number)
 
 
 def _short_number(stall: Stall) -> str:
@@ -242,14 +244,15 @@ def _car_outline(car: Placement, body: CarBody) -> list[Point]:
     return [car.to_world(point) for point in shape]
 
 
-def _number(stall: Stall, number: str) -> Text:
+def _number(stall: Stall, number: str, own_font: FontFile | None) -> Text:
     """Draw the number of a stall, horizontal and beside its entry, so that the stall's centre stays clear."""
+    font = "" if number.isascii() else font_with(number, own_font)
     # measure all digits as the widest one, so that few widths are computed
-    width = text_width(_DIGIT.sub("8", number), _NUMBER_M)
+    width = text_width(_DIGIT.sub("8", number), _NUMBER_M, font)
     height = _NUMBER_M * min(1.0, _NUMBER_WIDTH_M / width)
     x, z = stall.outwards
     inwards = _NUMBER_FROM_MOUTH_M if abs(z) > abs(x) else (_NUMBER_FROM_MOUTH_M + width * height / _NUMBER_M) / 2
-    return Text(_inside(stall, inwards), number, height, INK, kind="number")
+    return Text(_inside(stall, inwards), number, height, INK, kind="number", font=font)
 
 
 def _inside(stall: Stall, inwards_m: float) -> Point:

@@ -5,6 +5,7 @@ from dataclasses import replace
 from functools import cache
 
 from garage2usd.assets.figures import POSES
+from garage2usd.assets.lettering import OWN_FONT
 from garage2usd.config.look import ColumnSection, Dirt, Guard
 from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_BODIES, PAINTS, VehicleClass
 from garage2usd.garage.ramp_lines import CoilLine
@@ -48,7 +49,13 @@ from garage2usd.objects.sky import SkySpec
 from garage2usd.objects.speed_bump import SpeedBumpSpec
 from garage2usd.objects.sprinkler import SprinklerSpec
 from garage2usd.objects.stall import StallSpec
-from garage2usd.objects.stall_number import NumberFrameSpec, NumberSpec, WallNumberSpec
+from garage2usd.objects.stall_number import (
+    FontNumberSpec,
+    NumberFrameSpec,
+    NumberSpec,
+    WallFontNumberSpec,
+    WallNumberSpec,
+)
 from garage2usd.objects.trolley import TrolleySpec
 from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.objects.waste_bin import BIN_COLOURS, BinSpec
@@ -149,6 +156,9 @@ SPECS = {
     **{f"number_{digits}": NumberSpec(digits, 0.45) for digits in [*"0123456789", "07", "88", "A1", "-"]},
     "number_frame": NumberFrameSpec(1.2, 0.7),
     "wall_number": WallNumberSpec("07", 0.3),
+    "lettered_number": NumberSpec("Жg", 0.45),
+    "font_number": FontNumberSpec("Ä2", 0.45, OWN_FONT),
+    "wall_font_number": WallFontNumberSpec("07", 0.3, OWN_FONT),
     **{
         f"plate_{text}": ZonePlateSpec(text, 0.528)
         for text in [*(f"{letter}1" for letter in string.ascii_uppercase if letter not in "IO"), "B7", "K12"]

@@ -2,14 +2,23 @@
 
 from collections.abc import Iterable
 
-from garage2usd.assets.glyphs import GLYPH_PITCH, GLYPH_WIDTH, drawn_form, undrawn
+from garage2usd.assets.glyphs import GLYPH_PITCH, GLYPH_WIDTH
+from garage2usd.assets.lettering import cells_of, overhang_of, unpainted, written_form
 from garage2usd.config import FittingsConfig, LookConfig
+from garage2usd.config.font_file import FontFile
 from garage2usd.config.look import BandForm, MarkingsLook, NumberForm, NumberPlace
 from garage2usd.garage import StallKind
+from garage2usd.layout.parking.zones import zone_of
 from garage2usd.layout.placement import PlacedStall, Placement, placed
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.objects.kind import Point, Spec
-from garage2usd.objects.stall_number import NumberFrameSpec, NumberSpec, WallNumberSpec
+from garage2usd.objects.stall_number import (
+    FontNumberSpec,
+    NumberFrameSpec,
+    NumberSpec,
+    WallFontNumberSpec,
+    WallNumberSpec,
+)
 from garage2usd.objects.wheel_stop import WHEEL_STOP_WIDTH_M
 from garage2usd.structure.grid import outside_squares
 
@@ -35,15 +44,16 @@ def stall_numbers(
 
     Short pieces need few prototypes for all numbers. Without a grid, none are on walls.
     """
-    numbers = look.numbers
+    numbers, font = look.numbers, look.font
     if not fittings.stall_numbers or numbers.place is NumberPlace.NONE:
         return []
     placements: list[Placement] = []
     for stall in stalls:
-        if not stall.number or undrawn(stall.number):
+        if not stall.number or unpainted(stall.number, font):
             continue
-        texts = _split(drawn_form(stall.number), numbers.form)
-        count = sum(map(len, texts))
+        texts = _split(written_form(stall.number), numbers.form)
+        widths = [cells_of(text, font) for text in texts]
+        count = sum(widths)
         if not count:
             continue
         height_m = _fitting_height_m(numbers.height_m, count, stall.width_m)
@@ -52,18 +62,25 @@ def stall_numbers(
             along = -wall_m
         else:
             along, height_m = _on_floor_m(stall, numbers.place, height_m, look.markings)
-        done = 0
-        for piece, text in enumerate(reversed(texts), start=1):
-            done += len(text)
-            across = (count - 2 * done + len(text)) / 2 * GLYPH_PITCH * height_m
-            spec: Spec = NumberSpec(text, height_m) if wall_m is None else WallNumberSpec(text, height_m)
+        done = 0.0
+        for piece, (text, width) in enumerate(zip(reversed(texts), reversed(widths), strict=True), start=1):
+            done += width
+            across = (count - 2 * done + width) / 2 * GLYPH_PITCH * height_m
+            spec = _spec(text, height_m, font, is_upright=wall_m is not None)
             placements.append(_piece_placement(stall, spec, (across, along), piece, is_upright=wall_m is not None))
         if numbers.form is NumberForm.BOXED and wall_m is None:
             margin = 2 * _FRAME_MARGIN * height_m
-            width = (GLYPH_WIDTH + GLYPH_PITCH * (count - 1)) * height_m + margin
-            frame = NumberFrameSpec(round(width, 3), round(height_m + margin, 3))
+            width_m = (GLYPH_WIDTH + GLYPH_PITCH * (count - 1)) * height_m + margin
+            over_m = 2 * max(overhang_of(text, font) for text in texts) * height_m
+            frame = NumberFrameSpec(round(width_m, 3), round(height_m + over_m + margin, 3))
             placements.append(_piece_placement(stall, frame, (0.0, along), len(texts) + 1, is_upright=False))
     return placements
+
+
+def _spec(text: str, height_m: float, font: FontFile | None, *, is_upright: bool) -> Spec:
+    if font is None:
+        return WallNumberSpec(text, height_m) if is_upright else NumberSpec(text, height_m)
+    return (WallFontNumberSpec if is_upright else FontNumberSpec)(text, height_m, font)
 
 
 def _piece_placement(stall: PlacedStall, spec: Spec, point: Point, piece: int, *, is_upright: bool) -> Placement:
@@ -81,7 +98,8 @@ def _piece_placement(stall: PlacedStall, spec: Spec, point: Point, piece: int, *
 
 def _split(number: str, form: NumberForm) -> list[str]:
     """Split a stall number into its painted pieces, first at the end of the zone."""
-    zone, _, own = number.rpartition("-")
+    zone = zone_of(number)
+    own = number.removeprefix(f"{zone}-") if zone else number
     parts = [zone, "-", own] if zone and form is NumberForm.FULL else [own]
     texts = []
     for part in parts:
@@ -91,7 +109,7 @@ def _split(number: str, form: NumberForm) -> list[str]:
     return texts
 
 
-def _fitting_height_m(height_m: float, count: int, stall_width_m: float) -> float:
+def _fitting_height_m(height_m: float, count: float, stall_width_m: float) -> float:
     """Return the character height, reduced if the number is wider than the stall between its lines."""
     most = (stall_width_m - 2 * _FROM_SIDES_M) / (GLYPH_WIDTH + GLYPH_PITCH * (count - 1))
     return height_m if height_m <= most else max(1, int(most / _HEIGHT_STEP_M)) * _HEIGHT_STEP_M

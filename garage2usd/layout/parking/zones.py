@@ -69,7 +69,7 @@ class Zones:
 def zone_of(number: str) -> str:
     """Return the name of the zone in a stall's number, ``B2`` of ``B2-07``; empty without one."""
     zone = number.rpartition("-")[0]
-    return zone if len(zone) > 1 and zone[0] in string.ascii_uppercase and zone[1:].isdecimal() else ""
+    return zone if len(zone) > 1 and zone[0] in string.ascii_uppercase and set(zone[1:]) <= {*string.digits} else ""
 
 
 def with_numbers(stalls: Iterable[PlacedStall], zones: Zones | None) -> tuple[PlacedStall, ...]:

@@ -173,7 +173,7 @@ def lay_out_survey(
     if not found:
         reasons = ", ".join(dict.fromkeys(each.reason for each in unplaced)) or "it has none"
         raise ConfigError("stalls", reasons, "one stall or more that can be placed")
-    stalls, fitted = placed_stalls(found, ground)
+    stalls, fitted = placed_stalls(found, ground, look.font)
     labels = {stall.square: f"stall_{StallType.TYPE_3.value}" for stall in stalls}
     labels |= {ground.square_at(node.position): node.kind for node in reversed(network.nodes)}
     source = SurveyedFloor(survey, network, fitted, (*survey.unread, *unplaced), labels, above)

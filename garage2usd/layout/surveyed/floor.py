@@ -3,13 +3,15 @@
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import count
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.assets.glyphs import undrawn
+from garage2usd.assets.lettering import lacks, unpainted
 from garage2usd.config import BayConfig
+from garage2usd.config.font_file import FontFile
 from garage2usd.layout.ceiling.beams import beams
 from garage2usd.layout.placement import PlacedStall, Placement, of_spec
 from garage2usd.layout.surveyed.ground import OFF_LINE_M, SurveyedGround
@@ -94,9 +96,12 @@ def _on_lines(place: Placement, lines: tuple[NDArray[np.float64], NDArray[np.flo
 
 
 def placed_stalls(
-    fitted: Iterable[FittedStall], ground: SurveyedGround
+    fitted: Iterable[FittedStall], ground: SurveyedGround, font: FontFile | None
 ) -> tuple[tuple[PlacedStall, ...], tuple[FittedStall, ...]]:
-    """Return the stalls in reading order of their tiles, with painted numbers, and the fitted stalls likewise."""
+    """Return the stalls in reading order of their tiles, with numbers, and the fitted stalls likewise.
+
+    Stalls whose number `font` or the lettering cannot paint as it is written have a note.
+    """
     fitted = list(fitted)
     square_of = [ground.square_at(stall.shape.centre) for stall in fitted]
     numbers = _numbers(fitted)
@@ -125,25 +130,29 @@ def placed_stalls(
                 size=stall.source.size.value,
             )
         )
-    return tuple(stalls), tuple(_noted(fitted[index], numbers[index]) for index in order)
+    return tuple(stalls), tuple(_noted(fitted[index], numbers[index], font) for index in order)
 
 
-def _noted(stall: FittedStall, number: str) -> FittedStall:
-    """Return a stall with a note if its number cannot be painted."""
-    lacking = "".join(undrawn(number))
-    if not lacking:
+def _noted(stall: FittedStall, number: str, font: FontFile | None) -> FittedStall:
+    """Return a stall with a note if its number cannot be painted, or if the user's font lacks a part of it."""
+    if lacking := unpainted(number, font):
+        has_it = "the lettering has" if font is None else "the lettering and the font have"
+        note = f"its number '{number}' is not painted, as {has_it} no {lacking}; look.font may name a font that has it"
+    elif font is not None and (lacking := lacks(number, font)):
+        note = f"its number '{number}' is not all in the font, which has no {lacking}"
+    else:
         return stall
-    note = f"its number '{number}' is not painted, as the lettering has no {lacking}"
     return replace(stall, note=f"{stall.note}; {note}" if stall.note else note)
 
 
 def _numbers(fitted: Iterable[FittedStall]) -> list[str]:
-    """Return the number of each stall: that of the survey, or consecutive numbers if any is missing or not unique.
+    """Return the number of each stall: as the survey gives it, also twice; where it gives none, the next that is free.
 
-    Stalls in which nobody parks need none.
+    Stalls in which nobody parks need none. Without any number in the survey, all stalls are counted.
     """
-    given = [stall.source.number for stall in fitted]
-    asked = [stall.source.number for stall in fitted if stall.source.use.is_parked_in]
-    if all(asked) and len(set(asked)) == len(asked):
-        return given
-    return [f"{number:02d}" for number in range(1, len(given) + 1)]
+    stalls = [stall.source for stall in fitted]
+    taken = {stall.number for stall in stalls}
+    if taken <= {""}:
+        return [f"{number:02d}" for number in range(1, len(stalls) + 1)]
+    free = (text for number in count(1) if (text := f"{number:02d}") not in taken and str(number) not in taken)
+    return [stall.number if stall.number or not stall.use.is_parked_in else next(free) for stall in stalls]

@@ -13,6 +13,7 @@ DATA_FILES = (
     "datasets/*.jinja",
     "datasets/*.json",
     "assets/car_shapes.toml",
+    "assets/fonts/*",
     "datasets/*.toml",
     "native/*.[ch]",
     "native/loops.so",
@@ -82,6 +83,7 @@ def test_the_wheel_holds_what_runs_and_nothing_else(wheel):
     data = {path.relative_to(package) for part in DATA_FILES for path in package.glob(part)}
     assert len(pictures) > 10
     expected = (
+        "assets/fonts/DejaVuSansCondensed.LICENSE.txt",
         "config/markets/world.toml",
         "datasets/card.md.jinja",
         "datasets/world.toml",

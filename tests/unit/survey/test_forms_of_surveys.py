@@ -46,9 +46,18 @@ def test_numbers_are_placed_as_given_and_painted_where_the_lettering_has_them(tm
     assert found == set(given)
     assert [stall.number for stall in made.garage.layout.quads] == given
     unpainted = {stall.source.number for stall in made.garage.layout.source.fitted if "not painted" in stall.note}
-    assert unpainted == {'a"b\\', "车1", "🚗", "½"}
+    assert unpainted == {"车1", "🚗"}
     digits = {place.spec.digits for place in made.garage.layout.of_kind("stall_number")}
-    assert {"2A", "/2", "Ä2"} <= digits
+    assert {"2a", "/2", "Ä2", "½", "b\\", "-"} <= digits
+
+
+def test_given_numbers_stay_and_the_others_get_free_ones(tmp_path):
+    given = ["2", "", "P", "P", "", "01", "03"]
+    stalls = [feature("stall", "Polygon", [box(2.5 * at)], number=text) for at, text in enumerate(given)]
+    made = import_layout(write_geojson(tmp_path / "a.geojson", stalls), tmp_path / "a.usda", proves=False)
+    numbers = {stall.source.name: quad.number for stall, quad in zip(
+        made.garage.layout.source.fitted, made.garage.layout.quads, strict=True)}  # fmt: skip
+    assert [numbers[f"feature {at}"] for at in range(7)] == ["2", "04", "P", "P", "05", "01", "03"]
 
 
 OSM_STALL = '<way id="{n}">{refs}<tag k="amenity" v="parking_space"/>{tags}</way>'
