@@ -14,6 +14,7 @@ from garage2usd.garage import LaneGraph, Stall
 from garage2usd.garage.levels import JoinedLevels, LevelLanes, LevelPlace, RampLane, join_levels, level_name
 from garage2usd.layout import Layout
 from garage2usd.planning import Plan, plan_tape_of, tape_of
+from garage2usd.planning.stall_kinds import unheld_shares
 from garage2usd.structure.building import Building
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneSquares
@@ -153,6 +154,12 @@ class Garage:
     def plans(self) -> tuple[Plan, ...]:
         """Plan of each level; empty for a garage that was imported."""
         return tuple(level.planned.plan for level in self.levels if level.planned is not None)
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """Shares of stalls that the site does not hold, one line each."""
+        graphs = (level.planned.graph for level in self.levels if level.planned is not None)
+        return unheld_shares((row for graph in graphs for row in graph.stall_rows), self.config)
 
     @property
     def lanes(self) -> LaneGraph:

@@ -30,6 +30,7 @@ from garage2usd.planning import (
     play_plan,
 )
 from garage2usd.planning.dimensions import aisle_side_mm, lines_with_aisles
+from garage2usd.planning.stall_kinds import no_stalls
 from garage2usd.site.levels import (
     LevelSites,
     make_level_sites,
@@ -159,9 +160,7 @@ def lane_squares_of(plan: Plan, config: GarageConfig) -> LaneSquares:
     """Return the lanes and rows of stalls of a plan. Errors as for `garage2usd.generate`."""
     graph = build_lane_graph(plan.structure, config.bay, plan.runs, plan.directions)
     if not graph.stall_rows:
-        raise ConfigError(
-            "site.structure", str(plan.structure), "at least one free square beside a lane that takes a stall"
-        )
+        raise no_stalls(plan, config)
     return graph
 
 

@@ -120,7 +120,7 @@ def make_report(
         tape=_tape_or_none(lambda: garage.tape) if garage.plans else None,
         parking_stalls=garage.parking_stalls,
         **area_figures([level.layout for level in garage.levels]),
-        remarks=(*config.remarks(), *remarks),
+        remarks=(*config.remarks(), *garage.remarks, *remarks),
         survey=survey,
         links=reported_links(garage),
         levels=tuple(

@@ -97,7 +97,7 @@ def build(
 
     The garage is designed to all clauses of its profile that the given settings allow. Violated clauses are printed on
     stderr, one per line, and listed under not_designed_to in the report. So are, under remarks, the files of folders of
-    your own: which are used for what, and which are not.
+    your own, which are used for what and which are not, and shares of stalls that the site does not hold.
 
     \b
     Examples:
@@ -135,7 +135,7 @@ def build(
             exports = export(
                 made.stage, exports, settings=settings.maps, progress=progress, workers=cores(), notice=notices.append
             )
-    echo_notices(notices)
+    echo_notices([*notices, *made.garage.remarks])
     for entry in made.unmet or ():
         click.echo(f"not designed to {entry.clause}: {entry.reason}", err=True)
     _describe(made)

@@ -26,7 +26,7 @@ from garage2usd.layout.furnishing import Floor, furnished
 from garage2usd.layout.measures import FloorArea, check_carriageways
 from garage2usd.layout.parking.designation import with_designated_stalls
 from garage2usd.layout.parking.stalls import garage_stalls, stall_quads, stalls_of, with_turning_stalls
-from garage2usd.layout.parking.zones import Zones, with_numbers
+from garage2usd.layout.parking.zones import with_numbers
 from garage2usd.layout.placement import PlacedStall, Placement
 from garage2usd.layout.shell.building import columns, corner_columns, outer_walls
 from garage2usd.layout.shell.well import Well
@@ -281,8 +281,8 @@ def lay_out(
         raise ConfigError("plan.unreachable_stalls", "drop", "a plan that leaves a stall that cars get into")
     check_carriageways(grid)
     pillars = columns(grid, bay, fittings, look.columns, beam_depth_m)
-    zones = Zones(structure) if fittings.zones else None
-    stalls = with_numbers(_used_stalls(grid, graph, cores, config, unreachable, no_ways_out), zones)
+    used = _used_stalls(grid, graph, cores, config, unreachable, no_ways_out)
+    stalls = with_numbers(used, graph, has_zones=fittings.zones, keeps_left=config.standard.drives_on_left)
     storey_m = well.building.storey_m if well and not well.is_top else None
     floor = Floor(
         tiles=grid,

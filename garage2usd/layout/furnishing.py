@@ -27,7 +27,7 @@ from garage2usd.layout.parking.loose_objects import clutter, no_parking_signs
 from garage2usd.layout.parking.other_vehicles import park_motorbikes, with_own_cars
 from garage2usd.layout.parking.parked_cars import park_cars
 from garage2usd.layout.parking.stalls import stall_panels, tight_stalls, wheel_stops
-from garage2usd.layout.parking.zones import zone_plates
+from garage2usd.layout.parking.zone_plates import zone_plates
 from garage2usd.layout.placement import PlacedStall, Placement
 from garage2usd.layout.shell.building import with_boards
 from garage2usd.layout.shell.mounts import mounted_objects

@@ -28,13 +28,15 @@ from garage2usd.structure.stall_runs import (
     runs_of_rows,
     split_for_motorcycles,
 )
-from garage2usd.structure.stalls import PARALLEL_DEG, PERPENDICULAR_DEG, Edge, StallShape, stall_rows
+from garage2usd.structure.stalls import PARALLEL_DEG, PERPENDICULAR_DEG, Edge, StallRow, StallShape, stall_rows
 
 _MM_PER_M = 1000
 _PASSES = 4
 WRONG_SHARE_M2 = 30.0
 """Floor per stall that a sum of 1 over the differences from the wanted shares is worth."""
 _LEAST_GAIN = 1e-6
+_TOLD_SHARE = 0.05
+"""Difference of a share from the wanted one above which it is told: a run of squares has one kind."""
 _PARALLEL_LENGTH_M = 6.0
 """Length of parallel stalls where the profile has none."""
 
@@ -287,6 +289,56 @@ def wrong_shares(plan: Plan, config: GarageConfig) -> float:
     for row in rows_of_runs(plan.structure, config.bay, plan.runs):
         stalls[row.shape.kind, SizeClass(row.shape.size)] += row.count
     return _share_error(stalls, config.stalls.shares)
+
+
+def unheld_shares(rows: Iterable[StallRow], config: GarageConfig) -> tuple[str, ...]:
+    """Return a line on the kinds and one on the sizes of stalls, if a share is more than 0.05 from the wanted one.
+
+    Parameters
+    ----------
+    rows
+        The planned rows of stalls of all levels.
+    config
+        The wanted shares.
+    """
+    stalls = config.stalls
+    if stalls.is_free or stalls.is_uniform or stalls.only_runs:
+        return ()
+    lines = []
+    held = Counter[_Option]()
+    for row in rows:
+        held[row.shape.kind, SizeClass(row.shape.size)] += row.count
+    for part, field in enumerate(("kinds", "sizes")):
+        shares: dict[str, list[float]] = {}
+        for option in {**stalls.shares, **held}:
+            of_value = shares.setdefault(option[part].value, [0.0, 0.0])
+            of_value[0] += stalls.shares.get(option, 0.0)
+            of_value[1] += held[option] / (held.total() or 1)
+        if any(abs(asked - got) > _TOLD_SHARE for asked, got in shares.values()):
+            wanted, found = (
+                ", ".join(f"{value} = {of_value[index]:.2f}" for value, of_value in shares.items()) for index in (0, 1)
+            )
+            lines.append(f"stalls.{field}: got {wanted}; the lanes planned on this site hold {found}")
+    return tuple(lines)
+
+
+def no_stalls(plan: Plan, config: GarageConfig) -> ConfigError:
+    """Return the error of a plan in which no stall fits; if all are angled, it names the nearest angle that does."""
+    structure, asked = plan.structure, config.stalls.angles_deg
+    if {run.shape.kind for run in plan.runs} != {StallKind.ANGLED}:
+        return ConfigError(
+            "site.structure", str(structure), "at least one free square beside a lane that takes a stall"
+        )
+    deepest_m = max(structure.row_depths_mm.max(), structure.column_widths_mm.max()) / _MM_PER_M
+    depths_m = {angle: _shape(config, StallKind.ANGLED, SizeClass.STANDARD, angle).depth_m for angle in range(30, 86)}
+    fitting = [angle for angle, depth_m in depths_m.items() if depth_m <= deepest_m]
+    if not fitting:
+        least_m = min(depths_m.values())
+        return ConfigError(
+            "stalls.angles_deg", list(asked), f"perpendicular stalls, or squares of {least_m:g} m or more"
+        )
+    nearest = min(fitting, key=lambda angle: min(abs(angle - each) for each in asked))
+    return ConfigError("stalls.angles_deg", list(asked), f"{nearest}, the nearest angle on squares of {deepest_m:g} m")
 
 
 def _share_error(stalls: Mapping[_Option, int], shares: Mapping[_Option, float]) -> float:

@@ -71,6 +71,10 @@ def _check_room(site: Structure, bay: BayConfig) -> None:
     raise ConfigError("bay.column_widths_m, bay.row_depths_m", sizes, f"{least}, for {stall}; {smaller}")
 
 
+_MORE_SQUARES = 9
+"""Sites of up to eight rows and columns more are tried for an error that says how large a site has room for ramps."""
+
+
 class _Kind(NamedTuple):
     """Functions of a kind of ramps.
 
@@ -125,8 +129,7 @@ def draw_ramps(site: Structure, config: GarageConfig, attempt: int = 0) -> Ramps
     if len(places) <= attempt:
         reason = (
             f"{kind.room(config)}, with free landings and squares ahead of these, find no place on "
-            f"{site.shape[0]} x {site.shape[1]} squares; a larger site, fewer obstacles or a steeper "
-            "building.ramp_slope_percent gives them room"
+            f"{site.shape[0]} x {site.shape[1]} squares; {_what_has_room(site, config)}"
         )
         raise GenerationError("links", reason, seed=config.seed, attempts=attempt + 1)
     costs = {ramps: cost_of_place(site, ramps) for ramps in places}
@@ -136,6 +139,30 @@ def draw_ramps(site: Structure, config: GarageConfig, attempt: int = 0) -> Ramps
         drawn = cheapest[int(generator(config.seed, Step.LINKS, number).integers(len(cheapest)))]
         del costs[drawn]
     return drawn
+
+
+def _what_has_room(site: Structure, config: GarageConfig) -> str:
+    """Say what a site without room for its ramps could hold, and the size of a site with room for them."""
+
+    def has_room(site: Structure, name: LinkKind, levels: int) -> bool:
+        return any(ramps_are_free(site.cells, ramps, levels) for ramps in _KINDS[name].places(site, config))
+
+    kind, levels, (rows, cols) = config.building.ramps, config.building.levels, site.shape
+    others = [f'building.ramps = "{other}"' for other in LinkKind if other != kind and has_room(site, other, levels)]
+    fewer = [f"{count} levels" for count in range(levels - 1, 1, -1) if has_room(site, kind, count)]
+    here = " or ".join([*others, *fewer[:1]] or ["1 level"])
+    more = sorted(
+        np.ndindex(_MORE_SQUARES, _MORE_SQUARES), key=lambda more: ((rows + more[0]) * (cols + more[1]), more)
+    )
+    depth_m, width_m = (float(np.median(sides)) / 1000 for sides in (site.row_depths_mm, site.column_widths_mm))
+    for size in ((rows + down, cols + right) for down, right in more):
+        if has_room(Structure.from_arrays(np.zeros(size, np.int8), width_m, depth_m), kind, levels):
+            is_same = " with its doors and obstacles elsewhere" if size == site.shape else ""
+            needed = f"one of {size[0]} x {size[1]} squares{is_same}"
+            break
+    else:
+        needed = "a much larger one"
+    return f"this site has room for {here}, and {needed} or a steeper building.ramp_slope_percent for these ramps"
 
 
 def _given(site: Structure, config: GarageConfig, place: RampsPlace) -> Ramps:

@@ -145,6 +145,34 @@ def _stretches(graph: "nx.Graph[Square]") -> Iterator[tuple[Square, ...]]:
             yield tuple(path)
 
 
+def aisles_of(structure: Structure) -> list[tuple[tuple[Square, ...], ...]]:
+    """Join the stretches that go straight on at junctions to aisles, each as its stretches from one end to the other.
+
+    Adjacent stretches of an aisle share the square of their junction; a lane square without neighbours is an aisle too.
+    """
+    stretches = stretches_of(structure)
+    leaving = {way[:2]: way for stretch in stretches for way in (stretch[::-1], stretch)}
+
+    def followed(way: tuple[Square, ...]) -> list[tuple[Square, ...]]:
+        aisle = [way]
+        while True:
+            (row, col), (from_row, from_col) = aisle[-1][-1], aisle[-1][-2]
+            onward = leaving.get(((row, col), (2 * row - from_row, 2 * col - from_col)))
+            if onward is None or {onward, onward[::-1]} & {*aisle}:
+                return aisle
+            aisle.append(onward)
+
+    aisles: list[tuple[tuple[Square, ...], ...]] = []
+    done: set[tuple[Square, ...]] = set()
+    for stretch in stretches:
+        if stretch not in done:
+            aisle = followed(followed(stretch)[-1][::-1])
+            done.update(way for each in aisle for way in (each, each[::-1]))
+            aisles.append(tuple(aisle))
+    lonely = {*structure.where(Cell.LANE)}.difference(square for stretch in stretches for square in stretch)
+    return aisles + [((square,),) for square in sorted(lonely)]
+
+
 def given_directions(structure: Structure, one_way: Iterable[Step], *, field: str) -> LaneDirections:
     """Turn whole stretches of lane to given one-way steps.
 

@@ -92,7 +92,7 @@ def find_stall(stalls: Sequence[Stall], number: str) -> Stall:
     found = find_named(number, names)
     if len(found) == 1:
         return found[0]
-    some = [str(stall.number) for stall in stalls if stall.number]
+    some = sorted(str(stall.number) for stall in stalls if stall.number)
     known = f"numbers as {', '.join(some[:_SHOWN_NUMBERS])}" if some else "ids as in the report"
     raise ConfigError("stall", number, known)
 

@@ -1,6 +1,7 @@
 """Garages of several levels: settings, their random process, files, and what refuses them."""
 
 import json
+import re
 from collections import Counter
 
 import numpy as np
@@ -226,6 +227,26 @@ def test_a_site_without_room_for_ramps_says_so():
     small = {"width_cells": 6, "height_cells": 6}
     with pytest.raises(GenerationError, match=r"ramps of 28.2 m, two squares wide.*find no place on 6 x 6"):
         garage2usd.generate(config(site=small))
+
+
+@pytest.mark.parametrize(
+    ("seed", "cells", "ramps", "told"),
+    [
+        (1, (6, 5), "straight", "room for 1 level, and one of 5 x 9 squares or a steeper"),
+        (2, (9, 5), "helix", 'room for building.ramps = "straight", and one of 6 x 10 squares or a steeper'),
+        (1, (9, 5), "straight", "one of 5 x 9 squares with its doors and obstacles elsewhere or"),
+    ],
+)
+def test_a_site_without_room_for_ramps_says_what_has_room(seed, cells, ramps, told):
+    site = dict(zip(("width_cells", "height_cells"), cells, strict=True))
+    building = {"levels": 2, "ramps": ramps}
+    with pytest.raises(GenerationError) as refused:
+        garage2usd.generate(GarageConfig(seed=seed, site=site, building=building))
+    assert told in str(refused.value)
+    (rows, cols) = map(int, re.findall(r"one of (\d+) x (\d+) squares", str(refused.value))[0])
+    larger = {"width_cells": cols, "height_cells": rows}
+    made = garage2usd.generate(GarageConfig(seed=3, site=larger, building=building))
+    assert len(made.levels) == 2
 
 
 def test_files_are_the_same_every_time_but_for_seconds(built, tmp_path):

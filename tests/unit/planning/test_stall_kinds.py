@@ -1,3 +1,4 @@
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -180,3 +181,31 @@ def test_parallel_stalls_stand_in_rows():
     parallel = [run for run in garage.plan.runs if run.shape.kind is StallKind.PARALLEL]
     assert parallel
     assert all(len(run.squares) > 1 for run in parallel)
+
+
+def on_fixed_squares(side_m, **stalls):
+    site, bay = {"width_cells": 9, "height_cells": 7}, {"dimensioned": False, "square_side_m": side_m}
+    return GarageConfig(seed=1, site=site, bay=bay, stalls=stalls)
+
+
+def test_shares_that_a_site_does_not_hold_are_told_in_one_line():
+    garage = generate(on_fixed_squares(5.4, kinds={"perpendicular": 0.6, "parallel": 0.4}))
+    asked, held = "perpendicular = 0.60, parallel = 0.40", "perpendicular = 1.00, parallel = 0.00"
+    assert garage.remarks == (f"stalls.kinds: got {asked}; the lanes planned on this site hold {held}",)
+    # what is told are the shares of the stalls that were planned
+    mixed = generate(on_fixed_squares(8.1, kinds={"perpendicular": 0.1, "angled": 0.9}, angles_deg=[60]))
+    counts = Counter()
+    for row in mixed.graph.stall_rows:
+        counts[row.shape.kind.value] += row.count
+    is_far = abs(counts["angled"] / counts.total() - 0.9) > 0.05
+    assert len(mixed.remarks) == is_far
+    assert all(f"angled = {counts['angled'] / counts.total():.2f}" in line.split(";")[1] for line in mixed.remarks)
+    assert generate(on_fixed_squares(8.1)).remarks == ()
+
+
+@pytest.mark.parametrize(("side_m", "asked_deg", "nearest_deg"), [(5.4, 75, 43), (5.6, 75, 82)])
+def test_angles_that_no_square_holds_are_refused_with_the_nearest_one(side_m, asked_deg, nearest_deg):
+    with pytest.raises(ConfigError, match=rf"stalls.angles_deg: got \[{asked_deg}.0\]; allowed: {nearest_deg}, "):
+        generate(on_fixed_squares(side_m, kinds={"angled": 1.0}, angles_deg=[asked_deg]))
+    garage = generate(on_fixed_squares(side_m, kinds={"angled": 1.0}, angles_deg=[nearest_deg]))
+    assert {stall.angle_deg for stall in garage.layout.stalls} == {nearest_deg}

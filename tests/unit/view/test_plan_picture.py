@@ -180,7 +180,7 @@ def test_directions_keep_right_and_portals_are_one_way(garage):
             assert ahead[0] * aside[1] - ahead[1] * aside[0] > 0
 
 
-@pytest.mark.parametrize("number", ["A2-04", "B1-22", "C1-14", "C3-01"])
+@pytest.mark.parametrize("number", ["A1-04", "A2-22", "B1-14", "B1-31"])
 def test_the_route_is_the_shortest_over_lanes(garage, number):
     stall = find_stall(garage.layout.quads, number)
     assert {find_stall(garage.layout.quads, name).name for name in (number.lower(), stall.name.upper())} == {stall.name}
@@ -401,7 +401,7 @@ def test_configuration_report_and_stage_give_the_picture_of_the_build(builds, tm
 
 
 def test_a_stall_is_chosen_by_its_number(tmp_path):
-    result = run(HAND_DRAWN, "--stall", "B2-07", "-o", tmp_path / "p.svg")
+    result = run(HAND_DRAWN, "--stall", "A2-07", "-o", tmp_path / "p.svg")
     assert result.exit_code == 0, result.output
     classes = [element.get("class") for element in ET.parse(tmp_path / "p.svg").iter(f"{SVG}polyline")]
     assert {"chosen", "way in", "way out"} <= set(classes)
