@@ -63,7 +63,7 @@ _WORDS = {
         "=wall =walls wand =wande mauer =mur =murs =muro =muros =muri parete pared =parede стена "
         "стены =墙 墙体 墙线 外墙 剪力墙 벽 壁"
     ),
-    PartKind.MOUTH: ("=mouth", "=mouths"),
+    PartKind.MOUTH: "=mouth =mouths",
     PartKind.STALL: (
         "park =stall =stalls =bay =bays =pkng =prkg =pkg =strp striping stellplatz =pkw "
         "estacionamiento estacionamento aparcamiento =plaza =plazas =vaga =vagas parcheggi posto_auto "
