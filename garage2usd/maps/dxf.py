@@ -32,6 +32,7 @@ _COLOURS = {
     "LANES_ONE_WAY": 4,
     "RAMPS": 6,
     "STALLS": 5,
+    "MOUTHS": 9,
     "NUMBERS": 2,
     "USES": 30,
 }
@@ -55,11 +56,11 @@ def write_dxf(garage: BuiltGarage, path: Path, *, plan: GroundPlan | None = None
     Notes
     -----
     A unit is a metre, x leads east and y north as in all maps. Stalls are closed polylines on the layer ``STALLS``,
-    which begin at the left end of the mouth, with the number on ``NUMBERS`` and a use other than the standard one on
-    ``USES`` inside. Lanes are polylines on ``LANES`` and, in the direction of driving, ``LANES_ONE_WAY``, with their
-    width as the global width. ``OUTLINE``, ``COLUMNS`` and ``BLOCKS`` have closed polylines, ``DOORS`` a line and a
-    word for each door. The layers of a garage of several levels end in the level's name, ``STALLS_U1``; levels lie over
-    each other at their heights, joined by lines in space on ``RAMPS``.
+    with the number on ``NUMBERS``, and a use and a size other than the standard one on ``USES`` inside; their mouths
+    are lines on ``MOUTHS``. Lanes are polylines on ``LANES`` and, in the direction of driving, ``LANES_ONE_WAY``, with
+    their width as the global width. ``OUTLINE``, ``COLUMNS`` and ``BLOCKS`` have closed polylines, ``DOORS`` a line and
+    a word for each door. The layers of a garage of several levels end in the level's name, ``STALLS_U1``; levels lie
+    over each other at their heights, joined by lines in space on ``RAMPS``.
     """
     plan = plan or ground_plan(garage)
     with _fixed_metadata():
@@ -104,12 +105,15 @@ def _add_level(space: Modelspace, level: LevelPlan) -> None:
         _add_text(space, level, "DOORS", door.kind, np.array(door.position), 0.0, _TEXT_M)
     for stall, corners in zip(level.stalls, level.corners, strict=True):
         _add_ring(space, level, "STALLS", corners)
+        space.add_lwpolyline(corners[:2].round(_DIGITS).tolist(), dxfattribs=_on(level, "MOUTHS"))
         middle, inwards = corners.mean(axis=0), (corners[2] + corners[3] - corners[0] - corners[1]) / 2
         turn_deg = _readable_deg(corners[1] - corners[0])
         if stall.number:
             _add_text(space, level, "NUMBERS", str(stall.number), middle, turn_deg, _TEXT_M)
         if stall.use is not StallUse.STANDARD:
             _add_text(space, level, "USES", str(stall.use), middle + inwards / 4, turn_deg, _TEXT_M / 2)
+        if stall.size != "standard":
+            _add_text(space, level, "USES", stall.size, middle - inwards / 4, turn_deg, _TEXT_M / 2)
 
 
 def _on(level: LevelPlan, layer: str) -> dict[str, str | float]:
