@@ -1,10 +1,11 @@
 """Surveys as OpenDRIVE: parking spaces and columns beside roads, and the driving lanes of the roads."""
+# Over 300 lines: an object beside a road has many forms, all of which end as corners.
 
 import math
 import re
 import xml.etree.ElementTree as ET
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
@@ -14,10 +15,13 @@ from numpy.typing import NDArray
 
 from garage2usd.garage import Point, StallUse
 from garage2usd.survey.apollo_survey import is_apollo, read_apollo_survey
+from garage2usd.survey.opendrive_floors import Floors, level_name
+from garage2usd.survey.opendrive_junctions import Link, with_joined_lanes
 from garage2usd.survey.opendrive_lanes import lanes_of_road, parking_lanes
-from garage2usd.survey.opendrive_lines import RoadLine, road_line
+from garage2usd.survey.opendrive_lines import RoadLine, cubics_of, road_line
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import Survey, Unplaced
+from garage2usd.survey.surveyed_building import SurveyedBuilding, SurveyedLevel, SurveyedRamp
 from garage2usd.survey.text import MOST_M, number_of, portal_kind_of, positive_of, read_xml, refuse, size_of, use_of
 
 Floats = NDArray[np.float64]
@@ -48,7 +52,7 @@ class _Pose(NamedTuple):
     turned_rad: float
 
 
-def read_opendrive_survey(path: Path) -> Survey:
+def read_opendrive_survey(path: Path) -> Survey | SurveyedBuilding:
     """Read a survey from an OpenDRIVE map.
 
     Parameters
@@ -56,9 +60,10 @@ def read_opendrive_survey(path: Path) -> Survey:
     path
         OpenDRIVE 1.4 to 1.8. Stalls are objects of the type ``parkingSpace``, or ``parking`` as in some maps, with
         outlines, repetitions or as boxes; objects named ``column`` or ``pillar`` are columns. The driving lanes of a
-        road are one lane, two-way if they lead in both directions. Parking lanes of a road without stalls, as in
+        road are one lane, two-way if they lead in both directions. The parking lanes of a map without stalls, as of
         CARLA's towns, are divided. Apollo's kind is read as well (`garage2usd.survey.apollo_survey`). The user data
         ``outline``, ``block``, ``entrance`` and ``exit`` of the header are those of `garage2usd.maps.opendrive`.
+        Roads that lie a storey or more above others are levels, and those between them ramps.
 
     Raises
     ------
@@ -68,27 +73,70 @@ def read_opendrive_survey(path: Path) -> Survey:
     root = read_xml(path, "OpenDRIVE", "an OpenDRIVE map")
     if is_apollo(root):
         return read_apollo_survey(root, path.name)
-    parts = SurveyParts()
+    roads = _roads(root)
+    lines = {key: road_line(road, f"{path.name}: road {key}") for key, road in roads.items()}
+    heights = {
+        key: cubics_of(road.findall("elevationProfile/elevation"), "s", f"{path.name}: road {key}, elevation")
+        for key, road in roads.items()
+    }
+    floors = Floors.of([(heights[key], line.length_m) for key, line in lines.items()])
+    of_floor = {height_m: SurveyParts() for height_m in floors.heights_m}
+    ramps = []
+    lanes = {key: tuple(lanes_of_road(road, lines[key], f"{path.name}: road {key}")) for key, road in roads.items()}
+    for key, number, lane in with_joined_lanes(lanes, {key: _link(road) for key, road in roads.items()}):
+        title = f"road {key}" if number == 0 else f"road {key}, part {number + 1}"
+        points = _ground(lane.points)
+        start_m, end_m = floors.joined(heights[key], lines[key].length_m)
+        if start_m == end_m:
+            of_floor[start_m].add_lane(title, points, lane.width_m, one_way=lane.one_way)
+            continue
+        if math.dist(lane.points[0], lines[key].beside(np.zeros(1), np.zeros(1))[0]) > lane.width_m:
+            start_m, end_m = end_m, start_m  # the lane leads against its road
+        names = level_name(start_m), level_name(end_m)
+        ramps.append(SurveyedRamp(title, tuple(points), names, lane.width_m, one_way=lane.one_way))
+    has_stalls = any(_is_stall(element) for road in roads.values() for element in road.findall("objects/object"))
+    for key, road in roads.items():
+        name, place, line = f"road {key}", f"{path.name}: road {key}", lines[key]
+        for element in road.findall("objects/object"):
+            height_m = floors.nearest(float(heights[key].at(np.array([_float_of(element.get("s", ""))]))[0]))
+            _add_object(of_floor[height_m], element, line, name, place)
+        if not has_stalls:
+            height_m = floors.nearest(float(heights[key].at(np.array([line.length_m / 2]))[0]))
+            _add_parking_lanes(of_floor[height_m], road, line, name, place)
+    _add_told(list(of_floor.values()), root)
+    surveys = {height_m: parts.survey(origin_deg=_origin(root)) for height_m, parts in of_floor.items()}
+    if len(surveys) == 1:
+        return surveys.popitem()[1]
+    levels = (SurveyedLevel(level_name(height_m), survey, height_m, height_m) for height_m, survey in surveys.items())
+    return SurveyedBuilding(tuple(levels), tuple(ramps))
+
+
+def _roads(root: ET.Element) -> dict[str, ET.Element]:
+    """Return the roads by their ids; by their places in the file where the id is missing or taken."""
+    roads: dict[str, ET.Element] = {}
     for index, road in enumerate(root.findall("road")):
-        name = f"road {road.get('id', index)}"
-        place = f"{path.name}: {name}"
-        line = road_line(road, place)
-        for number, lane in enumerate(lanes_of_road(road, line, place)):
-            title = name if number == 0 else f"{name}, part {number + 1}"
-            parts.add_lane(title, (lane.points * (1.0, -1.0)).tolist(), lane.width_m, one_way=lane.one_way)
-        objects = road.findall("objects/object")
-        for element in objects:
-            _add_object(parts, element, line, name, place)
-        if not any(_is_stall(element) for element in objects):
-            _add_parking_lanes(parts, road, line, name, place)
-    _add_told(parts, root)
-    return parts.survey(origin_deg=_origin(root))
+        key = road.get("id", str(index))
+        roads[f"{key}, number {index}" if key in roads else key] = road
+    return roads
 
 
-def _add_told(parts: SurveyParts, root: ET.Element) -> None:
-    """Add the outline, the blocks and the doors that the user data of the header tell as x y after x y."""
+def _link(road: ET.Element) -> Link:
+    found = (road.find(f"link/{side}") for side in ("predecessor", "successor"))
+    before, after = (
+        None if each is None or each.get("elementType") != "road" else each.get("elementId") for each in found
+    )
+    return Link(road.get("junction", "-1") != "-1", (before, after))
+
+
+def _add_told(levels: Sequence[SurveyParts], root: ET.Element) -> None:
+    """Add the outlines, blocks and doors of levels, from above, that the user data tell as x y after x y."""
     for data in root.findall("header/userData"):
-        code, kind = data.get("code", ""), portal_kind_of(data.get("code", ""))
+        level, _, code = data.get("code", "").rpartition(" ")
+        number = int(level[1:]) if re.fullmatch(r"U[1-9]\d?", level) else 1
+        kind = portal_kind_of(code)
+        if number > len(levels):
+            continue
+        parts = levels[number - 1]
         if code not in {"outline", "block"} and kind is None:
             continue
         numbers = [_float_of(word) for word in data.get("value", "").split()]

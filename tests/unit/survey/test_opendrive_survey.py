@@ -71,7 +71,8 @@ def test_spirals_end_where_scenariogeneration_ends_them(start, end, length, hdg)
         quad(lambda s: math.cos(angle(s)), 0, length, epsabs=1e-9)[0],
         quad(lambda s: math.sin(angle(s)), 0, length, epsabs=1e-9)[0],
     ]
-    assert points == pytest.approx(expected, abs=1e-6)
+    # below 1e-9 per m2 a spiral is an arc of its mean curvature, 2e-5 m off on 60 m
+    assert points == pytest.approx(expected, abs=1e-6 if abs(end - start) / length >= 1e-9 else 2e-5)
     assert heading == pytest.approx(angle(length), abs=1e-9)
     if abs(end - start) > 1e-6:
         peer = xodr.Spiral(start, end, length=length).get_end_data(0, 0, hdg)

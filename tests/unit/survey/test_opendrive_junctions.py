@@ -1,0 +1,78 @@
+"""Connecting roads of OpenDRIVE are laid from middle to middle of their roads; roads above one another are levels."""
+
+import shapely
+
+from garage2usd.imports import import_layout, unplaced_parts
+from garage2usd.survey.reader import read_building, read_survey
+
+LANE = '<lane id="{0}" type="driving"><width sOffset="0" a="3" b="0" c="0" d="0"/></lane>'
+TWO_WAY = f"<left>{LANE.format(1)}</left><right>{LANE.format(-1)}</right>"
+RIGHT = f"<right>{LANE.format(-1)}</right>"
+STALLS = (
+    '<object type="parkingSpace" id="{0}" s="4" t="{1}" hdg="1.5707963" width="2.5" length="5">'
+    '<repeat s="4" length="{2}" distance="2.5" tStart="{1}" tEnd="{1}"/></object>'
+)
+
+
+def road(number, start, hdg, length, *, lanes=TWO_WAY, junction=-1, links=(), objects="", heights=(0.0, 0.0)):
+    tied = "".join(f'<{side} elementType="road" elementId="{other}"/>' for side, other in links)
+    slope = (heights[1] - heights[0]) / length
+    return (
+        f'<road id="{number}" length="{length}" junction="{junction}"><link>{tied}</link>'
+        f'<planView><geometry s="0" x="{start[0]}" y="{start[1]}" hdg="{hdg}" length="{length}"><line/></geometry>'
+        f'</planView><elevationProfile><elevation s="0" a="{heights[0]}" b="{slope}" c="0" d="0"/></elevationProfile>'
+        f'<lanes><laneSection s="0">{lanes}</laneSection></lanes><objects>{objects}</objects></road>'
+    )
+
+
+def written(tmp_path, *roads):
+    path = tmp_path / "lot.xodr"
+    path.write_text(f"<OpenDRIVE>{''.join(roads)}</OpenDRIVE>")
+    return path
+
+
+def crossing(tmp_path):
+    """Two two-way roads of 40 m, ten metres apart in line, joined by a connecting road for each direction."""
+    rows = STALLS.format(1, 6, 30) + STALLS.format(2, -6, 30)
+    links = [("predecessor", 1), ("successor", 2)]
+    return written(
+        tmp_path,
+        road(1, (0, 0), 0, 40, objects=rows),
+        road(2, (50, 0), 0, 40, objects=rows),
+        # single lanes, 1.5 m to the right of the middle of the roads
+        road(3, (40, 0), 0, 10, lanes=RIGHT, junction=9, links=links),
+        road(4, (50, 0), 3.14159265358979, 10, lanes=RIGHT, junction=9, links=[("predecessor", 2), ("successor", 1)]),
+    )
+
+
+def test_connecting_roads_lead_from_middle_to_middle_in_both_directions(tmp_path):
+    survey = read_survey(crossing(tmp_path))
+    (between,) = [lane for lane in survey.lanes if shapely.LineString(lane.points).length < 11]
+    assert not between.one_way
+    assert shapely.LineString(between.points).hausdorff_distance(shapely.LineString([(40, 0), (50, 0)])) < 1e-3
+
+
+def test_stalls_on_both_sides_of_a_junction_are_placed(tmp_path):
+    made = import_layout(crossing(tmp_path), tmp_path / "lot.usdc", proves=False)
+    assert made.garage.parking_stalls == 52
+    assert not unplaced_parts(made.garage)
+
+
+def test_roads_a_storey_apart_are_levels_and_roads_between_them_ramps(tmp_path):
+    rows = STALLS.format(1, 6, 30) + STALLS.format(2, -6, 30)
+    path = written(
+        tmp_path,
+        road(1, (0, 0), 0, 40, objects=rows),
+        road(2, (0, 0), 0, 40, objects=rows, heights=(-3.2, -3.2)),
+        road(3, (40, 0), 0, 25, heights=(0.0, -3.2)),
+    )
+    building = read_building(path)
+    assert [(level.name, len(level.survey.stalls)) for level in building.in_order] == [("0 m", 26), ("-3.2 m", 26)]
+    (ramp,) = building.ramps
+    assert ramp.levels == ("0 m", "-3.2 m")
+    assert ramp.points[0] == (40, 0)
+
+
+def test_gentle_slopes_are_one_level(tmp_path):
+    path = written(tmp_path, road(1, (0, 0), 0, 100, objects=STALLS.format(1, 6, 30), heights=(0.0, 4.0)))
+    assert len(read_building(path).levels) == 1
