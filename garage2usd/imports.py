@@ -20,6 +20,7 @@ from garage2usd.reading.report import SurveyFigures
 from garage2usd.report import make_report
 from garage2usd.structure.building import Building
 from garage2usd.survey.clear_ground import with_medial_lanes
+from garage2usd.survey.enclosure import enclosed
 from garage2usd.survey.reader import read_survey
 from garage2usd.survey.survey import Alignment, Survey, aligned
 from garage2usd.view.thumbnails import draw_pictures
@@ -67,7 +68,7 @@ def import_layout(
     path = checked_output(output, config)
     start = time.perf_counter()
     survey = source if isinstance(source, Survey) else read_survey(Path(source))
-    survey, alignment = aligned(with_medial_lanes(survey))
+    survey, alignment = aligned(with_medial_lanes(enclosed(survey)))
     layout = with_things(lay_out_survey(survey, config), config, progress=progress)
     proofs = prove_stalls(layout, progress=progress) if proves else ()
     building = Building((layout.structure,), None, config.building.storey_m)
@@ -79,7 +80,8 @@ def import_layout(
         findings, unmet = judged_layout(layout, config, with_ways=proves)
         return (Judged(tuple(findings), unmet),)
 
-    report = partial(make_report, garage, survey=_survey_figures(garage, alignment), proofs=proofs)
+    figures, remarks = _survey_figures(garage, alignment), surveyed_floor(garage).survey.remarks
+    report = partial(make_report, garage, survey=figures, proofs=proofs, remarks=remarks)
     draw = partial(draw_pictures, garage)
     made = written(garage, path, seconds, draw=draw, judge=judge, report=report, progress=progress)
     return replace(made, proofs=proofs)

@@ -83,6 +83,7 @@ def make_report(
     learning: LearningFigures | None = None,
     survey: SurveyFigures | None = None,
     proofs: Sequence[StallProof] = (),
+    remarks: Sequence[str] = (),
 ) -> Report:
     """Make the report of a garage; it is reproducible, except for ``seconds``.
 
@@ -100,6 +101,8 @@ def make_report(
         Figures of an import; None for a generated garage.
     proofs
         Proofs of the stalls of an imported garage, if requested.
+    remarks
+        What an import mended or added.
 
     Notes
     -----
@@ -117,7 +120,7 @@ def make_report(
         tape=_tape_or_none(lambda: garage.tape) if garage.plans else None,
         parking_stalls=garage.parking_stalls,
         **area_figures([level.layout for level in garage.levels]),
-        remarks=config.remarks(),
+        remarks=(*config.remarks(), *remarks),
         survey=survey,
         links=reported_links(garage),
         levels=tuple(

@@ -101,6 +101,8 @@ def _distance(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     for first, second in combinations(portals, 2):
         doors = [_door_of(node.position, level) for node in (first, second)]
         measured = math.dist(*doors)
+        if not measured:
+            continue  # both ways lead through one door
         if measured <= profile.portal_distance.amount + ROUNDING_M:
             message = f"{first.kind} and {second.kind} {second.name} are too close"
             yield Miss(first.name, first.position, message, measured, profile.portal_distance.amount)

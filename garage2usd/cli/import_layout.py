@@ -74,6 +74,8 @@ def import_layout(
         click.echo(f"not placed: {printable(name)}: {printable(reason)}", err=True)
     if len(unplaced) > _MOST_NAMED:
         click.echo(f"not placed: {len(unplaced) - _MOST_NAMED} more, see {made.report}", err=True)
+    for remark in surveyed.survey.remarks:
+        click.echo(f"remark: {printable(remark)}", err=True)
     for stall in surveyed.fitted:
         if stall.note:
             click.echo(f"changed: {printable(stall.source.name)}: {printable(stall.note)}", err=True)

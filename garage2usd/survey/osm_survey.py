@@ -10,7 +10,7 @@ from garage2usd.garage import Point, StallUse
 from garage2usd.survey.lanelets import lanes_of_lanelets
 from garage2usd.survey.osm_elements import OsmElements, OsmWay, read_osm, ring_of
 from garage2usd.survey.parts import SurveyParts
-from garage2usd.survey.survey import PortalKind, Survey, Unplaced
+from garage2usd.survey.survey import Survey, Unplaced
 from garage2usd.survey.text import length_of, levels_of, size_of, unread_length, use_of
 
 _MOST_IN_A_ROW = 1000
@@ -225,7 +225,7 @@ def _add_portals(parts: SurveyParts, osm: OsmElements, level: str | None, outlin
 
 
 def _add_ways(parts: SurveyParts, osm: OsmElements, level: str | None, outline: tuple[Point, ...] | None) -> None:
-    """Add parking aisles, and the parts of other service roads that lie within the outline, with portals on it."""
+    """Add parking aisles, and other service roads that lie within the outline or cross it."""
     ground = None if outline is None else shapely.Polygon(outline)
     for way in osm.ways.values():
         if way.tags.get("highway") != "service":
@@ -238,22 +238,10 @@ def _add_ways(parts: SurveyParts, osm: OsmElements, level: str | None, outline: 
         direction = _ONE_WAY.get(way.tags.get("oneway", "no").lower(), 0)
         line = osm.line(way.nodes)[:: -1 if direction < 0 else 1]
         is_aisle = way.tags.get("service") == "parking_aisle"
-        if ground is None or not ground.crosses(shapely.LineString(line)):
-            if is_aisle or (ground is not None and ground.covers(shapely.LineString(line))):
-                parts.add_lane(way.name, line, width_m, one_way=direction != 0)
-            else:
-                parts.unread.append(Unplaced(way.name, "a service road that is no parking aisle within the outline"))
-            continue
-        within = shapely.intersection(shapely.LineString(line), ground)
-        for part in shapely.get_parts(within):
-            if part.geom_type != "LineString":
-                continue
-            points = list(part.coords)
-            parts.add_lane(way.name, points, width_m, one_way=direction != 0)
-            for end, other, kind in ((0, 0, PortalKind.ENTRANCE), (-1, -1, PortalKind.EXIT)):
-                is_end = shapely.Point(points[end]).distance(shapely.Point(line[other])) < _SPACE_M
-                if not is_end and shapely.Point(points[end]).distance(ground.exterior) < _SPACE_M:
-                    parts.add_portal(points[end], kind if direction else PortalKind.BOTH)
+        if is_aisle or (ground is not None and shapely.LineString(line).intersection(ground).length > _SPACE_M):
+            parts.add_lane(way.name, line, width_m, one_way=direction != 0)
+        else:
+            parts.unread.append(Unplaced(way.name, "a service road that is no parking aisle within the outline"))
 
 
 def _reason_against_lane(way: OsmWay, level: str | None) -> str:
