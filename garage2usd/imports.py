@@ -16,6 +16,8 @@ from garage2usd.driving import prove_stalls
 from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.layout.surveyed import SurveyedFloor, lay_out_survey
 from garage2usd.pipeline import Build, Judged, checked_output, with_things, written
+from garage2usd.profiles import DEFAULT_PROFILE
+from garage2usd.profiles.countries import profile_at
 from garage2usd.reading.report import SurveyFigures
 from garage2usd.report import make_report
 from garage2usd.structure.building import Building
@@ -45,7 +47,8 @@ def import_layout(
     output
         Path of the stage; ``.usda``, ``.usdc`` or ``.usdz``. The other files are written beside it under its name.
     config
-        Fittings, parking, look and seed; site, bay, stalls and plan do not apply. The default ones if left out.
+        Fittings, parking, look and seed; site, bay, stalls and plan do not apply. The default ones if left out. If it
+        gives no profile, that of the country counts where the source has geographic coordinates.
     proves
         True to prove for each stall that a car drives in and out, to put the proofs into the report, and to check the
         garage by the rules that need them.
@@ -68,6 +71,7 @@ def import_layout(
     path = checked_output(output, config)
     start = time.perf_counter()
     survey = source if isinstance(source, Survey) else read_survey(Path(source))
+    config, survey = _of_country(config, survey)
     survey, alignment = aligned(with_medial_lanes(enclosed(survey)))
     layout = with_things(lay_out_survey(survey, config), config, progress=progress)
     proofs = prove_stalls(layout, progress=progress) if proves else ()
@@ -85,6 +89,20 @@ def import_layout(
     draw = partial(draw_pictures, garage)
     made = written(garage, path, seconds, draw=draw, judge=judge, report=report, progress=progress)
     return replace(made, proofs=proofs)
+
+
+def _of_country(config: GarageConfig, survey: Survey) -> tuple[GarageConfig, Survey]:
+    """Return settings with the profile of the country of a survey with coordinates, and a survey that says so."""
+    if survey.origin_deg is None or "profile" in config.model_fields_set:
+        return config, survey
+    place = "{:.2f}, {:.2f}".format(*survey.origin_deg)
+    name = profile_at(*survey.origin_deg)
+    if name is None:
+        told = f"no profile is of the country at {place} (latitude, longitude); {DEFAULT_PROFILE} is used"
+    else:
+        told = f"the profile {name} is used, that of the country at {place} (latitude, longitude)"
+        config = config.with_usual_profile(name)
+    return config, replace(survey, remarks=(*survey.remarks, told))
 
 
 def surveyed_floor(garage: Garage) -> SurveyedFloor:
