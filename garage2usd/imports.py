@@ -26,10 +26,13 @@ from garage2usd.garage.levels import level_places, places_at
 from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.layout.surveyed import FloorAbove, SurveyedFloor, lay_out_survey
 from garage2usd.pipeline import Build, Judged, checked_output, with_things, written
+from garage2usd.profiles import DEFAULT_PROFILE
+from garage2usd.profiles.countries import profile_at
 from garage2usd.reading.report import SurveyFigures
 from garage2usd.report import make_report
 from garage2usd.structure.building import Building
 from garage2usd.survey.clear_ground import with_medial_lanes
+from garage2usd.survey.enclosure import enclosed
 from garage2usd.survey.reader import read_building
 from garage2usd.survey.survey import Alignment, Survey, Unplaced
 from garage2usd.survey.surveyed_building import SurveyedBuilding, SurveyedLevel, aligned_building
@@ -61,8 +64,9 @@ def import_layout(
     output
         Path of the stage; ``.usda``, ``.usdc`` or ``.usdz``. The other files are written beside it under its name.
     config
-        Fittings, parking, look and seed; site, bay, stalls and plan do not apply. The default ones if left out. Where
-        the source has no heights of floors, levels are `building.storey_m` apart.
+        Fittings, parking, look and seed; site, bay, stalls and plan do not apply. The default ones if left out. If it
+        gives no profile, that of the country counts where the source has geographic coordinates. Where the source has
+        no heights of floors, levels are `building.storey_m` apart.
     level
         Name in the source of the only level to import. All levels if left out.
     proves
@@ -89,7 +93,9 @@ def import_layout(
     building = read_building(Path(source)) if isinstance(source, str | Path) else SurveyedBuilding.of(source)
     if level is not None:
         building = building.only(level)
+    config, told = _of_country(config, building)
     garage, alignment, remarks = _laid_out(building, config, _origin(source), progress)
+    remarks = (*told, *remarks)
     path = checked_output(output, config, places=garage.building.places)
     proofs: tuple[StallProof, ...] = ()
     if proves and len(garage.levels) == 1:
@@ -106,6 +112,20 @@ def import_layout(
     draw = partial(draw_pictures, garage)
     made = written(garage, path, seconds, draw=draw, judge=judge, report=report, progress=progress)
     return replace(made, proofs=proofs, remarks=remarks)
+
+
+def _of_country(config: GarageConfig, building: SurveyedBuilding) -> tuple[GarageConfig, tuple[str, ...]]:
+    """Return settings with the profile of the country of a survey with coordinates, and the remark that says so."""
+    origin_deg = next((level.survey.origin_deg for level in building.levels), None)
+    if origin_deg is None or "profile" in config.model_fields_set:
+        return config, ()
+    place = "{:.2f}, {:.2f}".format(*origin_deg)
+    name = profile_at(*origin_deg)
+    if name is None:
+        told = f"no profile is of the country at {place} (latitude, longitude); {DEFAULT_PROFILE} is used"
+        return config, (told,)
+    told = f"the profile {name} is used, that of the country at {place} (latitude, longitude)"
+    return config.with_usual_profile(name), (told,)
 
 
 def surveyed_floor(garage: Garage) -> SurveyedFloor:
@@ -148,7 +168,12 @@ def _laid_out(
     whole = Building(structures, None, config.building.storey_m, tuple(floors_m) if len(found) > 1 else None)
     frame = alignment.frame(levels[0].survey.origin_deg)
     garage = Garage(config, whole, tuple(found), {**origin, **frame})
-    return garage, alignment, (*remarks, *_unjoined(garage))
+    of_levels = [
+        remark if len(found) == 1 else f"level {level.source_name}: {remark}"
+        for level, floor in zip(found, surveyed_floors(garage), strict=True)
+        for remark in floor.survey.remarks
+    ]
+    return garage, alignment, (*remarks, *of_levels, *_unjoined(garage))
 
 
 def _ground(survey: Survey) -> shapely.Polygon:
@@ -159,7 +184,7 @@ def _with_lanes(building: SurveyedBuilding) -> tuple[SurveyedBuilding, list[str]
     """Return the levels that have stalls and lanes, those without lanes with derived ones; name the others."""
     if len(building.levels) == 1:
         (level,) = building.levels
-        survey = with_medial_lanes(level.survey)
+        survey = with_medial_lanes(enclosed(level.survey))
         return replace(building, levels=(replace(level, survey=survey),)), []
     levels, remarks = [], []
     for level in building.in_order:
@@ -167,7 +192,7 @@ def _with_lanes(building: SurveyedBuilding) -> tuple[SurveyedBuilding, list[str]
             remarks.append(f"level {level.name} is left out: it has no stall")
             continue
         try:
-            levels.append(replace(level, survey=with_medial_lanes(level.survey)))
+            levels.append(replace(level, survey=with_medial_lanes(enclosed(level.survey))))
         except ConfigError as error:
             remarks.append(f"level {level.name} is left out: {error}")
     if not levels:

@@ -102,7 +102,7 @@ def make_report(
     proofs
         Proofs of the stalls of an imported garage, if requested.
     remarks
-        Remarks beside those of the settings.
+        What an import mended or added.
 
     Notes
     -----

@@ -114,6 +114,8 @@ class BuiltLevel:
         The ramps that lead down from the landings, at their heights over the floor.
     place
         Its name, the path of its prim and the height of its floor in the whole garage.
+    is_surveyed
+        True if its stalls and lanes are those of a survey, which nobody designed to a standard.
     """
 
     source: str
@@ -133,6 +135,7 @@ class BuiltLevel:
     way_beyond_m: Mapping[str, float] = field(default_factory=dict)
     ramps_below: tuple[Thing, ...] = ()
     place: LevelPlace = ONLY_LEVEL
+    is_surveyed: bool = False
 
     @property
     def street_portals(self) -> list[int]:

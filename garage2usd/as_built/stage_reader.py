@@ -56,7 +56,8 @@ def level_of_stage(
     ground, contents = read_lanes(stage), read_contents(stage, objects)
     structure = _structure(stage)
     lamps = [light.source for light in contents.lights if light.source.kind in _LAMPS]
-    margin_m = 0.0 if _is_imported(stage) else _LANE_MARGIN_M
+    is_surveyed = _is_imported(stage)
+    margin_m = 0.0 if is_surveyed else _LANE_MARGIN_M
     lane_lux, stall_lux = _illuminances(ground, contents.lights, structure, margin_m) if is_judged else (None, None)
     return BuiltLevel(
         source=source,
@@ -73,6 +74,7 @@ def level_of_stage(
         faults=(*ground.faults, *(moved_stalls(stage, ground) if is_judged else ())),
         stage=stage,
         place=place,
+        is_surveyed=is_surveyed,
     )
 
 

@@ -10,7 +10,7 @@ from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks.feasibility import way_in, way_out
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
 from garage2usd.garage import Point, Stall, StallUse
-from garage2usd.profiles import Profile
+from garage2usd.profiles import Profile, Severity
 
 BOOK = RuleBook()
 _DOOR_DEPTH_M = 8.0
@@ -26,6 +26,7 @@ _BESIDE_M = 0.1
     "clear_height",
     asks="nothing hangs below the clear height, doors included",
     hindrance=where_laid_out,
+    in_surveys=Severity.WARNING,
 )
 def _clear_height(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     if profile.clear_height is None:
@@ -45,6 +46,7 @@ def _clear_height(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     "clear_height",
     asks="nothing hangs low on the ways to and from the accessible stalls that take vans",
     hindrance=where_laid_out,
+    in_surveys=Severity.WARNING,
 )
 def _van_height(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     if profile.van_clear_height is None:
@@ -101,12 +103,20 @@ def _distance(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     for first, second in combinations(portals, 2):
         doors = [_door_of(node.position, level) for node in (first, second)]
         measured = math.dist(*doors)
+        if not measured:
+            continue  # both ways lead through one door
         if measured <= profile.portal_distance.amount + ROUNDING_M:
             message = f"{first.kind} and {second.kind} {second.name} are too close"
             yield Miss(first.name, first.position, message, measured, profile.portal_distance.amount)
 
 
-@BOOK.rule("portal-width", "portal_width", asks="a vehicle entrance or exit is wide enough", hindrance=where_laid_out)
+@BOOK.rule(
+    "portal-width",
+    "portal_width",
+    asks="a vehicle entrance or exit is wide enough",
+    hindrance=where_laid_out,
+    in_surveys=Severity.WARNING,
+)
 def _width(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     if profile.portal_width is None:
         return
@@ -116,7 +126,9 @@ def _width(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
             yield Miss(door.name, door.position, "the door is too narrow", door.clear_width_m, required)
 
 
-@BOOK.rule("portal-shut", asks="no vehicle door is shut where others are open or ramps lead up")
+@BOOK.rule(
+    "portal-shut", asks="no vehicle door is shut where others are open or ramps lead up", in_surveys=Severity.WARNING
+)
 def _shut(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
     # a garage that ends at its doors, without any ramp, has all of them shut
     if all(door.is_shut for door in level.doors) and not level.ramps:

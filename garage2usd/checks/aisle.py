@@ -12,7 +12,7 @@ from garage2usd.as_built.solids import Solid
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
 from garage2usd.garage import LaneEdge, Point, Stall, StallKind, StallUse
 from garage2usd.objects import CAR_LABELS
-from garage2usd.profiles import Profile
+from garage2usd.profiles import Profile, Severity
 
 BOOK = RuleBook()
 _BUILDING = {"column", "wall", "obstacle"}
@@ -93,7 +93,7 @@ def _narrow(level: BuiltLevel, required_by: Mapping[StallKind, Callable[[Stall],
             yield Miss(level.lanes.edge_name(edge), way.middle, message, measured, required, things)
 
 
-@BOOK.rule("lane-blocked", asks="nothing stands on a lane")
+@BOOK.rule("lane-blocked", asks="nothing stands on a lane", in_surveys=Severity.WARNING)
 def _blocked(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
     seen: set[str] = set()
     for edge in level.lanes.edges:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.garage import LaneNode, Point, Stall
-from garage2usd.profiles import Profile
+from garage2usd.profiles import Profile, Severity
 
 BOOK = RuleBook()
 _BESIDE_M = 0.75
@@ -34,7 +34,7 @@ def _cut_off(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
             yield Miss(node.name, node.position, f"the {node.kind} joins no lane")
 
 
-@BOOK.rule("stall-detached", asks="a stall's mouth opens onto the lane that serves it")
+@BOOK.rule("stall-detached", asks="a stall's mouth opens onto the lane that serves it", in_surveys=Severity.INFO)
 def _detached(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
     for stall in level.stalls:
         node = level.lanes.nodes[stall.access]

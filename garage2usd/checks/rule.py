@@ -1,4 +1,5 @@
 """The rules of checks: what a rule is, the findings of its violations, and the clauses that a garage does not meet."""
+# Over 300 lines: findings are summed up beside the rules that make them.
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -12,6 +13,7 @@ from garage2usd.reading.report import UnmetClause
 
 _WHOLE_FROM = 1000
 _ORDER = {Severity.ERROR: 0, Severity.WARNING: 1, Severity.INFO: 2}
+_OF_SURVEYS = {Severity.INFO: ", as surveyed", Severity.WARNING: ", as the import chose it"}
 ROUNDING_M = 1e-3
 """Tolerance in metres when a rule compares lengths."""
 _RULES_NAMED = 3
@@ -160,6 +162,8 @@ class Rule:
         Function that explains why the rule cannot be checked.
     severity
         Severity of a rule that reads no clause.
+    in_surveys
+        Greatest severity in a surveyed garage: of what the survey says a remark, of what its import chose a warning.
     """
 
     name: str
@@ -167,6 +171,7 @@ class Rule:
     clauses: tuple[str, ...]
     find: Find
     severity: Severity
+    in_surveys: Severity
     asking: int = 1
     hindrance: Hindrance = always
 
@@ -179,21 +184,23 @@ class Rule:
         """Return True if a profile requires the rule."""
         return not self.clauses or bool(self.asked_by(profile))
 
-    def severity_in(self, profile: Profile) -> Severity:
-        """Return the severity of a violation of the rule under a profile."""
-        return next((clause.severity for clause in self.asked_by(profile).values()), self.severity)
+    def severity_in(self, profile: Profile, level: BuiltLevel) -> Severity:
+        """Return the severity of a violation of the rule under a profile on a level."""
+        asked = next((clause.severity for clause in self.asked_by(profile).values()), self.severity)
+        return max(asked, self.in_surveys, key=_ORDER.__getitem__) if level.is_surveyed else asked
 
     def findings(self, level: BuiltLevel, profile: Profile) -> Iterator[Finding]:
         """Yield the rule's violations in a garage as findings."""
         if not self.applies(profile):
             return
         name, clause = next(iter(self.asked_by(profile).items()), ("", None))
+        told = _OF_SURVEYS.get(self.in_surveys, "") if level.is_surveyed else ""
         for miss in self.find(level, profile):
             yield Finding(
                 rule=self.name,
-                severity=self.severity_in(profile),
+                severity=self.severity_in(profile, level),
                 place=miss.place,
-                message=miss.message,
+                message=miss.message + told,
                 position_m=miss.position,
                 measured=None if miss.measured is None else round(miss.measured, 4),
                 required=None if miss.required is None else round(miss.required, 4),
@@ -218,11 +225,13 @@ class RuleBook:
         asking: int = 1,
         hindrance: Hindrance = always,
         severity: Severity = Severity.ERROR,
+        in_surveys: Severity | None = None,
     ) -> Callable[[Find], Find]:
-        """Register the decorated function as a rule that yields violations; for the parameters see `Rule`."""
+        """Register a rule by its function; see `Rule`. In surveys, a rule with clauses makes remarks if not told."""
+        in_surveys = in_surveys or (Severity.INFO if clauses else Severity.ERROR)
 
         def added(find: Find) -> Find:
-            self.rules.append(Rule(name, asks, clauses, find, severity, asking, hindrance))
+            self.rules.append(Rule(name, asks, clauses, find, severity, in_surveys, asking, hindrance))
             return find
 
         return added

@@ -15,7 +15,7 @@ from garage2usd.garage import Point
 from garage2usd.layout.egress.exits import compartment_name
 from garage2usd.layout.grounds import Points, distances_m
 from garage2usd.objects import MOUNTED, Mounted
-from garage2usd.profiles import Area, Length, Profile
+from garage2usd.profiles import Area, Length, Profile, Severity
 
 BOOK = RuleBook()
 DEAD_LAMPS = "lamps give no light"
@@ -40,6 +40,7 @@ def _lights_are_told(level: BuiltLevel, _: Profile) -> str:
     "lane_illuminance",
     asks="the lanes' floor is bright enough",
     hindrance=_lights_are_told,
+    in_surveys=Severity.WARNING,
 )
 def _lanes(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     required, measured = profile.lane_illuminance, level.lane_lux
@@ -52,6 +53,7 @@ def _lanes(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     "stall_illuminance",
     asks="the stalls' floor is bright enough",
     hindrance=_lights_are_told,
+    in_surveys=Severity.WARNING,
 )
 def _stalls(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     required, measured = profile.stall_illuminance, level.stall_lux
@@ -105,6 +107,7 @@ def _sprinklered_compartment(level: BuiltLevel, profile: Profile) -> Iterator[Mi
     "personnel_exits",
     asks="people have enough exits in each fire compartment",
     hindrance=where_laid_out,
+    in_surveys=Severity.WARNING,
 )
 def _count(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     if profile.personnel_exits is None or not level.things:
@@ -125,6 +128,7 @@ def _count(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     "exit_distance_sprinklered",
     asks="no stall is too far from an exit for people",
     hindrance=where_laid_out,
+    in_surveys=Severity.WARNING,
 )
 def _distance(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     if level.things and not (_has_sprinklers(level) and profile.exit_distance_sprinklered):
@@ -136,6 +140,7 @@ def _distance(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     "exit_distance_sprinklered",
     asks="no stall is too far from an exit for people where there are sprinklers",
     hindrance=_distance_applies,
+    in_surveys=Severity.WARNING,
 )
 def _sprinklered_distance(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     if _has_sprinklers(level):
@@ -220,6 +225,7 @@ for _mounted in MOUNTED:
         asks=f"every stall and lane has {_mounted.count} {_mounted.kind.label.replace('_', ' ')}"
         f"{'s' if _mounted.count > 1 else ''} near enough",
         hindrance=where_laid_out,
+        in_surveys=Severity.WARNING,
     )(partial(_out_of_reach, _mounted))
 
 
@@ -228,6 +234,7 @@ for _mounted in MOUNTED:
     "hydrant_spacing",
     asks="a fire hydrant is near enough to the next one",
     hindrance=where_laid_out,
+    in_surveys=Severity.WARNING,
 )
 def _spacing(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     hydrants = _places_of(level, _HYDRANT)

@@ -10,7 +10,7 @@ from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
 from garage2usd.garage import Stall, StallKind, StallUse
 from garage2usd.objects import CAR_LABELS
-from garage2usd.profiles import Length, Profile
+from garage2usd.profiles import Length, Profile, Severity
 
 if TYPE_CHECKING:
     from garage2usd.as_built.solids import Solid
@@ -94,7 +94,7 @@ def _short(stalls: Iterable[Stall], clause: Length | None, side: str, word: str)
             yield Miss(stall.name, stall.centre, f"the stall is too {word}", measured, clause.amount)
 
 
-@BOOK.rule("stall-overlap", asks="stalls do not overlap")
+@BOOK.rule("stall-overlap", asks="stalls do not overlap", in_surveys=Severity.INFO)
 def _overlap(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
     stalls = level.stalls
     shrunk = shapely.buffer(level.stall_grounds.polygons, -_TOUCH_M)
@@ -104,7 +104,7 @@ def _overlap(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
             yield Miss(stalls[one].name, stalls[one].centre, f"the stall overlaps {stalls[other].name}")
 
 
-@BOOK.rule("column-in-stall", asks="no column stands in a stall")
+@BOOK.rule("column-in-stall", asks="no column stands in a stall", in_surveys=Severity.INFO)
 def _column(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
     for stall in level.stalls:
         for solid in level.standing_in_stalls[stall]:
@@ -113,7 +113,11 @@ def _column(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
                 break
 
 
-@BOOK.rule("stall-blocked", asks="nothing but a car, a wheel stop, a charger or a cone stands in a stall for cars")
+@BOOK.rule(
+    "stall-blocked",
+    asks="nothing but a car, a wheel stop, a charger or a cone stands in a stall for cars",
+    in_surveys=Severity.WARNING,
+)
 def _blocked(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
     for stall in level.parking_stalls:
         for solid in level.standing_in_stalls[stall]:
@@ -160,6 +164,7 @@ def _two_cars(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
     "wheel_stop_height",
     asks="a wheel stop is low enough for a car's front",
     hindrance=where_laid_out,
+    in_surveys=Severity.WARNING,
 )
 def _wheel_stops(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     return _too_high(level, profile.wheel_stop_height, "wheel_stop")
@@ -170,6 +175,7 @@ def _wheel_stops(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     "speed_bump_height",
     asks="a speed bump is low enough for a car's floor",
     hindrance=where_laid_out,
+    in_surveys=Severity.WARNING,
 )
 def _speed_bumps(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     return _too_high(level, profile.speed_bump_height, "speed_bump")

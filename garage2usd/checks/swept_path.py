@@ -99,7 +99,7 @@ def _reported(level: BuiltLevel, profile: Profile) -> list[Miss]:
     """Return the errors that the rules of stalls, aisles, clearances and routes report."""
     faults = []
     for rule in (rule for module in (stall, aisle, clearance, feasibility) for rule in module.BOOK.rules):
-        if rule.applies(profile) and rule.severity_in(profile) is Severity.ERROR:
+        if rule.applies(profile) and rule.severity_in(profile, level) is Severity.ERROR:
             faults += rule.find(level, profile)
     return faults
 

@@ -121,7 +121,14 @@ class GarageConfig(Settings):
 
     def with_seed(self, seed: int) -> "GarageConfig":
         """Return the same settings with another seed."""
-        return GarageConfig(**{**{name: getattr(self, name) for name in type(self).model_fields}, "seed": seed})
+        return GarageConfig(**{**self._given(), "seed": seed})
+
+    def with_usual_profile(self, name: str) -> "GarageConfig":
+        """Return the same settings with a shipped profile instead of the default one; unchanged if they give one."""
+        return self if "profile" in self.model_fields_set else GarageConfig(**self._given(), profile=name)
+
+    def _given(self) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in type(self).model_fields if name in self.model_fields_set}
 
     def remarks(self) -> tuple[str, ...]:
         """Describe the use of the user's textures, and the unused parts of textures and car models, in lines.

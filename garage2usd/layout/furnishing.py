@@ -211,7 +211,7 @@ def furnished(  # noqa: PLR0915 - a statement or two for each kind of object
 
     def of_the_building() -> Iterator[Iterable[Placement]]:
         inner = with_ramps(floor.shell, tiles.ground, fittings, look.walls)
-        walls, gates = with_barriers(inner, fittings, floor.beams)
+        walls, gates = with_barriers(inner, fittings, floor.beams, tiles.mouths)
         yield from (walls, gates)
         tubes = ramp_lights(walls, fittings)
         if well and floor.squares:

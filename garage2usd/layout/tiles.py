@@ -159,6 +159,8 @@ class Tiles:
         Edge of the vehicle door of each portal's piece.
     stall_places
         Stalls of each square with stalls, in the order of their numbers; none without squares.
+    mouths
+        Ground of stalls and before their mouths that equipment at doors keeps clear; None if a plan does so.
     """
 
     tiles: Mapping[Square, Tile]
@@ -166,6 +168,7 @@ class Tiles:
     setback_m: float
     doors: Mapping[Square, Edge]
     stall_places: Mapping[Square, list[StallPlace]]
+    mouths: shapely.Geometry | None = None
 
     def __iter__(self) -> Iterator[Tile]:
         """Iterate over the pieces in reading order."""

@@ -31,7 +31,8 @@ class PortalSpec(Spec, kind=KIND):
     thickness_m: float
     door_width_m: float
     door_height_m: float
-    is_entrance: bool
+    is_entrance: bool | None
+    """True if cars come in through the door, False if they leave, and None if they do both."""
     is_open: bool = False
     """True if the roller door is up because a ramp lies behind it."""
     country: Country = Country.NONE
@@ -60,7 +61,8 @@ class PortalSpec(Spec, kind=KIND):
                 make_part("Door", _lamellae(opening, head, -self.thickness_m / 2), "door_steel", collider=Collider.BOX)
             ]
         )
-        inside, outside = (Way.NOT_OUT, Way.IN) if self.is_entrance else (Way.OUT, Way.NOT_IN)
+        inside = Way.NOT_OUT if self.is_entrance else Way.OUT
+        outside = Way.NOT_IN if self.is_entrance is False else Way.IN
         outer_heights = replace(self, raised_arm_m=None).sign_heights_m
         return Asset(
             (

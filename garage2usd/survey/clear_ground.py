@@ -2,7 +2,7 @@
 
 import math
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -17,7 +17,7 @@ from garage2usd.survey.survey import Survey, SurveyedLane
 _LEAST_CLEAR_M, _MOST_CLEAR_M = 2.0, 12.0
 _APART_M, _AXIS_M = 0.02, 0.08
 _COLUMN_M = 1.0
-_WIDTH_DIGITS = 4
+_WIDTH_DIGITS, _LEAST_SHARE = 4, 0.4
 _SPACING_M = 0.5
 """Distance in metres between the points of the ground's boundary whose Voronoi diagram approximates the axis."""
 _HALF_LANE_M = 1.3
@@ -25,6 +25,12 @@ _HALF_LANE_M = 1.3
 _CLOSED_M = 10.0
 """Half the width in metres of gaps between stalls that are ground of a survey without an outline."""
 _STALL_MARGIN_M = 0.05
+_FRONT_M, _TURN_M, _AHEAD_M = 6.0, 3.0, 0.1
+"""Depth in metres of the lane before stalls that open onto no gap, and how far it goes on beyond their sides."""
+_JOINED_M = 2.0
+"""Distance in metres from a lane at which a way to stalls without one begins."""
+_OPEN = 0.9
+"""Share of the ground of the narrowest lane before a stall from which on it is open."""
 _SPUR = 2.0
 """Greatest length of a branch that is left out, as a multiple of the clearance where it begins."""
 _STRAIGHT_M = 0.4
@@ -52,12 +58,15 @@ def with_clear_widths(network: LaneGraph, standing: shapely.Geometry) -> LaneGra
     edges = []
     for edge in network.edges:
         if not portals & {edge.start, edge.end}:
-            ends = [network.nodes[number].position for number in (edge.start, edge.end)]
-            line = _longer(*ends)
-            beside = standing.intersection(line.buffer(_MOST_CLEAR_M, cap_style="flat"))
-            clear_m = math.inf if beside.is_empty else round(2 * beside.distance(line), _WIDTH_DIGITS)
-            if _LEAST_CLEAR_M <= clear_m <= _MOST_CLEAR_M:
-                edge = edge._replace(width_m=clear_m)  # noqa: PLW2901 - the same edge with its width
+            start, end = (network.nodes[number].position for number in (edge.start, edge.end))
+            # columns beside its ends count, unless something stands ahead of one
+            for beyond_m in (_COLUMN_M, -_COLUMN_M / 2):
+                line = _longer(start, end, beyond_m)
+                beside = standing.intersection(line.buffer(_MOST_CLEAR_M, cap_style="flat"))
+                clear_m = math.inf if beside.is_empty else round(2 * beside.distance(line), _WIDTH_DIGITS)
+                if _LEAST_CLEAR_M <= clear_m <= _MOST_CLEAR_M:
+                    edge = edge._replace(width_m=clear_m)  # noqa: PLW2901 - the same edge with its width
+                    break
             for number in (edge.start, edge.end):
                 width_m[number] = max(width_m[number], edge.width_m)
         edges.append(edge)
@@ -76,9 +85,9 @@ def with_clear_widths(network: LaneGraph, standing: shapely.Geometry) -> LaneGra
     return LaneGraph(tuple(nodes), tuple(edges))
 
 
-def _longer(start: Point, end: Point) -> shapely.LineString:
-    """Lengthen a stretch at both ends, so that columns beside its ends count."""
-    share = _COLUMN_M / (math.dist(start, end) or 1.0)
+def _longer(start: Point, end: Point, beyond_m: float) -> shapely.LineString:
+    """Lengthen a stretch at both ends; shorten it by less than half for a negative length."""
+    share = max(beyond_m / (math.dist(start, end) or 1.0), -_LEAST_SHARE)
     off_x, off_z = share * (end[0] - start[0]), share * (end[1] - start[1])
     return shapely.LineString([(start[0] - off_x, start[1] - off_z), (end[0] + off_x, end[1] + off_z)])
 
@@ -111,27 +120,92 @@ def with_medial_lanes(survey: Survey) -> Survey:
     The medial axis (Blum, 1967) is the set of places that are equally far from two parts of the boundary. It is
     approximated by the edges of the Voronoi diagram of points on the boundary (Brandt and Algazi, 1992) that keep half
     a lane from it; branches into corners are pruned. The ground is that inside the outline, else that of gaps between
-    stalls of up to 20 m.
+    stalls of up to 20 m, and a lane's width before the mouths of stalls that open onto no such gap.
     """
     if survey.lanes:
         return survey
+    for is_open in (_OPEN, math.inf) if survey.outline is None else (_OPEN,):
+        ground = _ground(survey, is_open)
+        axis = _axis(ground)
+        _prune(axis, ground)
+        lanes = tuple(SurveyedLane(points) for points in _branches(axis))
+        if lanes:
+            return replace(survey, lanes=lanes)
+    raise ConfigError("lanes", "none", f"lanes, or {2 * _HALF_LANE_M:g} m of ground between stalls")
+
+
+def with_lanes_to(survey: Survey, laneless: Sequence[int]) -> Survey:
+    """Return a survey with an outline and lanes whose stalls of some numbers have lanes too, where there is ground.
+
+    The lanes are the shortest ways on the medial axis of its ground from its lanes to these stalls.
+    """
     ground = _ground(survey)
     axis = _axis(ground)
-    _prune(axis, ground)
-    lanes = tuple(SurveyedLane(points) for points in _branches(axis))
-    if not lanes:
-        raise ConfigError("lanes", "none", f"lanes, or {2 * _HALF_LANE_M:g} m of ground between stalls")
-    return replace(survey, lanes=lanes)
+    nodes = sorted(axis)
+    if not nodes:
+        return survey
+    lines = shapely.union_all([shapely.LineString(lane.points) for lane in survey.lanes])
+    places = shapely.points(nodes)
+    is_joint = shapely.dwithin(places, lines, _JOINED_M)
+    joints = {node for node, is_near in zip(nodes, is_joint.tolist(), strict=True) if is_near}
+    _, ways = nx.multi_source_dijkstra(axis, joints, weight="length_m") if joints else ({}, {})
+    stalls = survey.stall_polygons()
+    tree = shapely.STRtree(stalls)
+    kept: nx.Graph[Point] = nx.Graph()
+    for number in laneless:
+        away_m = shapely.distance(places, stalls[number])
+        for index in np.argsort(away_m, kind="stable").tolist():
+            if away_m[index] > _FRONT_M:
+                break
+            line = shapely.shortest_line(stalls[number], places[index])
+            over = [other for other in tree.query(line, predicate="intersects").tolist() if other != number]
+            if nodes[index] in ways and not any(stalls[other].intersection(line).length > _AHEAD_M for other in over):
+                nx.add_path(kept, ways[nodes[index]])
+                break
+    added = tuple(SurveyedLane(points) for points in _branches(kept))
+    return replace(survey, lanes=(*survey.lanes, *added))
 
 
-def _ground(survey: Survey) -> shapely.Geometry:
+def _ground(survey: Survey, is_open: float = _OPEN) -> shapely.Geometry:
     """Return the ground between stalls, columns and blocks."""
     stalls = shapely.union_all([ground.buffer(_STALL_MARGIN_M) for ground in survey.stall_polygons()])
     if survey.outline is not None:
         inside = shapely.Polygon(survey.outline)
     else:
         inside = stalls.buffer(_CLOSED_M, join_style="mitre").buffer(-_CLOSED_M, join_style="mitre")
+        inside = shapely.union_all([inside, *_fronts(survey, inside, stalls, is_open)])
     return shapely.difference(inside, shapely.union_all([stalls, *survey.column_polygons(), *survey.solid_polygons()]))
+
+
+def _fronts(
+    survey: Survey, inside: shapely.Geometry, stalls: shapely.Geometry, is_open: float
+) -> Iterator[shapely.Geometry]:
+    """Yield the ground of a lane before each stall that opens onto no ground between stalls, of a share that is open.
+
+    Of its sides that no other stall adjoins, that counts before which there is most ground; the short ones first.
+    """
+    free = shapely.difference(inside, stalls)
+    for stall in survey.stalls:
+        corners = np.array(stall.corners)
+        found = []
+        for side in range(len(corners)) if stall.mouth is None else (stall.mouth,):
+            start, end = corners[side], corners[(side + 1) % len(corners)]
+            away = (start + end) / 2 - corners.mean(axis=0)
+            width_m = float(np.linalg.norm(end - start))
+            out = np.array([end[1] - start[1], start[0] - end[0]]) / (width_m or 1.0)
+            out = out if out @ away > 0 else -out
+            aside = (end - start) / (width_m or 1.0) * _TURN_M
+            near, far = start + _AHEAD_M * out, end + _AHEAD_M * out
+            before = shapely.Polygon([near, far, far + _FRONT_M * out, near + _FRONT_M * out])
+            open_m2 = before.intersection(free).area
+            if open_m2 > is_open * min(2 * _HALF_LANE_M, _FRONT_M) / _FRONT_M * before.area:
+                break
+            is_long = width_m > 2 * float(np.linalg.norm(away))
+            taken_m2 = before.intersection(stalls).area
+            strip = [near - aside, far + aside, far + aside + _FRONT_M * out, near - aside + _FRONT_M * out]
+            found.append((round(taken_m2, 1), is_long, -round(open_m2, 1), side, strip))
+        else:
+            yield shapely.Polygon(min(found, key=lambda each: each[:4])[-1])
 
 
 def _axis(ground: shapely.Geometry) -> "nx.Graph[Point]":

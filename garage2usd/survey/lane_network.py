@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import networkx as nx
 import shapely
+import shapely.ops
 
 from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, LaneNode, Point
 from garage2usd.survey.survey import SurveyedLane
@@ -28,6 +29,7 @@ _PITCH_M = 6.0
 _STRAIGHT_M = 0.15
 """Deviation in metres up to which a centre line is straight."""
 _TWO_ENDS, _CROSSROADS = 2, 4
+_TOUCH_M = 0.05
 _DIGITS = 4
 
 
@@ -39,13 +41,16 @@ class CentreLine(NamedTuple):
     one_way: bool
 
 
-def joined_lines(lines: Sequence[CentreLine], grounds: shapely.STRtree) -> list[CentreLine]:
-    """Extend the ends of centre lines that stop short of another one."""
+def joined_lines(
+    lines: Sequence[CentreLine], grounds: shapely.STRtree, walls: shapely.Geometry | None = None
+) -> list[CentreLine]:
+    """Extend the ends of centre lines that stop short of another one, over no stall and through no wall."""
+    walls = shapely.MultiLineString() if walls is None else walls
     joined = []
     for number, each in enumerate(lines):
         points = list(each.line.coords)
         others = [other for index, other in enumerate(lines) if index != number]
-        for place in (0, -1):
+        for place in () if each.line.is_ring else (0, -1):
             end = shapely.Point(points[place])
             if any(other.line.distance(end) <= SAME_M for other in others):
                 continue
@@ -55,7 +60,7 @@ def joined_lines(lines: Sequence[CentreLine], grounds: shapely.STRtree) -> list[
                 foot = other.line.interpolate(other.line.project(end)).coords[0]
             else:
                 foot = _ahead(_ends(each.line)[place], others, grounds)
-            if foot is not None:
+            if foot is not None and not walls.crosses(shapely.LineString([end, foot])):
                 points.insert(0 if place == 0 else len(points), foot)
         joined.append(each._replace(line=shapely.LineString(points)))
     return joined
@@ -91,24 +96,27 @@ def _ray(points: Sequence[Point]) -> shapely.LineString:
 
 
 class Gate(NamedTuple):
-    """A door in the outer wall.
+    """A way of cars through a door in the outer wall; a door for both directions has two.
 
     Attributes
     ----------
     kind
         Entrance or exit.
     foot
-        (x, z) of the middle of its opening.
+        (x, z) where the middle of the way crosses the wall.
     outwards
         Unit vector (x, z) out of the garage.
     wall_m
         Length of the piece of wall around the door.
+    door
+        (x, z) of the middle of the door, if it is for both directions; else it is the foot.
     """
 
     kind: LaneKind
     foot: Point
     outwards: Point
     wall_m: float
+    door: Point | None = None
 
 
 class _Approach(NamedTuple):
@@ -121,7 +129,10 @@ class _Approach(NamedTuple):
 
 
 def lane_network(
-    lanes: Iterable[SurveyedLane], gates: Sequence[Gate], grounds: Sequence[shapely.Polygon] = ()
+    lanes: Iterable[SurveyedLane],
+    gates: Sequence[Gate],
+    grounds: Sequence[shapely.Polygon] = (),
+    walls: shapely.Geometry | None = None,
 ) -> LaneGraph:
     """Build the lane graph of centre lines and doors.
 
@@ -133,15 +144,20 @@ def lane_network(
         Doors; each joins the centre line ahead of it, else the nearest one.
     grounds
         Grounds of stalls, which no lane leads over.
+    walls
+        Lines of walls and of blocks, through which no lane is joined to another one or to a door.
 
     Notes
     -----
     Ends of centre lines that stop short of another one are extended to it. Stretches that no junction joins to the
     others remain in the graph: no stall is reached there.
     """
-    lines = joined_lines([_line(lane) for lane in lanes], shapely.STRtree(list(grounds)))
-    lines = [_short_of(line, gates) for line in lines]
-    approaches = [_approach(gate, lines) for gate in gates]
+    stalls = shapely.STRtree(list(grounds))
+    lines = joined_lines([_line(lane) for lane in lanes], stalls, walls)
+    free_m = [_free_m(gate, stalls) for gate in gates]
+    ends = shapely.STRtree([line.line for line in lines])
+    lines = [_short_of(line, gates, free_m, ends) for line in lines]
+    approaches = [_approach(gate, lines, stalls, walls) for gate in gates]
     lines += [approach.line for approach in approaches]
     cuts = _cuts(lines)
     nodes, number_of = _merged([point for points in cuts for _, point in points])
@@ -167,42 +183,78 @@ def _line(lane: SurveyedLane) -> CentreLine:
     return CentreLine(line, lane.width_m or USUAL_LANE_M, lane.one_way)
 
 
-def _short_of(line: CentreLine, gates: Iterable[Gate]) -> CentreLine:
-    """Return a centre line without the end that lies before a door, where the ground of the door's node is."""
-    for gate in gates:
+def _free_m(gate: Gate, stalls: shapely.STRtree) -> float:
+    """Return how deep the ground inside a door is before the first stall beside it begins."""
+    (x, z), (out_x, out_z) = gate.foot, gate.outwards
+    deep_m = 2 * _GATE_HALF_M
+    way = shapely.LineString([gate.foot, (x - out_x * deep_m, z - out_z * deep_m)])
+    ground = way.buffer((gate.wall_m + USUAL_LANE_M) / 2 + _GAP_M, cap_style="flat")
+    near = stalls.geometries[stalls.query(ground, predicate="intersects")]
+    places = shapely.get_coordinates(shapely.intersection(near, ground))
+    return float(min([deep_m, *((x - places[:, 0]) * out_x + (z - places[:, 1]) * out_z)]))
+
+
+def _short_of(line: CentreLine, gates: Sequence[Gate], free_m: Sequence[float], lines: shapely.STRtree) -> CentreLine:
+    """Return a centre line without an end before a door that joins no other, where the ground of the door's node is.
+
+    The line ends nearer to a door with stalls beside it, so that they open onto it.
+    """
+    for gate, free in zip(gates, free_m, strict=True):
         (x, z), (out_x, out_z) = gate.foot, gate.outwards
-        deep_m = 2 * _GATE_HALF_M + line.width_m / 2
-        across = [(x - out_x * deep, z - out_z * deep) for deep in (-deep_m, deep_m)]
-        ground = shapely.LineString(across).buffer(gate.wall_m / 2, cap_style="flat")
-        for place in (0, -1):
-            if not ground.covers(shapely.Point(line.line.coords[place])):
+        for place in () if line.line.is_ring else (0, -1):
+            end_x, end_z = line.line.coords[place]
+            if len(lines.query(shapely.Point(end_x, end_z), predicate="dwithin", distance=SAME_M)) > 1:
                 continue
-            rest = [part for part in shapely.get_parts(line.line.difference(ground)) if part.length > SAME_M]
-            if rest:
-                line = line._replace(line=rest[-1 if place == 0 else 0])
+            aside_m = abs((end_x - x) * out_z - (end_z - z) * out_x)
+            deep_m = 2 * _GATE_HALF_M
+            deep_m += line.width_m / 2
+            if free < 2 * _GATE_HALF_M:
+                deep_m = min(deep_m, free + max(aside_m, _LEAST_GATE_M / 2) + 2 * _LEAST_GATE_M)
+            across = [(x - out_x * deep, z - out_z * deep) for deep in (-deep_m, deep_m)]
+            ground = shapely.LineString(across).buffer(gate.wall_m / 2 + _TOUCH_M, cap_style="flat")
+            if not ground.covers(shapely.Point(end_x, end_z)):
+                continue
+            way = line.line if place == 0 else line.line.reverse()
+            crossed = shapely.get_coordinates(way.intersection(ground.exterior))
+            run_m = min((way.project(shapely.Point(at)) for at in crossed), default=way.length)
+            if way.length - run_m > SAME_M:
+                rest = shapely.ops.substring(way, run_m, way.length)
+                line = line._replace(line=rest if place == 0 else rest.reverse())
     return line
 
 
-def _approach(gate: Gate, lines: Sequence[CentreLine]) -> _Approach:
-    """Find the line from a door's node to the lane ahead, else the nearest one; reversed for an exit."""
+def _approach(
+    gate: Gate, lines: Sequence[CentreLine], stalls: shapely.STRtree, walls: shapely.Geometry | None
+) -> _Approach:
+    """Find the line from a door's node to the lane ahead, else the nearest one; reversed for an exit.
+
+    A way over stalls or through walls is taken only where there is no other.
+    """
     foot, (out_x, out_z) = shapely.Point(gate.foot), gate.outwards
     reach_m = 2 * min(each.line.distance(foot) for each in lines) + SAME_M
     ray = shapely.LineString([gate.foot, (foot.x - out_x * reach_m, foot.y - out_z * reach_m)])
-    met = [(each.line.intersection(ray), each) for each in lines if each.line.intersects(ray)]
-    if met:
-        part, ahead = min(met, key=lambda found: foot.distance(found[0]))
-        end = shapely.Point(shapely.shortest_line(foot, part).coords[-1])
-    else:
-        ahead = min(lines, key=lambda each: foot.distance(each.line))
-        end = ahead.line.interpolate(ahead.line.project(foot))
+    ways = []
+    for number, each in enumerate(lines):
+        ends = [shapely.Point(each.line.coords[place]) for place in (0, -1)]
+        if each.line.intersects(ray):
+            ends.append(shapely.Point(shapely.shortest_line(foot, each.line.intersection(ray)).coords[-1]))
+        ends.append(each.line.interpolate(each.line.project(foot)))
+        for end in ends:
+            is_ahead = each.line.intersects(ray) and ray.distance(end) < _TOUCH_M
+            way = shapely.LineString([foot, end]).difference(foot.buffer(_TOUCH_M))
+            shut = 0 if walls is None else int(walls.intersects(way))
+            shut += len(stalls.query(way, predicate="crosses"))
+            ways.append((shut, not is_ahead, round(foot.distance(end), _DIGITS), number, end))
+    *_, number, end = min(ways, key=lambda way: way[:4])
+    ahead = lines[number]
     # the ground of the node ends where that of the lane begins
     free_m = max(foot.distance(end) - ahead.width_m / 2, _LEAST_GATE_M)
     half_m = round(min(_GATE_HALF_M, free_m / 2), _DIGITS)
     node = round(foot.x - out_x * half_m, _DIGITS), round(foot.y - out_z * half_m, _DIGITS)
-    ends = [node, end.coords[0]]
+    line = [node, end.coords[0]]
     if gate.kind is LaneKind.EXIT:
-        ends.reverse()
-    return _Approach(gate, node, half_m, CentreLine(shapely.LineString(ends), 2 * half_m, one_way=True))
+        line.reverse()
+    return _Approach(gate, node, half_m, CentreLine(shapely.LineString(line), 2 * half_m, one_way=True))
 
 
 def _cuts(lines: Sequence[CentreLine]) -> list[list[tuple[float, Point]]]:

@@ -233,7 +233,7 @@ def _add_portals(parts: SurveyParts, level: OsmLevel, outline: tuple[Point, ...]
 
 
 def _add_ways(parts: SurveyParts, level: OsmLevel, outline: tuple[Point, ...] | None) -> None:
-    """Add parking aisles, and the parts of other service roads that lie within the outline, with portals on it."""
+    """Add parking aisles, and other service roads that lie within the outline or cross it."""
     osm = level.osm
     ground = None if outline is None else shapely.Polygon(outline)
     for way in osm.ways.values():
@@ -247,22 +247,10 @@ def _add_ways(parts: SurveyParts, level: OsmLevel, outline: tuple[Point, ...] | 
         direction = one_way_of(way.tags)
         line = osm.line(way.nodes)[:: -1 if direction < 0 else 1]
         is_aisle = way.tags.get("service") == "parking_aisle"
-        if ground is None or not ground.crosses(shapely.LineString(line)):
-            if is_aisle or (ground is not None and ground.covers(shapely.LineString(line))):
-                parts.add_lane(way.name, line, width_m, one_way=direction != 0)
-            else:
-                parts.unread.append(Unplaced(way.name, "a service road that is no parking aisle within the outline"))
-            continue
-        within = shapely.intersection(shapely.LineString(line), ground)
-        for part in shapely.get_parts(within):
-            if part.geom_type != "LineString":
-                continue
-            points = list(part.coords)
-            parts.add_lane(way.name, points, width_m, one_way=direction != 0)
-            for end, other, kind in ((0, 0, PortalKind.ENTRANCE), (-1, -1, PortalKind.EXIT)):
-                is_end = shapely.Point(points[end]).distance(shapely.Point(line[other])) < _SPACE_M
-                if not is_end and shapely.Point(points[end]).distance(ground.exterior) < _SPACE_M:
-                    parts.add_portal(points[end], kind if direction else PortalKind.BOTH)
+        if is_aisle or (ground is not None and shapely.LineString(line).intersection(ground).length > _SPACE_M):
+            parts.add_lane(way.name, line, width_m, one_way=direction != 0)
+        else:
+            parts.unread.append(Unplaced(way.name, "a service road that is no parking aisle within the outline"))
 
 
 def _reason_against_lane(way: OsmWay, level: OsmLevel) -> str | None:

@@ -44,7 +44,7 @@ class SurveyParts:
 
     Attributes
     ----------
-    stalls, lanes, columns, portals, solids, unread
+    stalls, lanes, columns, portals, solids, unread, remarks
         As in `Survey`.
     """
 
@@ -55,6 +55,7 @@ class SurveyParts:
         self.portals: list[SurveyedPortal] = []
         self.solids: list[tuple[Point, ...]] = []
         self.unread: list[Unplaced] = []
+        self.remarks: list[str] = []
         self._outlines: list[tuple[str, tuple[Point, ...]]] = []
         self._named: Counter[str] = Counter()
 
@@ -121,7 +122,7 @@ class SurveyParts:
 
     def add_lane(self, name: str, line: Iterable[Sequence[float]], width_m: float | None, *, one_way: bool) -> None:
         """Add a lane by the points (x, z) of its centre line, or note that it has no length."""
-        points = _without_repeats(line)
+        points = _without_repeats(line, closes=True)
         if len(points) < 2:  # noqa: PLR2004 - a line
             self.unread.append(Unplaced(name, "a lane without length"))
         else:
@@ -159,7 +160,7 @@ class SurveyParts:
             polygon = _mended(polygon)
             if polygon is not None:
                 points = _without_repeats(polygon.exterior.coords)
-                self.unread.append(Unplaced(name, "spikes or small crossings of this outline; they become straight"))
+                self.remarks.append(f"{name}: spikes and small crossings of this outline are made straight")
         if polygon is None:
             self.unread.append(Unplaced(name, "an outline without area, or one that crosses itself"))
         else:
@@ -213,6 +214,7 @@ class SurveyParts:
             tuple(self.unread),
             origin_deg,
             tuple(self.solids),
+            tuple(self.remarks),
         )
 
 
@@ -276,14 +278,14 @@ def _distances_to_neighbours(points: Sequence[Point]) -> Floats:
     return distances
 
 
-def _without_repeats(line: Iterable[Sequence[float]]) -> tuple[Point, ...]:
-    """Return the points of a line or ring, rounded, without those that repeat the one before or close the ring."""
+def _without_repeats(line: Iterable[Sequence[float]], *, closes: bool = False) -> tuple[Point, ...]:
+    """Return the points of a line or ring, rounded, without those that repeat the one before or, if asked, close it."""
     points: list[Point] = []
     for place in line:
         point = _point(place)
         if not points or point != points[-1]:
             points.append(point)
-    if len(points) > 2 and points[0] == points[-1]:  # noqa: PLR2004 - a closed ring
+    if not closes and len(points) > 2 and points[0] == points[-1]:  # noqa: PLR2004 - a closed ring
         points.pop()
     return tuple(points)
 

@@ -123,6 +123,8 @@ class Survey:
         Latitude and longitude of (0, 0) if the source has geographic coordinates.
     solids
         Corners (x, z) of each block on the floor, as of stairs, lifts and rooms.
+    remarks
+        What was mended or added to parts of the source, each with the name of the part.
     """
 
     stalls: tuple[SurveyedStall, ...]
@@ -133,6 +135,7 @@ class Survey:
     unread: tuple[Unplaced, ...] = field(default=(), repr=False)
     origin_deg: tuple[float, float] | None = None
     solids: tuple[tuple[Point, ...], ...] = ()
+    remarks: tuple[str, ...] = ()
 
     def moved(self, turn_rad: float, shift_m: Point) -> "Survey":
         """Return the survey turned about (0, 0), from x towards z, and then shifted."""

@@ -145,12 +145,15 @@ def portals(layout: Layout, sheet: Sheet) -> Iterator[Region | Line | Text]:
             yield turned(place, rectangle(sides[0], back, sides[1], 0.0), INK, "wall")
         kind = LaneKind.ENTRANCE if spec.is_entrance else LaneKind.EXIT
         yield turned(place, rectangle(-door, back, door, 0.0), LANE_COLOUR[kind], f"portal {kind}")
+        is_both = spec.is_entrance is None
         tail, tip = (-3.0, -0.8) if spec.is_entrance else (-0.8, -3.0)
-        wing = tip + math.copysign(0.9, tail - tip)
-        strokes = [[(0.0, tail), (0.0, tip)], [(-0.8, wing), (0.0, tip), (0.8, wing)]]
+        strokes = [[(0.0, tail), (0.0, tip)]]
+        for end, start in ((tip, tail), *(((tail, tip),) if is_both else ())):
+            wing = end + math.copysign(0.9, start - end)
+            strokes.append([(-0.8, wing), (0.0, end), (0.8, wing)])
         for stroke in strokes:
             yield Line([place.to_world(point) for point in stroke], LANE_COLOUR[kind], 0.35, "direction")
-        word = "IN" if spec.is_entrance else "OUT"
+        word = "IN/OUT" if is_both else "IN" if spec.is_entrance else "OUT"
         is_beside = abs(math.sin(place.yaw_rad)) > 0.5  # noqa: PLR2004 - a quarter turn
         half = (text_width(word, sheet.letters_m) if is_beside else sheet.letters_m) / 2
         yield Text(place.to_world((0.0, -ARROW_END_M - half)), word, sheet.letters_m, LANE_COLOUR[kind], kind="portal")

@@ -49,6 +49,7 @@ _DOOR_M = 1.2
 _T = TypeVar("_T")
 _PALLETS = ((1, False), (3, False), (6, False), (1, True), (2, True))
 _FROM_END_M = 0.35
+_FROM_MOUTHS_M = 0.3
 _FROM_JAMB_M, _FROM_WALL_M = 0.3, 0.4
 _FROM_CORE_M = SIGN_FOOT_M + 0.1
 """Least distance of a sign's middle from a core: its foot keeps clear of the door's handle."""
@@ -212,7 +213,7 @@ def no_parking_signs(
     for tile in grid:
         if tile.square in built_on or not grid.is_bare(tile):
             continue
-        if rng.random() < fittings.no_parking_sign_rate:
+        if rng.random() < fittings.no_parking_sign_rate and not _is_before_stall(grid, tile.middle_m):
             yaw = sum_of_yaws(float(rng.integers(4)) * _QUARTER_TURN, tile.yaw_rad)
             signs.append(_sign(tile.middle_m, yaw, tile.square))
     if fittings.no_parking_sign_rate > 0:
@@ -233,7 +234,7 @@ def _before_core(core: Core) -> Placement:
 
 
 def _beside_doors(grid: Tiles, walls: Iterable[Placement]) -> list[Placement]:
-    """Signs inside each vehicle door, on the side without a gate, unless cars turn to that side."""
+    """Signs inside each vehicle door, on the side without a gate, unless cars turn to that side or into a stall."""
     portals = [grid.tiles[square] for square in grid.doors]
     signs = []
     for wall, door in of_spec(walls, PortalSpec):
@@ -241,9 +242,15 @@ def _beside_doors(grid: Tiles, walls: Iterable[Placement]) -> list[Placement]:
         place = wall.to_world((side * (door.door_width_m / 2 - DOOR_FRAME_M + _FROM_JAMB_M), _FROM_WALL_M))
         at = wall.position_m[0], wall.position_m[2]
         portal = min(portals, key=lambda tile: round(math.dist(tile.middle_m, at), 6))
+        if door.is_entrance is None or _is_before_stall(grid, place):
+            continue
         if not portal.drivable[_beside(portal, at, place)]:
             signs.append(_sign(place, wall.yaw_rad, portal.square))
     return signs
+
+
+def _is_before_stall(grid: Tiles, place: Point) -> bool:
+    return grid.mouths is not None and bool(grid.mouths.dwithin(shapely.Point(place), _FROM_MOUTHS_M))
 
 
 def _beside(portal: Tile, door: Point, place: Point) -> Edge:

@@ -130,9 +130,14 @@ def ramp_lights(walls: Iterable[Placement], fittings: FittingsConfig) -> list[Pl
 
 
 def with_barriers(
-    walls: list[Placement], fittings: FittingsConfig, beams: Iterable[Placement] = ()
+    walls: list[Placement],
+    fittings: FittingsConfig,
+    beams: Iterable[Placement] = (),
+    kept_clear: shapely.Geometry | None = None,
 ) -> tuple[list[Placement], list[Placement]]:
     """Place a barrier gate inside each open vehicle door, on the driver's left; every other gate is raised.
+
+    Doors for both directions have none, nor have those beside which ground is kept clear.
 
     A raised arm folds under the lights and the beams beside the door, above the clear height and above the sign over
     the door, so that nobody's view of the sign passes through it. The gate is lowered instead where that leaves no
@@ -149,13 +154,16 @@ def with_barriers(
     gates: list[Placement] = []
     for wall in walls:
         portal = wall.spec
-        if not isinstance(portal, PortalSpec) or not portal.is_open:
+        if not isinstance(portal, PortalSpec) or not portal.is_open or portal.is_entrance is None:
             seen.append(wall)
             continue
         half = portal.door_width_m / 2 - DOOR_FRAME_M
         arm_m = round(2 * half + _BARRIER_GAP_M, 3)
         left, along, turn = (1, _BARRIER_FAR_M, 0.0) if portal.is_entrance else (-1, _BARRIER_NEAR_M, np.pi)
         place = wall.to_world((left * (half + _BARRIER_GAP_M), along))
+        if kept_clear is not None and kept_clear.intersects(shapely.Point(place)):
+            seen.append(wall)
+            continue
         upright = wall.to_world((left * (half + _BARRIER_GAP_M), along + left * ARM_BEFORE_M))
         top_m = min(portal.height_m - TUBE_DEPTH_M, _underside_m(beams, upright)) - _ARM_GAP_M - ARM_HALF_M
         upright_m = PIVOT_M + 2 * half

@@ -23,21 +23,26 @@ from garage2usd.layout.placement import PlacedStall, Placement, placed
 from garage2usd.layout.source import FloorSource
 from garage2usd.layout.surveyed.cores import surveyed_blocks, surveyed_cores
 from garage2usd.layout.surveyed.floor import placed_stalls, surveyed_beams, surveyed_floor
+from garage2usd.layout.surveyed.gates import gates_of, lacking_portals
 from garage2usd.layout.surveyed.ground import SurveyedGround
 from garage2usd.layout.surveyed.tiles import SurveyedTiles
-from garage2usd.layout.surveyed.walls import gates_of, surveyed_walls
+from garage2usd.layout.surveyed.walls import surveyed_walls
 from garage2usd.layout.table import ObjectTable, StallTable
 from garage2usd.layout.tiles import CEILING_THICKNESS_M
 from garage2usd.look import drawn_look
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.column import ColumnSpec
 from garage2usd.structure.lane_graph import Square, StallType
-from garage2usd.survey.clear_ground import with_clear_widths
-from garage2usd.survey.fitted_stalls import FittedStall, fitted_stalls
-from garage2usd.survey.lane_network import lane_network
+from garage2usd.survey.clear_ground import with_clear_widths, with_lanes_to
+from garage2usd.survey.fitted_stalls import FittedStall, Fitting, fitted_stalls
+from garage2usd.survey.lane_network import Gate, lane_network
 from garage2usd.survey.survey import Survey, Unplaced
 
 __all__ = ["FloorAbove", "SurveyedFloor", "lay_out_survey"]
+_EQUIPMENT_M = 0.25
+"""Depth in metres of what hangs on walls, beside which lanes end."""
+_MOST_ROUNDS = 4
+"""Number of times that doors are looked for that lanes lack."""
 _UNDER_FLOOR_M = 0.02
 """Distance of a ceiling slab's upper face from a floor above that covers a part of it."""
 
@@ -148,28 +153,18 @@ def lay_out_survey(
     """
     assert survey.outline is not None
     fittings, look = config.fittings, drawn_look(config.look, config.seed)
-    keeps_left = config.standard.drives_on_left
     ground = SurveyedGround(survey.outline, survey.columns)
     if not survey.lanes:
         raise ConfigError("lanes", [], "a lane or more")
-    gates = gates_of(
-        ground.polygon,
-        survey.portals,
-        survey.lanes,
-        door_wall_m=config.bay.portal_side_m,
-        keeps_left=keeps_left,
-    )
-    network = lane_network(survey.lanes, gates, survey.stall_polygons())
-    standing = shapely.union_all(
-        [
-            *survey.stall_polygons(),
-            *survey.column_polygons(),
-            *survey.solid_polygons(),
-            ground.polygon.boundary,
-        ]
-    )
-    network = with_clear_widths(network, standing)
-    found, unplaced = fitted_stalls(survey, network, keeps_left=keeps_left)
+    gates, network, fitting, added = _joined(survey, ground.polygon, config)
+    if fitting.laneless:
+        with_more = with_lanes_to(survey, fitting.laneless)
+        if more := len(with_more.lanes) - len(survey.lanes):
+            survey = with_more
+            gates, network, fitting, added = _joined(survey, ground.polygon, config)
+            added = (f"{more} lane{'' if more == 1 else 's'} to stalls without one are laid over free ground", *added)
+    survey = replace(survey, remarks=tuple(dict.fromkeys([*survey.remarks, *added])))
+    found, unplaced = fitting.stalls, fitting.unplaced
     if not found:
         reasons = ", ".join(dict.fromkeys(each.reason for each in unplaced)) or "it has none"
         raise ConfigError("stalls", reasons, "one stall or more that can be placed")
@@ -213,6 +208,33 @@ def lay_out_survey(
         furnishing.misparked,
         frozenset(held_back),
     )
+
+
+def _joined(
+    survey: Survey, outline: shapely.Polygon, config: GarageConfig
+) -> tuple[list[Gate], LaneGraph, Fitting, tuple[str, ...]]:
+    """Return the doors of a survey, its lane graph, its stalls beside lanes, and remarks on doors that it lacks."""
+    keeps_left = config.standard.drives_on_left
+    stalls = survey.stall_polygons()
+    solids = shapely.union_all(survey.solid_polygons())
+    taken = shapely.union_all([*stalls, *survey.column_polygons(), solids])
+    # equipment hangs on the walls
+    standing = shapely.union_all([taken, outline.boundary.buffer(_EQUIPMENT_M)])
+    walls = shapely.union_all([outline.boundary, solids.boundary])
+    door_wall_m = config.bay.portal_side_m
+    gates = gates_of(outline, survey.portals, taken, door_wall_m=door_wall_m, keeps_left=keeps_left)
+    remarks: tuple[str, ...] = ()
+    for rounds in range(1, _MOST_ROUNDS + 1):
+        network = with_clear_widths(lane_network(survey.lanes, gates, stalls, walls), standing)
+        fitting = fitted_stalls(survey, network, keeps_left=keeps_left, walls=walls)
+        lacking = lacking_portals(outline, network, taken, fitting.cut_off)
+        more = gates_of(outline, lacking, taken, door_wall_m=door_wall_m, keeps_left=keeps_left, others=gates)
+        if not more or rounds == _MOST_ROUNDS:
+            break
+        gates += more
+        places = ", ".join(f"({portal.position[0]:.1f}, {portal.position[1]:.1f})" for portal in lacking)
+        remarks = (*remarks, f"doors are added where lanes without a way to one come nearest to the outline: {places}")
+    return gates, network, fitting, remarks
 
 
 def _columns(survey: Survey, config: GarageConfig, look: LookConfig) -> list[Placement]:

@@ -74,6 +74,7 @@ class SurveyedTiles(Tiles):
         self.stall_places = {}
         self._outline, self._lines, self._stalls = ground.polygon, ground.lines, tuple(stalls)
         self.solids = tuple(solids)
+        self.mouths = shapely.union_all([shapely.MultiPoint(_with_front(stall)).convex_hull for stall in stalls])
         walls = self._outline.boundary
         standing = shapely.union_all([walls, *solids, *(shapely.Polygon(stall.corners_m()) for stall in stalls)])
         pieces = LanePieces(lanes, ground.lines, standing, self.setback_m)
@@ -308,6 +309,15 @@ def _mouth(stall: PlacedStall) -> Point:
     """Return the middle of the side over which cars enter a stall."""
     left, right, *_ = stall.corners_m()
     return (left[0] + right[0]) / 2, (left[1] + right[1]) / 2
+
+
+def _with_front(stall: PlacedStall) -> list[Point]:
+    """Return the corners of a stall with the ground before its mouth on which cars turn into it."""
+    left, right, rear_right, rear_left = stall.corners_m()
+    middle, (x, z) = _mouth(stall), stall.centre_m
+    scale = _BEFORE_MOUTH_M / math.dist(middle, (x, z))
+    ahead_x, ahead_z = (middle[0] - x) * scale, (middle[1] - z) * scale
+    return [rear_left, rear_right, *((at[0] + ahead_x, at[1] + ahead_z) for at in (left, right))]
 
 
 def _sides(stall: PlacedStall) -> tuple[Point, Point]:

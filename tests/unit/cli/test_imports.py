@@ -68,16 +68,16 @@ def test_walls_and_doors_close_the_outline(made):
     walls = [place for kind in ("wall", "portal") for place in made.garage.layout.of_kind(kind)]
     solid = shapely.union_all([shapely.Polygon(ground) for wall in walls for ground in wall.outlines()])
     opened = outline.exterior.difference(solid.buffer(0.01))
-    # what is open is the doors of an entrance and an exit beside each other, and both lead onto ramps
-    assert made.garage.layout.counts()["portal"] == made.garage.layout.counts()["ramp"] == 2
+    # what is open is a door for both directions, which leads onto a ramp
+    assert made.garage.layout.counts()["portal"] == made.garage.layout.counts()["ramp"] == 1
     assert opened.length == pytest.approx(
         sum(w.spec.door_width_m - 0.16 for w in walls if hasattr(w.spec, "door_width_m")), abs=0.1
     )
     assert solid.intersection(outline).area < 0.2
     assert all(x == pytest.approx(44) for x, _ in shapely.get_coordinates(opened))
-    entrance, exit_ = (next(w for w in walls if getattr(w.spec, "is_entrance", None) is way) for way in (True, False))
+    ways = {node.kind: node.position for node in made.garage.layout.source.network.nodes if node.is_portal}
     # drivers who come in from the east keep to the right, which is north
-    assert entrance.position_m[2] < exit_.position_m[2]
+    assert ways["entrance"][1] < ways["exit"][1]
 
 
 def test_the_floor_is_one_sheet_inside_the_outline(made):
@@ -178,6 +178,7 @@ def test_what_cannot_be_imported_is_refused(settings, output, message, tmp_path)
 
 def test_an_outline_without_room_for_a_door_is_refused(tmp_path):
     outline = tuple((10 + 5 * math.cos(a), 10 + 5 * math.sin(a)) for a in np.linspace(0, math.tau, 24, endpoint=False))
-    survey = Survey(l_shaped().stalls[:1], (SurveyedLane(((6.0, 8.0), (14.0, 8.0)), 5.0),), outline=outline)
+    stall = SurveyedStall("1", ((8.75, 9.5), (11.25, 9.5), (11.25, 14.0), (8.75, 14.0)))
+    survey = Survey((stall,), (SurveyedLane(((6.0, 8.0), (14.0, 8.0)), 5.0),), outline=outline)
     with pytest.raises(ConfigError, match=r"outline: got 'sides of at most 1\.31 m'; allowed: a side of"):
         import_layout(survey, tmp_path / "l.usdc")

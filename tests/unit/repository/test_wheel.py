@@ -19,6 +19,7 @@ DATA_FILES = (
     "native/loops.so",
     "config/markets/*.toml",
     "profiles/*.toml",
+    "profiles/countries.json",
     "render/*.osl",
     "sensors/rigs/*.toml",
     "stage/*.npz",

@@ -7,6 +7,7 @@ import shapely
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.stalls import SizeClass
 from garage2usd.garage import StallUse
+from garage2usd.survey.enclosure import enclosed
 from garage2usd.survey.reader import read_building, read_survey
 from garage2usd.survey.survey import PortalKind
 
@@ -82,7 +83,7 @@ def test_a_lot_of_openstreetmap(tmp_path):
     lot.node((40, 15), amenity="parking_entrance")
     lot.node((10, 30), barrier="lift_gate")
     lot.node((10, 25), barrier="bollard")
-    survey = lot.read(tmp_path)
+    survey = enclosed(lot.read(tmp_path))
     assert {stall.name: stall.use for stall in survey.stalls} == {
         "relation 1": StallUse.STANDARD,
         "way 3": StallUse.STANDARD,

@@ -1,6 +1,7 @@
 """Alignment, lanes, mouths and shapes of surveyed garages, against networkx, shapely and figures by hand."""
 
 import math
+from dataclasses import replace
 
 import networkx as nx
 import numpy as np
@@ -35,7 +36,7 @@ def lot(*stalls, lanes=(LANE,), columns=()):
 
 
 def fitted(survey, *, keeps_left=False):
-    return fitted_stalls(survey, lane_network(survey.lanes, GATES), keeps_left=keeps_left)
+    return fitted_stalls(survey, lane_network(survey.lanes, GATES), keeps_left=keeps_left)[:2]
 
 
 @settings(deadline=None, max_examples=60)
@@ -144,7 +145,7 @@ def test_parallel_cars_look_along_traffic():
 @pytest.mark.parametrize(
     ("stalls", "reason"),
     [
-        ([box("far", 10, 40, 2.5, 5)], "no lane within 9 m of a free side"),
+        ([box("far", 10, 40, 2.5, 5)], "the nearest lane is 30.0 m away, more than 9"),
         ([box("1", 10, 2, 2.5, 5), box("2", 11, 2, 2.5, 5)], "60% of its ground is that of stall 1"),
         ([box("small", 10, 6, 0.9, 1)], "its ground of 0.90 m2 is too small or crosses itself"),
         (
@@ -196,4 +197,11 @@ def test_lanes_are_derived_from_the_ground_between_stalls():
     assert middle.hausdorff_distance(shapely.LineString([(2, 8), (28, 8)])) < 2.5
     assert with_medial_lanes(lot()).lanes == (LANE,)
     with pytest.raises(ConfigError, match="lanes: got 'none'"):
-        with_medial_lanes(Survey((box("1", 0, 0, 2.5, 5),)))
+        with_medial_lanes(Survey((box("1", 0, 0, 2.5, 5),), outline=((0, 0), (2.5, 0), (2.5, 5), (0, 5))))
+
+
+def test_lanes_are_laid_before_stalls_without_ground_between():
+    row = tuple(box(str(number), 2.5 * number, 0, 2.5, 5) for number in range(4))
+    assert [len(with_medial_lanes(Survey(stalls)).lanes) for stalls in (row, row[:1])] == [1, 1]
+    (lane,) = with_medial_lanes(Survey(tuple(replace(stall, mouth=2) for stall in row))).lanes
+    assert all(5 < z < 11 for _, z in lane.points)
