@@ -151,7 +151,7 @@ def _plan(found: Sequence[FoundStall], shapes: ShapesInMetres, parts: SurveyPart
         outside = ~shapely.intersects(shapely.union_all(held), middles)
         around = held + [ground.buffer(_APART_M) for ground, is_out in zip(stalls, outside, strict=True) if is_out]
     else:
-        around = [ground.buffer(_APART_M) for ground in stalls]
+        around = held + [ground.buffer(_APART_M) for ground in stalls]
         for kind in (PartKind.WALL, PartKind.COLUMN):
             around += [line_or_point(line).buffer(_APART_M) for line in shapes.of(kind, None)]
     plans = list(shapely.get_parts(shapely.union_all(around)))
