@@ -19,6 +19,7 @@ from garage2usd.garage_sources import settings_and_tape
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.facts import stage_facts
 from garage2usd.maps.glb import write_glb
+from garage2usd.maps.ground_plan import GroundPlan, ground_plan
 from garage2usd.maps.level_networks import LevelNetwork, level_networks
 from garage2usd.maps.occupancy import grid_files, write_grid
 from garage2usd.maps.opendrive import write_opendrive
@@ -35,8 +36,15 @@ from garage2usd.scenes.values import metres_y_up
 from garage2usd.scenes.walk import placed_objects
 
 _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO, _GRID = ".json", ".glb", ".osm", ".xodr", ".xosc", ".yaml"
-_AREAS = ".add.xml"
-_OF_EXTRA = {_LANELET2: ("a Lanelet2 map", "pyproj"), _SCENARIO: ("a scenario", "scenariogeneration")}
+_GEOJSON, _DRAWING = ".geojson", ".dxf"
+_AREAS, _OPENSTREETMAP = _COMPOUND = ".add.xml", ".osm.xml"
+_OF_EXTRA = {
+    _LANELET2: ("a Lanelet2 map", "pyproj"),
+    _SCENARIO: ("a scenario", "scenariogeneration"),
+    _GEOJSON: ("GeoJSON", "pyproj"),
+    _OPENSTREETMAP: ("an OpenStreetMap file", "pyproj"),
+    _DRAWING: ("a drawing in DXF", "ezdxf"),
+}
 """Formats that need a module of an extra, with their description and that module, by extension."""
 Notice = Callable[[str], None]
 """Callback for a line on data that a format cannot represent."""
@@ -58,6 +66,9 @@ class _Source:
                 _ = level.taken_stalls
         if len({_LANELET2, _MAP, _AREAS} & {*of_lanes}) > 1:
             _ = self.networks
+        if len({_LANELET2, _MAP, _AREAS, _DRAWING, _GEOJSON, _OPENSTREETMAP} & {*of_lanes}) > 1:
+            for ground in self.plan.levels:
+                _ = ground.lanes
 
     @cached_property
     def objects(self) -> list[PlacedObject]:
@@ -73,6 +84,11 @@ class _Source:
     def networks(self) -> tuple[LevelNetwork, ...]:
         """The road networks of all levels."""
         return level_networks(self.garage)
+
+    @cached_property
+    def plan(self) -> GroundPlan:
+        """The ground plan."""
+        return ground_plan(self.garage)
 
 
 class _Asked(NamedTuple):
@@ -127,7 +143,7 @@ def _glb(source: _Source, path: Path, _asked: _Asked, remarks: Remarks) -> None:
 
 
 def _opendrive(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
-    write_opendrive(source.garage, path, asked.settings, networks=source.networks)
+    write_opendrive(source.garage, path, asked.settings, networks=source.networks, plan=source.plan)
 
 
 def _grid(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
@@ -138,7 +154,25 @@ def _grid(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None
 def _lanelet2(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
     from garage2usd.maps.lanelet2 import write_lanelet2  # noqa: PLC0415 - other formats do without its extra
 
-    write_lanelet2(source.garage, path, asked.settings, networks=source.networks)
+    write_lanelet2(source.garage, path, asked.settings, networks=source.networks, plan=source.plan)
+
+
+def _geojson(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
+    from garage2usd.maps.geojson import write_geojson  # noqa: PLC0415 - other formats do without its extra
+
+    write_geojson(source.garage, path, asked.settings, plan=source.plan)
+
+
+def _openstreetmap(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
+    from garage2usd.maps.openstreetmap import write_openstreetmap  # noqa: PLC0415 - other formats do without its extra
+
+    write_openstreetmap(source.garage, path, asked.settings, plan=source.plan)
+
+
+def _drawing(source: _Source, path: Path, _asked: _Asked, _remarks: Remarks) -> None:
+    from garage2usd.maps.dxf import write_dxf  # noqa: PLC0415 - other formats do without its extra
+
+    write_dxf(source.garage, path, plan=source.plan)
 
 
 def _scenario(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
@@ -180,6 +214,9 @@ _WRITERS: dict[str, _Write] = {
     _GRID: _grid,
     _MAP: _opendrive,
     _AREAS: _parking_areas,
+    _DRAWING: _drawing,
+    _GEOJSON: _geojson,
+    _OPENSTREETMAP: _openstreetmap,
 }
 """Writers by extension, the slowest first, so that parallel tasks finish together."""
 
@@ -200,8 +237,8 @@ def _write(source: _Source, folder: Path, asked: _Asked) -> tuple[tuple[Path, ..
 
 
 EXPORT_SUFFIXES = tuple(sorted(_WRITERS))
-"""Extensions of the files that `export` writes: SUMO's parking areas, GLB scenes, Lanelet2 maps, OpenDRIVE maps,
-OpenSCENARIO scenarios, and YAML files of occupancy grids."""
+"""Extensions of the files that `export` writes: SUMO's parking areas, DXF drawings, GeoJSON, GLB scenes, Lanelet2 maps,
+OpenStreetMap's XML, OpenDRIVE maps, OpenSCENARIO scenarios, and YAML files of occupancy grids."""
 
 
 def export(
@@ -224,11 +261,11 @@ def export(
         (``.json``), whose garage is rebuilt.
     outputs
         One or more files, whose extensions select the formats: ``.glb`` a scene as binary glTF 2.0, ``.osm`` a Lanelet2
-        map, ``.xodr`` an OpenDRIVE 1.8 map, ``.xosc`` an OpenSCENARIO 1.2 scenario with a ``.xodr`` map of the same
-        stem beside it, ``.yaml`` an occupancy grid for robots with its image (``.pgm``) and, depending on the settings,
-        masks, for each level of a garage of several levels (``a_U1.yaml``), ``.add.xml`` the stalls as parking areas of
-        SUMO, with the map that their network is made of and
-        netconvert's configuration for it (``.netccfg``) beside it.
+        map, ``.osm.xml`` OpenStreetMap's XML, ``.geojson`` GeoJSON, ``.dxf`` a drawing, ``.xodr`` an OpenDRIVE 1.8 map,
+        ``.xosc`` an OpenSCENARIO 1.2 scenario with a ``.xodr`` map of the same stem beside it, ``.yaml`` an occupancy
+        grid for robots with its image (``.pgm``) and, depending on the settings, masks, for each level of a garage of
+        several levels (``a_U1.yaml``), ``.add.xml`` the stalls as parking areas of SUMO, with the map that their
+        network is made of and netconvert's configuration for it (``.netccfg``) beside it.
     settings
         Settings of maps, grids and drives; if left out, those of the report, else the defaults.
     scenario
@@ -260,7 +297,7 @@ def export(
     OutputError
         If the files cannot be written.
     MissingExtraError
-        If a Lanelet2 map or a scenario is requested, and the extra ``maps`` is not installed.
+        If a format is requested whose extra, ``maps`` or ``cad``, is not installed.
     """
     source, reported = Path(source), None
     if source.suffix.lower() == _REPORT:
@@ -385,9 +422,9 @@ def _map_beside(place: Path, places: Sequence[Path]) -> Path | None:
 
 def _format_of(path: Path) -> str:
     name = path.name.lower()
-    return _AREAS if name.endswith(_AREAS) else path.suffix.lower()
+    return next((suffix for suffix in _COMPOUND if name.endswith(suffix)), path.suffix.lower())
 
 
 def _stem_of(path: Path) -> str:
     """Return a file's name without the ending of its format; empty if there is no more to it."""
-    return path.name[: -len(_AREAS)] if _format_of(path) == _AREAS else path.stem
+    return path.name[: -len(_format_of(path))] if _format_of(path) in _COMPOUND else path.stem

@@ -146,7 +146,8 @@ def _laid_out(
         found.append(GarageLevel(place, own, layout, planned=None, source_name=level.name))
     structures = tuple(level.layout.structure for level in found)
     whole = Building(structures, None, config.building.storey_m, tuple(floors_m) if len(found) > 1 else None)
-    garage = Garage(config, whole, tuple(found), origin)
+    frame = alignment.frame(levels[0].survey.origin_deg)
+    garage = Garage(config, whole, tuple(found), {**origin, **frame})
     return garage, alignment, (*remarks, *_unjoined(garage))
 
 

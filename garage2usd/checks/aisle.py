@@ -140,7 +140,10 @@ def _clear_width(level: BuiltLevel, way: _Way, carriageway_m: float) -> tuple[fl
     for solid in level.solids.at(strip):
         if solid.label not in _BUILDING:
             continue
-        low, high = way.reach(solid.footprint.intersection(strip))
+        part = solid.footprint.intersection(strip)
+        if part.is_empty:  # it only touches the strip
+            continue
+        low, high = way.reach(part)
         if high < 0 and -high < left:
             left, narrowest = -high, solid.name
         elif low > 0 and low < right:

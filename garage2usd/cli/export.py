@@ -19,10 +19,10 @@ from garage2usd.cli.options import INPUT_FILE, drive_options, echo_notices, echo
     type=click.Path(path_type=Path),
     multiple=True,
     required=True,
-    help="A file: .add.xml for the stalls as parking areas of SUMO with the map of their network beside it, .glb for a "
-    "scene, .osm for a Lanelet2 map, .xodr for an OpenDRIVE map, .xosc for an OpenSCENARIO scenario with the map it "
-    "names beside it, .yaml for a robot's occupancy grid with its picture beside it, and the masks that maps.grid asks "
-    "for; may be repeated.",
+    help="A file: .add.xml for the stalls as parking areas of SUMO with the map of their network beside it, .dxf for a "
+    "drawing, .geojson for GeoJSON, .glb for a scene, .osm for a Lanelet2 map, .osm.xml for OpenStreetMap, .xodr for "
+    "an OpenDRIVE map, .xosc for an OpenSCENARIO scenario with the map it names beside it, .yaml for a robot's "
+    "occupancy grid with its picture beside it, and the masks that maps.grid asks for; may be repeated.",
 )
 @click.option(
     "--config",
@@ -54,7 +54,8 @@ def export(
     whose garage is rebuilt. A garage that was moved, turned or partly hidden is exported whole, in its own frame.
 
     Parts of a stage that a format cannot represent, such as area lights, are reported on standard error and left out.
-    If the extra `maps` is missing, the files that do without it are written and the others named; the exit code is 3.
+    If the extra `maps` or `cad` is missing, the files that do without it are written and the others named; the exit
+    code is 3.
 
     The car of a scenario drives from an entrance to a stall, parks, and drives to an exit, as with `garage2usd drive
     --stall`. Any option on the drive replaces the whole section maps.scenario of the configuration.

@@ -91,7 +91,7 @@ class MakeConfig(Settings):
     """True to write a table of the classes and bounds of all objects (``.labels.json``)."""
     difficulty: bool = True
     """True to prove the drives of each stall and rate the difficulty of stalls (``.difficulty.json``) and garage."""
-    exports: tuple[Literal["add.xml", "glb", "osm", "xodr", "xosc", "yaml"], ...] = ()
+    exports: tuple[Literal["add.xml", "dxf", "geojson", "glb", "osm", "osm.xml", "xodr", "xosc", "yaml"], ...] = ()
     """Formats to which each stage is exported, as by `build --with`."""
     drives: DrivesConfig | None = None
     """Settings of drives recorded with a rig, as by `render --rig` (``.drive_0.zip``); none if left out."""

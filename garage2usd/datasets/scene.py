@@ -35,7 +35,7 @@ from garage2usd.view.thumbnails import draw_pictures
 
 _FIGURE_DIGITS = 6
 _DIGITS = 8
-_TEXTS = {".json", ".netccfg", ".osm", ".xml", ".xodr", ".xosc", ".yaml"}
+_TEXTS = {".dxf", ".geojson", ".json", ".netccfg", ".osm", ".xml", ".xodr", ".xosc", ".yaml"}
 
 
 def garage_figures(levels: Sequence[GarageLevel]) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from garage2usd.config.outputs import MapsConfig
 from garage2usd.layout.grounds import hulls_of
 from garage2usd.maps.facts import stage_facts
 from garage2usd.maps.frame import map_points
+from garage2usd.maps.ground_plan import GroundPlan, LevelPlan, ground_plan
 from garage2usd.maps.lane_bounds import Bound, LaneBounds, lane_bounds
 from garage2usd.maps.lanelet2_parking import add_lots, add_stalls, stall_points
 from garage2usd.maps.level_networks import LevelNetwork, level_networks
@@ -139,7 +140,12 @@ def _line_across(osm: OsmFile, lane: LaneBounds, run_m: float) -> tuple[int, ...
 
 
 def write_lanelet2(
-    garage: BuiltGarage, path: Path, settings: MapsConfig, *, networks: Sequence[LevelNetwork] | None = None
+    garage: BuiltGarage,
+    path: Path,
+    settings: MapsConfig,
+    *,
+    networks: Sequence[LevelNetwork] | None = None,
+    plan: GroundPlan | None = None,
 ) -> tuple[LaneBounds, ...]:
     """Write a garage as a Lanelet2 map in the common map frame (`garage2usd.maps.frame`).
 
@@ -153,6 +159,8 @@ def write_lanelet2(
         Geographic position and speed limit.
     networks
         Roads of its levels by `garage2usd.maps.level_networks.level_networks`, if already known.
+    plan
+        Its ground plan, likewise.
 
     Returns
     -------
@@ -171,13 +179,16 @@ def write_lanelet2(
     `garage2usd.maps.osm_file.APART_M` from one another. Bounds lie within a millimetre of the lane's where such points
     allow it; where a bend is tighter than its lane is wide, the inner one is straight.
     Latitude and longitude follow the projection of the OpenDRIVE map. Stalls are those of
-    `garage2usd.maps.lanelet2_parking`.
+    `garage2usd.maps.lanelet2_parking`. Outline, columns and blocks are closed lines of the type ``building``, doors to
+    the street lines of the type ``gate``.
     """
     osm = OsmFile(settings.latitude_deg, settings.longitude_deg)
     lanes: list[LaneBounds] = []
-    for level, network in level_networks(garage) if networks is None else networks:
+    levels = (plan or ground_plan(garage)).levels
+    for (level, network), ground in zip(networks or level_networks(garage), levels, strict=True):
         osm.floor_m = level.place.floor_m
         lanes += _add_level(osm, level, network, settings)
+        _add_buildings(osm, ground)
     facts = {name: str(value) for name, value in stage_facts(garage.stage).items()}
     version = facts.pop("version", "")
     header = {"format_version": _FORMAT, "map_version": version, "name": Path(garage.source).stem, **facts}
@@ -203,6 +214,23 @@ def _add_level(osm: OsmFile, level: BuiltLevel, network: Network, settings: Maps
         osm.relation(members, _lanelet_tags(lane, settings))
     add_lots(osm, lanes, feet)
     return lanes
+
+
+def _add_buildings(osm: OsmFile, plan: LevelPlan) -> None:
+    """Write the outline of a level, its columns and blocks, and a line across each door to the street."""
+    outline = [] if plan.outline is None else [plan.outline]
+    for tags, grounds in (
+        ({"building": "parking"}, outline),
+        ({"subtype": "column"}, plan.columns),
+        ({"subtype": "core"}, plan.blocks),
+    ):
+        for ground in grounds:
+            # chamfers are narrower than the points of a map may be apart
+            ring = shapely.get_coordinates(ground if ground in outline else shapely.oriented_envelope(ground))[:-1]
+            osm.polygon(osm.points((x, y, 0.0) for x, y in ring.tolist()), {"type": "building", **tags})
+    for door in plan.doors:
+        jambs = osm.points((x, y, 0.0) for x, y in door.jambs.tolist())
+        osm.new_way(jambs, {"type": "gate", "subtype": door.kind})
 
 
 def _bound_tags(bound: Bound) -> dict[str, str]:

@@ -214,7 +214,7 @@ def add_stalls(
     before_of = dict(zip(parking, feet.before(mouths, outwards), strict=True))
     grounds = []
     for stall, (corners, ends) in points_of.items():
-        tags = _stall_tags(stall, is_taken=stall in taken)
+        tags = _stall_tags(stall, level, is_taken=stall in taken)
         if not stall.is_parked_in:
             osm.polygon(corners, {"type": "hatched_road_markings", **tags})
             continue
@@ -284,9 +284,10 @@ def _valid(grounds: Sequence[shapely.Geometry] | Grounds) -> Grounds:
     return valid
 
 
-def _stall_tags(stall: Stall, *, is_taken: bool) -> dict[str, str]:
-    numbered = {} if stall.number is None else {"ref": str(stall.number)}
-    return {"name": stall.name, **numbered, "use": str(stall.use), "occupied": "yes" if is_taken else "no"}
+def _stall_tags(stall: Stall, level: BuiltLevel, *, is_taken: bool) -> dict[str, str]:
+    numbered = {} if stall.number is None else {"ref": level.place.own_name(str(stall.number))}
+    sized = {} if stall.size == "standard" else {"size": stall.size}
+    return {"name": stall.name, **numbered, **sized, "use": str(stall.use), "occupied": "yes" if is_taken else "no"}
 
 
 def _side(osm: OsmFile, *points: int, is_open: bool) -> int:

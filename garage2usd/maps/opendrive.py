@@ -8,12 +8,14 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+import shapely
 from pxr import Usd
 
 from garage2usd.as_built import BuiltGarage
 from garage2usd.config.outputs import MapsConfig
 from garage2usd.maps.facts import stage_facts
 from garage2usd.maps.frame import projection
+from garage2usd.maps.ground_plan import GroundPlan, ground_plan
 from garage2usd.maps.level_networks import LevelNetwork, level_networks
 from garage2usd.maps.network import LEFT, RIGHT, Junction, Neighbour, Network, Road, RoadPlaces
 from garage2usd.maps.opendrive_objects import (
@@ -25,15 +27,21 @@ from garage2usd.maps.opendrive_objects import (
     solids_of,
     stalls_of,
 )
-from garage2usd.maps.xml_text import child, write_xml
+from garage2usd.maps.xml_text import child, number_text, write_xml
 
 _CENTRE_LINE_M = 0.12
+_DIGITS = 4
 _AROUND_M = 10.0
 """Margin of the map's bounds around its roads."""
 
 
 def write_opendrive(
-    garage: BuiltGarage, path: Path, settings: MapsConfig, *, networks: Sequence[LevelNetwork] | None = None
+    garage: BuiltGarage,
+    path: Path,
+    settings: MapsConfig,
+    *,
+    networks: Sequence[LevelNetwork] | None = None,
+    plan: GroundPlan | None = None,
 ) -> Sequence[LevelNetwork]:
     """Write a garage as an OpenDRIVE 1.8 map in the common map frame (`garage2usd.maps.frame`).
 
@@ -47,6 +55,8 @@ def write_opendrive(
         Geographic position and speed limit.
     networks
         Roads of its levels by `garage2usd.maps.level_networks.level_networks`, if already known.
+    plan
+        Its ground plan, likewise.
 
     Returns
     -------
@@ -62,7 +72,8 @@ def write_opendrive(
     -----
     Numbers of roads, junctions and objects are integers, as CARLA requires; the ids of stalls are names. Stalls,
     columns and walls lie beside straight roads (`garage2usd.maps.network`), with outlines as they stand in the
-    stage. The projection is a transverse Mercator around the stage's origin, in which metres are metres.
+    stage. The projection is a transverse Mercator around the stage's origin, in which metres are metres. The header has
+    the outline and the blocks of each level, and the middles of its doors, as user data x y after x y.
     """
     levels = level_networks(garage) if networks is None else networks
     first_number = 1 + sum(len(network.roads) + len(network.junctions) for _, network in levels)
@@ -83,7 +94,8 @@ def write_opendrive(
         first_number += len(places.lines)
         roads += [*network.roads, *places.lines]
     root = ET.Element("OpenDRIVE")
-    _add_header(root, garage.source, garage.stage, [network for _, network in levels], settings)
+    header = _add_header(root, garage.source, garage.stage, [network for _, network in levels], settings)
+    _add_outlines(header, plan or ground_plan(garage))
     for road in roads:
         element = _add_road(root, road, settings)
         if road in objects:
@@ -99,7 +111,7 @@ def write_opendrive(
 
 def _add_header(
     root: ET.Element, source: str, stage: Usd.Stage | None, networks: Sequence[Network], settings: MapsConfig
-) -> None:
+) -> ET.Element:
     facts = stage_facts(stage)
     roads = [road for network in networks for road in network.roads]
     ends = np.array([road.line.at(s)[:2] for road in roads for s in (0.0, road.line.length_m)])
@@ -120,6 +132,19 @@ def _add_header(
     child(header, "geoReference").text = projection(settings.latitude_deg, settings.longitude_deg)
     for name, value in facts.items():
         child(header, "userData", code=name, value=str(value))
+    return header
+
+
+def _add_outlines(header: ET.Element, plan: GroundPlan) -> None:
+    """Tell the outline, the blocks and the doors of each level, for which OpenDRIVE has no element."""
+    for level in plan.levels:
+        grounds = [] if level.outline is None else [("outline", level.outline)]
+        grounds += [("block", block) for block in level.blocks]
+        told = [(code, shapely.get_coordinates(ground.exterior)[:-1].ravel()) for code, ground in grounds]
+        told += [(door.kind, np.array(door.position)) for door in level.doors]
+        for code, numbers in told:
+            words = " ".join(map(number_text, numbers.round(_DIGITS).tolist()))
+            child(header, "userData", code=level.place.after(code, joint=" "), value=words)
 
 
 def _add_road(root: ET.Element, road: Road, settings: MapsConfig) -> ET.Element:

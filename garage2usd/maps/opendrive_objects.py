@@ -115,7 +115,8 @@ def stalls_of(level: BuiltLevel, places: RoadPlaces, network: Network) -> Iterat
         away = map_points(stall.corners) - map_points(stall.centre)
         access = through.get(stall.access)
         data = [("use", str(stall.use)), ("occupied", "true" if stall in taken else "false")]
-        data += [] if stall.number is None else [("number", str(stall.number))]
+        data += [] if stall.number is None else [("number", level.place.own_name(str(stall.number)))]
+        data += [] if stall.size == "standard" else [("size", stall.size)]
         data += [("accessRoad", str(access.number))] if access is not None else []
         data += [("accessJunction", str(meeting[stall.access]))] if stall.access in meeting else []
         kind = "parkingSpace" if stall.is_parked_in else "none"

@@ -23,6 +23,7 @@ class PartKind(StrEnum):
     SOLID = "solid"
     OUTLINE = "outline"
     WALL = "wall"
+    MOUTH = "mouth"
     STALL = "stall"
 
 
@@ -62,6 +63,7 @@ _WORDS = {
         "=wall =walls wand =wande mauer =mur =murs =muro =muros =muri parete pared =parede стена "
         "стены =墙 墙体 墙线 外墙 剪力墙 벽 壁"
     ),
+    PartKind.MOUTH: "=mouth =mouths",
     PartKind.STALL: (
         "park =stall =stalls =bay =bays =pkng =prkg =pkg =strp striping stellplatz =pkw "
         "estacionamiento estacionamento aparcamiento =plaza =plazas =vaga =vagas parcheggi posto_auto "
@@ -122,7 +124,7 @@ def use_told(*names: str) -> StallUse:
     """Return the use of a stall that names tell, in the words of several languages."""
     plain = [_plain(name) for name in names]
     told = next((use for name in plain for use, words in _USES.items() if _contains(name, words)), None)
-    return told or use_of(plain)
+    return told or use_of([*names, *plain])
 
 
 def size_told(*names: str) -> SizeClass:

@@ -140,7 +140,8 @@ def _survey(
     parts.unread.extend(unread)
     shapes = ShapesInMetres(drawing, unit_m)
     ours = [stall for stall in found if plan.intersects(shapely.Point(np.mean(stall.corners, axis=0)))]
-    _add_stalls(parts, ours, drawing, unit_m)
+    mouths = [shapely.LineString(line) for line in shapes.of(PartKind.MOUTH, plan) if len(line) > 1]
+    _add_stalls(parts, ours, drawing, unit_m, mouths)
     stalls = parts.stall_polygons()
     for number, ring in enumerate(shapes.of(PartKind.COLUMN, plan, rings=True)):
         add_column(parts, f"column {number + 1}", shapely.Polygon(ring))
@@ -223,7 +224,13 @@ def _plans(found: Sequence[FoundStall], shapes: ShapesInMetres) -> list[_Plan]:
     return sorted((plan for plan in plans if plan.stalls), key=lambda plan: (-plan.stalls, *plan.ground.bounds))
 
 
-def _add_stalls(parts: SurveyParts, found: Sequence[FoundStall], drawing: Drawing, unit_m: float) -> None:
+def _add_stalls(
+    parts: SurveyParts,
+    found: Sequence[FoundStall],
+    drawing: Drawing,
+    unit_m: float,
+    mouths: Sequence[shapely.LineString],
+) -> None:
     grounds = shapely.STRtree([shapely.Polygon(stall.corners) for stall in found])
     texts: defaultdict[int, list[str]] = defaultdict(list)
     for text in drawing.texts:
@@ -232,13 +239,20 @@ def _add_stalls(parts: SurveyParts, found: Sequence[FoundStall], drawing: Drawin
             if len(within):
                 texts[int(within[0])].append(text.text)
                 break
+    entries = shapely.STRtree([mouth.interpolate(0.5, normalized=True) for mouth in mouths])
     common = Counter(text for said in texts.values() for text in set(said))
     for number, stall in enumerate(found):
         said = [text for text in texts[number] if len(text) <= _LONGEST_WORD]
         written = number_told(*(text for text in said if common[text] <= _MOST_SAME))
         names = (*said, *stall.told)
         name = written or stall.name
-        parts.add_stall(name, stall.corners, use=use_told(*names), size=size_told(*names), number=written)
+        edge = grounds.geometries[number].exterior
+        along = [mouths[entry] for entry in entries.query(edge, predicate="dwithin", distance=_GAP_M).tolist()]
+        own = [mouth for mouth in along if edge.buffer(_GAP_M).covers(mouth)]
+        mouth_at = own[0].interpolate(0.5, normalized=True).coords[0] if own else None
+        parts.add_stall(
+            name, stall.corners, mouth_at=mouth_at, use=use_told(*names), size=size_told(*names), number=written
+        )
 
 
 def _add_lanes(

@@ -8,9 +8,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.common.documents import MAX_REPORT_BYTES, read_json
+from garage2usd.garage import Point
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import PortalKind, Survey, Unplaced
-from garage2usd.survey.text import length_of, number_of, portal_kind_of, refuse, size_of, unread_length, use_of
+from garage2usd.survey.surveyed_building import SurveyedBuilding, SurveyedLevel, SurveyedRamp, ordinals_of
+from garage2usd.survey.text import (
+    length_of,
+    levels_of,
+    number_of,
+    portal_kind_of,
+    refuse,
+    size_of,
+    unread_length,
+    use_of,
+)
 
 Floats = NDArray[np.float64]
 
@@ -25,12 +36,14 @@ _KINDS = {
     "service": "lane",
     "column": "column",
     "pillar": "column",
+    "block": "block",
     "outline": "outline",
     "parking": "outline",
 }
 _SHAPES = {
     "stall": ("Polygon", "MultiPolygon"),
     "outline": ("Polygon", "MultiPolygon"),
+    "block": ("Polygon", "MultiPolygon"),
     "lane": ("LineString", "MultiLineString"),
     "column": ("Point", "MultiPoint", "Polygon", "MultiPolygon"),
     "portal": ("Point", "MultiPoint"),
@@ -52,7 +65,7 @@ class _Shape(NamedTuple):
     portal: PortalKind
 
 
-def read_geojson_survey(path: Path) -> Survey:
+def read_geojson_survey(path: Path) -> Survey | SurveyedBuilding:
     """Read a survey from a GeoJSON object.
 
     Parameters
@@ -62,8 +75,10 @@ def read_geojson_survey(path: Path) -> Survey:
         ``"coordinates": "metres"`` of the outermost object metres east and north. The first of the properties ``kind``,
         ``type``, ``amenity``, ``service``, ``entrance`` and ``highway`` that has a known value tells what a feature is:
         ``stall`` or ``parking_space``, ``lane``, ``parking_aisle`` or ``service`` (with ``width``, ``oneway``),
-        ``column`` (with ``size_m`` if it is a point), ``entrance``, ``exit`` or ``portal``, and ``outline`` or
-        ``parking``. Stalls may have ``use``, ``size`` and ``number``.
+        ``column`` (with ``size_m`` if it is a point), ``entrance``, ``exit`` or ``portal``, ``block``, and
+        ``outline`` or ``parking``. Stalls may have ``use``, ``size``, ``number`` and ``mouth``, the number of the
+        position of their ring at which the side begins that cars cross. Stalls with several values of ``level`` make a
+        building; lanes with two levels are its ramps, from the first one or as ``incline`` (``up``, ``down``) tells.
 
     Raises
     ------
@@ -87,12 +102,55 @@ def read_geojson_survey(path: Path) -> Survey:
         from garage2usd.survey.earth import ground_of  # noqa: PLC0415 - files in metres do without its extra
 
         ground, origin_deg = ground_of(positions, path.name)
-    start = 0
-    for shape in shapes:
-        end = start + len(shape.positions)
-        _add(parts, shape, [(x, z) for x, z in ground[start:end].tolist()])
-        start = end
-    return parts.survey(origin_deg=origin_deg)
+    ends: list[int] = np.cumsum([len(shape.positions) for shape in shapes])[:-1].tolist() if shapes else []
+    placed = [
+        (shape, [(x, z) for x, z in points.tolist()])
+        for shape, points in zip(shapes, np.split(ground, ends), strict=False)
+    ]
+    names = list(dict.fromkeys(name for shape, _ in placed if shape.kind == "stall" for name in _levels(shape)))
+    if len(names) < 2:  # noqa: PLR2004 - one above another
+        for shape, points in placed:
+            _add(parts, shape, points)
+        return parts.survey(origin_deg=origin_deg)
+    return _building(placed, names, parts.unread, origin_deg)
+
+
+def _building(
+    placed: Sequence[tuple[_Shape, list[Point]]],
+    names: Sequence[str],
+    unread: Sequence[Unplaced],
+    origin_deg: tuple[float, float] | None,
+) -> SurveyedBuilding:
+    """Return the levels with stalls, and lanes on two of them as ramps from the first level that they name."""
+    collected = {name: SurveyParts() for name in names}
+    ordinals = ordinals_of(names)
+    ramps, missed = [], list(unread)
+    for shape, points in placed:
+        told = [name for name in _levels(shape) if name in collected]
+        if shape.kind == "lane" and len(told) == 2 and len(points) > 1:  # noqa: PLR2004 - from one to the other
+            width_m, way = _lane(shape, missed)
+            climbs = {"up": 1, "down": -1}.get(str(shape.properties.get("incline", "")), 0)
+            if climbs and climbs * (ordinals[told[1]] - ordinals[told[0]]) < 0:
+                told.reverse()
+            line = points[::-1] if way < 0 else points
+            start, end = told[::-1] if way < 0 else told
+            ramps.append(SurveyedRamp(shape.name, tuple(line), (start, end), width_m, way != 0))
+            continue
+        if _levels(shape) and not told:
+            missed.append(Unplaced(shape.name, f"a {shape.kind} on level {', '.join(_levels(shape))} without stalls"))
+        for name in told or ([] if _levels(shape) else names):
+            _add(collected[name], shape, points)
+    levels = tuple(
+        SurveyedLevel(name, parts.survey(origin_deg=origin_deg), ordinals[name]) for name, parts in collected.items()
+    )
+    return SurveyedBuilding(levels, tuple(ramps), tuple(missed))
+
+
+def _levels(shape: _Shape) -> list[str]:
+    """Return the levels of a feature in the order in which it names them."""
+    told = str(shape.properties.get("level", "") if shape.properties.get("level") is not None else "")
+    words = told.split(";")
+    return list(dict.fromkeys(name for word in words for name in sorted(levels_of({"level": word}))))
 
 
 def _shapes_of(document: object, path: Path, parts: SurveyParts) -> Iterator[_Shape]:
@@ -185,7 +243,7 @@ def _check_degrees(shape: _Shape) -> None:
             refuse(f"{shape.place}.geometry.coordinates", (longitude, latitude), allowed)
 
 
-def _add(parts: SurveyParts, shape: _Shape, points: Sequence[tuple[float, float]]) -> None:
+def _add(parts: SurveyParts, shape: _Shape, points: Sequence[Point]) -> None:
     properties = shape.properties
     if shape.kind == "stall":
         said = [str(properties[key]) for key in ("use", "parking_space", "access") if key in properties]
@@ -193,17 +251,15 @@ def _add(parts: SurveyParts, shape: _Shape, points: Sequence[tuple[float, float]
             said.append("disabled")
         number = next((properties[key] for key in ("number", "ref") if properties.get(key) is not None), "")
         size = size_of(str(properties[key]) for key in ("size", "parking_space") if key in properties)
-        parts.add_stall(shape.name, points, use=use_of(said), size=size, number=str(number))
+        mouth_at = _mouth(parts, shape, points)
+        parts.add_stall(shape.name, points, mouth_at=mouth_at, use=use_of(said), size=size, number=str(number))
     elif shape.kind == "lane":
-        key = next((key for key in ("width_m", "width") if properties.get(key) is not None), None)
-        width_m = None if key is None else length_of(properties[key])
-        if key is not None and width_m is None:
-            parts.unread.append(Unplaced(shape.name, unread_length(key, properties[key])))
-        direction = str(properties.get("oneway", properties.get("one_way", "no"))).lower()
-        line = points[::-1] if direction in {"-1", "reverse"} else points
-        parts.add_lane(shape.name, line, width_m, one_way=direction in _TRUE)
+        width_m, way = _lane(shape, parts.unread)
+        parts.add_lane(shape.name, points[::-1] if way < 0 else points, width_m, one_way=way != 0)
     elif shape.kind == "outline":
         parts.add_outline(shape.name, points)
+    elif shape.kind == "block":
+        parts.add_solid(shape.name, points[:-1] if points[0] == points[-1] else points)
     elif shape.kind == "portal":
         parts.add_portal(points[0], shape.portal)
     elif shape.is_area:
@@ -213,6 +269,30 @@ def _add(parts: SurveyParts, shape: _Shape, points: Sequence[tuple[float, float]
         if size_m is None:
             parts.unread.append(Unplaced(shape.name, unread_length("size_m", properties["size_m"])))
         parts.add_square_column(points[0], size_m or _COLUMN_M)
+
+
+def _lane(shape: _Shape, unread: list[Unplaced]) -> tuple[float | None, int]:
+    """Return the width of a lane, if known, and 1 or -1 if cars drive along its points or against them only, else 0."""
+    properties = shape.properties
+    key = next((key for key in ("width_m", "width") if properties.get(key) is not None), None)
+    width_m = None if key is None else length_of(properties[key])
+    if key is not None and width_m is None:
+        unread.append(Unplaced(shape.name, unread_length(key, properties[key])))
+    direction = str(properties.get("oneway", properties.get("one_way", "no"))).lower()
+    return width_m, 0 if direction not in _TRUE else -1 if direction in {"-1", "reverse"} else 1
+
+
+def _mouth(parts: SurveyParts, shape: _Shape, points: Sequence[Point]) -> Point | None:
+    """Return the middle of the side of a stall that cars cross; None if it has none, or one that is noted as unread."""
+    given = shape.properties.get("mouth")
+    if given is None:
+        return None
+    ring = points[:-1] if points[0] == points[-1] else points
+    if isinstance(given, bool) or not isinstance(given, int) or not 0 <= given < len(ring):
+        parts.unread.append(Unplaced(shape.name, f"the mouth {given!r}, which is no number from 0 to {len(ring) - 1}"))
+        return None
+    (x, z), (next_x, next_z) = ring[given], ring[(given + 1) % len(ring)]
+    return (x + next_x) / 2, (z + next_z) / 2
 
 
 def _is_true(value: object) -> bool:

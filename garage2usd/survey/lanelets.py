@@ -79,7 +79,7 @@ def lanes_of_lanelets(osm: OsmElements) -> Iterator[CentreLine | Unplaced]:
                 left = lanelets[other].right_line[::-1]
             elif side == "right":
                 right = lanelets[other].left_line[::-1]
-        line, width_m = _between(left, right)
+        line, width_m = line_between(left, right)
         one_way = other is None and lanelet.is_one_way
         heights_m = _height_m(osm, lanelet, line[0]), _height_m(osm, lanelet, line[-1])
         yield CentreLine(lanelet.relation.name, lanelet.relation.tags, line, width_m, one_way, heights_m)
@@ -174,7 +174,7 @@ def _joined(lines: list[tuple[tuple[float, float], ...]]) -> list[tuple[float, f
     return joined
 
 
-def _between(left: Floats, right: Floats) -> tuple[list[tuple[float, float]], float]:
+def line_between(left: Floats, right: Floats) -> tuple[list[tuple[float, float]], float]:
     """Return the line in the middle between two bounds, and the mean width between these."""
     # a bound of one point is the pivot of a turn
     sides = [shapely.LineString(bound if len(bound) > 1 else np.repeat(bound, 2, axis=0)) for bound in (left, right)]

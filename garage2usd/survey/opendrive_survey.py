@@ -13,11 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.garage import Point, StallUse
-from garage2usd.survey.opendrive_lanes import lanes_of_road
+from garage2usd.survey.apollo_survey import is_apollo, read_apollo_survey
+from garage2usd.survey.opendrive_lanes import lanes_of_road, parking_lanes
 from garage2usd.survey.opendrive_lines import RoadLine, road_line
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import Survey, Unplaced
-from garage2usd.survey.text import number_of, positive_of, read_xml, refuse, use_of
+from garage2usd.survey.text import MOST_M, number_of, portal_kind_of, positive_of, read_xml, refuse, size_of, use_of
 
 Floats = NDArray[np.float64]
 
@@ -29,6 +30,10 @@ _DEGREES = re.compile(r"\+(proj|lat_0|lon_0|x_0|y_0)=(\S+)")
 _STALL_TYPES = {"parkingSpace", "parking"}
 _STALL_NAMES = {"parkingspace", "parking space", "parking", ""}
 _COLUMN_WORDS = ("column", "pillar")
+_ALONG_M, _ACROSS_M = 6.0, 2.5
+"""Length along the road of each stall of a parking lane without stalls of its own, parallel to it or across it."""
+_LEAST_ALONG_M, _LEAST_ACROSS_M = 1.8, 4.2
+"""Width of a parking lane from which on cars stand in it along the road, or across it."""
 
 
 class _Pose(NamedTuple):
@@ -51,7 +56,9 @@ def read_opendrive_survey(path: Path) -> Survey:
     path
         OpenDRIVE 1.4 to 1.8. Stalls are objects of the type ``parkingSpace``, or ``parking`` as in some maps, with
         outlines, repetitions or as boxes; objects named ``column`` or ``pillar`` are columns. The driving lanes of a
-        road are one lane, two-way if they lead in both directions.
+        road are one lane, two-way if they lead in both directions. Parking lanes of a road without stalls, as in
+        CARLA's towns, are divided. Apollo's kind is read as well (`garage2usd.survey.apollo_survey`). The user data
+        ``outline``, ``block``, ``entrance`` and ``exit`` of the header are those of `garage2usd.maps.opendrive`.
 
     Raises
     ------
@@ -59,6 +66,8 @@ def read_opendrive_survey(path: Path) -> Survey:
         If the file is not OpenDRIVE; names the road and the object.
     """
     root = read_xml(path, "OpenDRIVE", "an OpenDRIVE map")
+    if is_apollo(root):
+        return read_apollo_survey(root, path.name)
     parts = SurveyParts()
     for index, road in enumerate(root.findall("road")):
         name = f"road {road.get('id', index)}"
@@ -67,9 +76,31 @@ def read_opendrive_survey(path: Path) -> Survey:
         for number, lane in enumerate(lanes_of_road(road, line, place)):
             title = name if number == 0 else f"{name}, part {number + 1}"
             parts.add_lane(title, (lane.points * (1.0, -1.0)).tolist(), lane.width_m, one_way=lane.one_way)
-        for element in road.findall("objects/object"):
+        objects = road.findall("objects/object")
+        for element in objects:
             _add_object(parts, element, line, name, place)
+        if not any(_is_stall(element) for element in objects):
+            _add_parking_lanes(parts, road, line, name, place)
+    _add_told(parts, root)
     return parts.survey(origin_deg=_origin(root))
+
+
+def _add_told(parts: SurveyParts, root: ET.Element) -> None:
+    """Add the outline, the blocks and the doors that the user data of the header tell as x y after x y."""
+    for data in root.findall("header/userData"):
+        code, kind = data.get("code", ""), portal_kind_of(data.get("code", ""))
+        if code not in {"outline", "block"} and kind is None:
+            continue
+        numbers = [_float_of(word) for word in data.get("value", "").split()]
+        points = [(x, -y) for x, y in zip(numbers[::2], numbers[1::2], strict=False)]
+        if not numbers or len(numbers) % 2 or not all(abs(number) <= MOST_M for number in numbers):
+            parts.unread.append(Unplaced(code, "user data that are not pairs of metres"))
+        elif code == "outline":
+            parts.add_outline(code, points)
+        elif kind is None:
+            parts.add_solid(code, points)
+        else:
+            parts.add_portal(points[0], kind)
 
 
 def _origin(root: ET.Element) -> tuple[float, float] | None:
@@ -98,8 +129,7 @@ def _add_object(parts: SurveyParts, element: ET.Element, line: RoadLine, road: s
     facts = {data.get("code", ""): data.get("value", "") for data in element.findall("userData")}
     words = f"{element.get('name', '')} {element.get('subtype', '')}".lower()
     space = element.find("parkingSpace")
-    is_hatched = element.get("type") == "none" and facts.get("use", "") in set(StallUse)
-    is_stall = element.get("type") in _STALL_TYPES or space is not None or is_hatched
+    is_stall = _is_stall(element) or (element.get("type") == "none" and facts.get("use", "") in set(StallUse))
     is_column = not is_stall and any(word in words for word in _COLUMN_WORDS)
     if not is_stall and not is_column:
         return
@@ -121,9 +151,32 @@ def _add_object(parts: SurveyParts, element: ET.Element, line: RoadLine, road: s
         else:
             mouth_at = None if mouth is None else _middle(corners, mouth)
             use = use_of([facts.get("use", ""), access])
-            parts.add_stall(name, _ground(corners), mouth_at=mouth_at, use=use, number=facts.get("number", ""))
+            size, number = size_of([facts.get("size", "")]), facts.get("number", "")
+            parts.add_stall(name, _ground(corners), mouth_at=mouth_at, use=use, size=size, number=number)
     if not poses:
         parts.unread.append(Unplaced(title, "an object that is repeated without distance, as one long body"))
+
+
+def _is_stall(element: ET.Element) -> bool:
+    return element.get("type") in _STALL_TYPES or element.find("parkingSpace") is not None
+
+
+def _add_parking_lanes(parts: SurveyParts, road: ET.Element, line: RoadLine, name: str, place: str) -> None:
+    """Divide the parking lanes of a road without stalls of its own: narrow ones lengthways, wide ones across."""
+    for lane in parking_lanes(road, line, place):
+        start_m, end_m, width_m = lane.wide_run(_LEAST_ALONG_M)
+        pitch_m, kind = (_ALONG_M, "parallel") if width_m < _LEAST_ACROSS_M else (_ACROSS_M, "perpendicular")
+        count = min(math.floor((end_m - start_m) / pitch_m + _WHOLE), _MOST_REPEATS)
+        title = f"{name}, lane {lane.number} at {lane.start_m:.0f} m"
+        if count < 1:
+            parts.unread.append(Unplaced(title, "a parking lane too short or too narrow for a car"))
+            continue
+        parts.unread.append(Unplaced(title, f"a parking lane without stalls; {count} {kind} ones are laid along it"))
+        s_m = start_m + pitch_m * np.arange(count + 1)
+        inner, outer = (line.beside(s_m, t_m) for t_m in lane.borders_at(s_m))
+        for stall in range(count):
+            corners = np.array([inner[stall], inner[stall + 1], outer[stall + 1], outer[stall]])
+            parts.add_stall(f"{title}, stall {stall + 1}", _ground(corners), mouth_at=_middle(corners, 0))
 
 
 def _names(title: str, count: int) -> list[str]:

@@ -16,7 +16,7 @@ def is_stall(tags: Mapping[str, str]) -> bool:
     return (
         tags.get("amenity") in STALL_AMENITIES
         or (is_area and tags.get("subtype") in _STALL_SUBTYPES)
-        or (tags.get("type") == _HATCHED and "use" in tags)
+        or ("use" in tags and (tags.get("type") == _HATCHED or tags.get("area:highway") == "prohibited"))
     )
 
 

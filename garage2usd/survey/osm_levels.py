@@ -12,6 +12,7 @@ import shapely
 
 from garage2usd.survey.lanelets import CentreLine
 from garage2usd.survey.osm_elements import OsmElements, OsmWay
+from garage2usd.survey.surveyed_building import ordinals_of
 from garage2usd.survey.text import levels_of
 
 LEAST_STOREY_M = 2.0
@@ -71,9 +72,7 @@ class OsmLevels:
     @cached_property
     def ordinals(self) -> dict[str, float]:
         """Number of each level by which they are ordered; those that are not numbers follow below, in their order."""
-        lowest = min((float(name) for name in self.names if _is_number(name)), default=0.0)
-        words = [name for name in self.names if not _is_number(name)]
-        return {name: float(name) if _is_number(name) else lowest - 1 - words.index(name) for name in self.names}
+        return ordinals_of(self.names)
 
     @cached_property
     def ground(self) -> str:
@@ -218,10 +217,6 @@ def one_way_of(tags: Mapping[str, str]) -> int:
 def is_repeated(tags: Mapping[str, str]) -> bool:
     """Return True if a road is on each of its levels alike, as a ramp is not."""
     return "repeat_on" in tags or (tags.get("service") == "parking_aisle" and "incline" not in tags)
-
-
-def _is_number(name: str) -> bool:
-    return name.lstrip("-").replace(".", "", 1).isdecimal()
 
 
 def _floors_m(osm: OsmElements, stalls: Iterable[OsmArea]) -> dict[str, float]:

@@ -1,8 +1,11 @@
 """Surveys as OSM XML: parking lots of OpenStreetMap, and garages as Lanelet2 maps with Autoware's tags."""
 
+import math
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+import numpy as np
 import shapely
 
 from garage2usd.garage import Point, StallUse
@@ -11,12 +14,14 @@ from garage2usd.survey.osm_areas import SPACE, STALL_AMENITIES, areas_of, is_sta
 from garage2usd.survey.osm_elements import OsmElements, OsmWay, read_osm
 from garage2usd.survey.osm_levels import OsmArea, OsmLevel, OsmLevels, one_way_of
 from garage2usd.survey.osm_ramps import ramps_of
+from garage2usd.survey.parking_spaces import ParkingSpace
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import PortalKind, Survey, Unplaced
 from garage2usd.survey.surveyed_building import SurveyedBuilding, SurveyedLevel
-from garage2usd.survey.text import length_of, size_of, unread_length, use_of
+from garage2usd.survey.text import length_of, portal_kind_of, size_of, unread_length, use_of
 
 _MOST_IN_A_ROW = 1000
+_COLUMNS = {"column", "columns", "pillar"}
 _GATES = {"entrance", "gate", "lift_gate", "swing_gate", "sliding_gate", "toll_booth"}
 _YES = {"yes", "true", "designated"}
 _USE_TAGS = {
@@ -26,6 +31,7 @@ _USE_TAGS = {
     "capacity:charging": "ev",
     "charging": "ev",
 }
+_BESIDE_M = 6.0
 _SPACE_M = 0.05
 """Distance from a stall's outline up to which the ends of Autoware's line for the same stall lie on it."""
 
@@ -38,12 +44,12 @@ def read_osm_survey(path: Path) -> Survey | SurveyedBuilding:
     path
         OSM XML. Stalls are closed ways and multipolygons with ``amenity=parking_space`` or one of the subtypes
         ``parking``, ``parking_spot`` and ``parking_space``, and Autoware's ways ``type=parking_space`` of two points
-        with a ``width``. With a ``capacity`` above 1, an area is a row of as many stalls. Lanes are lanelets for
-        vehicles, and ways ``service=parking_aisle``, and within the outline any ``highway=service``; areas of these are
-        ground. The outline is
-        the one of ``amenity=parking`` with the most stalls. Columns are areas of the subtype ``Columns``. Entrances
-        are nodes ``amenity=parking_entrance`` or gates, and service roads that cross the outline. Stalls on several
-        levels (`OsmLevels`) make a building, with the ramps of `garage2usd.survey.osm_ramps`.
+        with a ``width``, or as far apart as they lie side by side. With a ``capacity`` above 1, an area is a row of as
+        many stalls. Lanes are lanelets for vehicles, and ways ``service=parking_aisle``, and within the outline any
+        ``highway=service``; areas of these are ground. The outline is the one of ``amenity=parking`` with the most
+        stalls. Columns are areas of the subtype ``Columns`` or ``indoor=column``, blocks ``indoor=room``. Entrances are
+        nodes ``amenity=parking_entrance`` or gates, and service roads that cross the outline. Stalls on several levels
+        (`OsmLevels`) make a building, with the ramps of `garage2usd.survey.osm_ramps`.
 
     Raises
     ------
@@ -75,8 +81,10 @@ def _survey(level: OsmLevel) -> Survey:
         if ring is None or not level.holds(tags, ring):
             continue
         points = osm.line(ring)
-        if tags.get("subtype", "").lower() in {"column", "columns", "pillar"}:
+        if not _COLUMNS.isdisjoint(tags.get(key, "").lower() for key in ("subtype", "indoor", "building:part")):
             parts.add_column(name, points)
+        elif tags.get("indoor") == "room" or (tags.get("type") == "building" and tags.get("subtype") == "core"):
+            parts.add_solid(name, points)
         elif tags.get("amenity") == "parking" or tags.get("building") == "parking":
             parts.add_outline(name, points)
     outline = parts.outline()
@@ -102,7 +110,9 @@ def _addstalls(parts: SurveyParts, level: OsmLevel) -> None:
             if count.isdecimal() and 1 < float(count) <= _MOST_IN_A_ROW:
                 parts.add_row(title, osm.line(ring), int(count), use=_use(tags, of=count), size=size)
                 continue
-            parts.add_stall(title, osm.line(ring), mouth_at=_mouth(osm, name, ring), use=use, size=size, number=number)
+            parts.add_stall(
+                title, osm.line(ring), mouth_at=_mouth(osm, name, tags, ring), use=use, size=size, number=number
+            )
     for place, node in osm.nodes.items():
         if node.tags.get("amenity") in STALL_AMENITIES and level.holds(node.tags, (place,)):
             parts.unread.append(Unplaced(node.tags.get("name") or node.name, "a stall as a point, without an outline"))
@@ -119,54 +129,66 @@ def _is_read(parts: SurveyParts, level: OsmLevel, name: str, stall: OsmArea) -> 
 
 def _add_spaces(parts: SurveyParts, level: OsmLevel) -> None:
     """Add Autoware's parking spaces, lines along the middle of a stall, except those of stalls that are known."""
-    known = shapely.STRtree(parts.stall_polygons())
-    for way in level.osm.ways.values():
+    osm, known = level.osm, shapely.STRtree(parts.stall_polygons())
+    spaces = {}
+    for number, way in osm.ways.items():
         if way.tags.get("type") != SPACE:
             continue
-        name = way.tags.get("name") or way.name
+        name, line = way.tags.get("name") or way.name, osm.line(way.nodes)
         if not _is_read(parts, level, name, OsmArea(way.tags, way.nodes)):
             continue
-        line = level.osm.line(way.nodes)
         if len(line) != 2 or line[0] == line[1]:  # noqa: PLR2004 - from one end to the other
             parts.unread.append(Unplaced(name, f"a parking space of {len(way.nodes)} points instead of 2 apart"))
             continue
-        middle = shapely.LineString(line).interpolate(0.5, normalized=True)
-        around = known.query(middle, predicate="within")
-        if len(around) and _lies_in(line, known.geometries[int(around[0])]):
-            continue
-        width_m = _width(parts, name, way.tags)
-        if width_m is None:
-            if "width" not in way.tags:
-                parts.unread.append(Unplaced(name, f"a parking space without a width among {', '.join(way.tags)}"))
-            continue
-        half = width_m / 2
-        (x, z), (end_x, end_z) = line
-        length_m = ((end_x - x) ** 2 + (end_z - z) ** 2) ** 0.5
-        off_x, off_z = -(end_z - z) / length_m * half, (end_x - x) / length_m * half
-        ring = [
-            (x - off_x, z - off_z),
-            (x + off_x, z + off_z),
-            (end_x + off_x, end_z + off_z),
-            (end_x - off_x, end_z - off_z),
-        ]
-        parts.add_stall(name, ring, use=_use(way.tags), number=way.tags.get("ref", ""))
+        around = known.query(shapely.LineString(line).interpolate(0.5, normalized=True), predicate="within")
+        if not len(around) or not _lies_in(line, known.geometries[int(around[0])]):
+            spaces[number] = ParkingSpace(name, *line)
+    found = list(spaces.values())
+    middles = shapely.STRtree([shapely.LineString(space[1:]).centroid for space in found])
+    for number, (key, space) in enumerate(spaces.items()):
+        way = osm.ways[key]
+        width_m = _width(parts, space.name, way.tags)
+        if width_m is None and "width" not in way.tags:
+            near = middles.query(middles.geometries[number], predicate="dwithin", distance=_BESIDE_M)
+            width_m = space.usual_width_m(found[other] for other in sorted(near.tolist()) if other != number)
+            parts.unread.append(Unplaced(space.name, f"a parking space without a width; {width_m:g} m are taken"))
+        if width_m is not None:
+            parts.add_stall(space.name, space.ring(width_m), use=_use(way.tags), number=way.tags.get("ref", ""))
 
 
 def _lies_in(line: Sequence[Point], stall: shapely.Polygon) -> bool:
     return bool(stall.buffer(_SPACE_M).contains(shapely.LineString(line)))
 
 
-def _mouth(osm: OsmElements, name: str, ring: tuple[int, ...]) -> Point | None:
-    """Return the middle of the only side of a stall's relation that is virtual, so that cars cross it."""
+def _mouth(osm: OsmElements, name: str, tags: Mapping[str, str], ring: tuple[int, ...]) -> Point | None:
+    """Return the middle of the side of a stall that cars cross; None if unknown.
+
+    It is the side that looks to the bearing ``mouth:direction``, or of a relation the only side that is virtual.
+    """
     kind, _, number = name.partition(" ")
     if kind != "relation":
-        return None
+        return _towards(osm.line(ring), tags.get("mouth:direction", ""))
     ways = [osm.ways[way] for way in osm.relations[int(number)].ways("outer", "") if way in osm.ways]
     virtual = [way for way in ways if way.tags.get("type") == "virtual"]
     if len(virtual) != 1 or len(ways) != len(ring):
         return None
     (x, z), (end_x, end_z) = osm.line(virtual[0].nodes)[:2]
     return (x + end_x) / 2, (z + end_z) / 2
+
+
+def _towards(ring: Sequence[Point], bearing: str) -> Point | None:
+    """Return the middle of the side of a ring that looks to a bearing in degrees, clockwise from north."""
+    if not re.fullmatch(r"\d{1,3}(\.\d{1,9})?", bearing) or len(ring) < 3:  # noqa: PLR2004 - a triangle
+        return None
+    clockwise = -1.0 if shapely.is_ccw(shapely.LinearRing(ring)) else 1.0  # as z leads downwards, seen from below
+    bearing_rad = math.radians(float(bearing))
+    ahead = np.array([math.sin(bearing_rad), -math.cos(bearing_rad)])
+    corners = np.array(ring)
+    sides = np.roll(corners, -1, axis=0) - corners
+    outwards = clockwise * np.stack([-sides[:, 1], sides[:, 0]], axis=1) / np.linalg.norm(sides, axis=1)[:, None]
+    side = int(np.argmax(outwards @ ahead))
+    x, z = (corners[side] + sides[side] / 2).tolist()
+    return x, z
 
 
 def _use(tags: Mapping[str, str], *, of: str = "") -> StallUse:
@@ -202,7 +224,12 @@ def _add_portals(parts: SurveyParts, level: OsmLevel, outline: tuple[Point, ...]
     for number, node in level.osm.nodes.items():
         is_gate = node.tags.get("barrier") in _GATES and _is_near(node.position, outline)
         if (is_gate or node.tags.get("amenity") == "parking_entrance") and level.holds_portal(number):
-            parts.add_portal(node.position)
+            parts.add_portal(node.position, portal_kind_of(node.tags.get("entrance", "")) or PortalKind.BOTH)
+    for way in level.osm.ways.values():
+        told = portal_kind_of(way.tags.get("subtype", "")) if way.tags.get("type") == "gate" else None
+        if told is not None and len(way.nodes) > 1 and level.holds(way.tags, way.nodes):
+            (x, z), (end_x, end_z) = level.osm.line((way.nodes[0], way.nodes[-1]))
+            parts.add_portal(((x + end_x) / 2, (z + end_z) / 2), told)
 
 
 def _add_ways(parts: SurveyParts, level: OsmLevel, outline: tuple[Point, ...] | None) -> None:

@@ -41,6 +41,7 @@ _READERS: dict[str, Callable[[Path], Survey | SurveyedBuilding]] = {
     ".geojson": read_geojson_survey,
     ".json": read_geojson_survey,
     ".osm": read_osm_survey,
+    ".osm.xml": read_osm_survey,
     ".xodr": read_opendrive_survey,
     ".dxf": _read_dxf,
     ".ifc": _read_ifc,
@@ -63,9 +64,9 @@ def read_building(path: Path) -> SurveyedBuilding:
     Parameters
     ----------
     path
-        A drawing in metres (``.toml``), rectangles (``.csv``), GeoJSON (``.geojson``, ``.json``), OpenStreetMap or
-        Lanelet2 (``.osm``), OpenDRIVE (``.xodr``), a CAD drawing (``.dxf``), a building model (``.ifc``), or IMDF
-        (``.zip``, or its folder).
+        A drawing in metres (``.toml``), rectangles (``.csv``), GeoJSON (``.geojson``, ``.json``), OpenStreetMap
+        (``.osm``, ``.osm.xml``) or Lanelet2 (``.osm``), OpenDRIVE (``.xodr``), a CAD drawing (``.dxf``), a building
+        model (``.ifc``), or IMDF (``.zip``, or its folder).
 
     Raises
     ------
@@ -74,7 +75,8 @@ def read_building(path: Path) -> SurveyedBuilding:
     MissingExtraError
         For coordinates in degrees, without the extra ``maps``; for DXF and IFC, without the extra ``cad``.
     """
-    read = _read_imdf if path.is_dir() else _READERS.get(path.suffix.lower())
+    compound = "".join(path.suffixes[-2:]).lower()
+    read = _read_imdf if path.is_dir() else _READERS.get(path.suffix.lower()) or _READERS.get(compound)
     if read is None:
         raise ConfigError("SOURCE", str(path), f"a path that ends in {', '.join(SURVEY_SUFFIXES)}")
     building = SurveyedBuilding.of(read(path))

@@ -16,6 +16,8 @@ from garage2usd.garage import Point, StallUse
 
 Corners = tuple[Point, Point, Point, Point]
 """(x, z) of the corners of a stall in order."""
+FRAME_KEY = "surveyFrame"
+"""Name of the custom data of a stage with the frame of its survey on the earth."""
 _QUARTER = math.pi / 2
 _BIN_RAD = math.radians(0.5)
 _MARGIN_M = 0.1
@@ -171,6 +173,12 @@ class Alignment(NamedTuple):
 
     turn_rad: float
     shift_m: Point
+
+    def frame(self, origin_deg: tuple[float, float] | None) -> dict[str, str]:
+        """Return latitude and longitude of (0, 0), turn and shift as custom data of a stage; empty without degrees."""
+        if origin_deg is None:
+            return {}
+        return {FRAME_KEY: " ".join(map(repr, map(float, (*origin_deg, self.turn_rad, *self.shift_m))))}
 
 
 def mover(turn_rad: float, shift_m: Point) -> Callable[[Point], Point]:

@@ -1,5 +1,6 @@
 """A surveyed building: the surveys of its levels in one frame, and the ramps between them."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from garage2usd.common.errors import ConfigError
@@ -114,3 +115,14 @@ def aligned_building(building: SurveyedBuilding) -> tuple[SurveyedBuilding, Alig
     moved = tuple(replace(level, survey=survey) for level, survey in zip(levels, surveys, strict=True))
     ramps = tuple(replace(ramp, points=tuple(shift(turn(point)) for point in ramp.points)) for ramp in building.ramps)
     return replace(building, levels=moved, ramps=ramps), alignment
+
+
+def ordinals_of(names: Sequence[str]) -> dict[str, float]:
+    """Return the number by which each level is ordered; names that are no numbers follow below, in their order."""
+    lowest = min((float(name) for name in names if _is_number(name)), default=0.0)
+    words = [name for name in names if not _is_number(name)]
+    return {name: float(name) if _is_number(name) else lowest - 1 - words.index(name) for name in names}
+
+
+def _is_number(name: str) -> bool:
+    return name.lstrip("-").replace(".", "", 1).isdecimal()

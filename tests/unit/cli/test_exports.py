@@ -30,16 +30,38 @@ def made(tmp_path_factory):
     config = folder / "g.toml"
     config.write_text(f"{QUICK}[maps.grid]\nresolution_m = 0.1\nkeepout = true\nspeed = true\n")
     run = CliRunner().invoke(
-        main, ["build", str(config), "--with", "add.xml, glb, osm, xodr, xosc, yaml", "-o", str(folder / "g.usdc")]
+        main,
+        [
+            "build",
+            str(config),
+            "--with",
+            "add.xml, dxf, geojson, glb, osm, osm.xml, xodr, xosc, yaml",
+            "-o",
+            str(folder / "g.usdc"),
+        ],
     )
     assert run.exit_code == 0, run.output
-    for name in ("g.add.xml", "g.netccfg", "g.glb", "g.osm", "g.xodr", "g.xosc", *GRID_FILES):
+    for name in (
+        "g.add.xml",
+        "g.netccfg",
+        "g.dxf",
+        "g.geojson",
+        "g.glb",
+        "g.osm",
+        "g.osm.xml",
+        "g.xodr",
+        "g.xosc",
+        *GRID_FILES,
+    ):
         assert f"export  {folder / name}" in run.output
     return folder
 
 
 def test_a_stage_gives_what_the_build_gave(made, tmp_path):
-    outputs = [tmp_path / "new" / "g.glb", *(tmp_path / f"g.{suffix}" for suffix in ("osm", "xodr", "xosc"))]
+    outputs = [
+        tmp_path / "new" / "g.glb",
+        *(tmp_path / f"g.{suffix}" for suffix in ("dxf", "geojson", "osm", "osm.xml", "xodr", "xosc")),
+    ]
     outputs.append(tmp_path / "other" / "g.yaml")
     settings = garage2usd.load_config(made / "g.toml").maps
     files = garage2usd.export(made / "g.usdc", outputs, settings=settings)
@@ -151,10 +173,10 @@ def test_an_edited_stage_is_exported_as_it_stands(made, tmp_path):
 @pytest.mark.parametrize(
     ("source", "outputs", "error", "said"),
     [
-        ("g.usdc", ["a.glb", "b.foo"], ConfigError, ".glb, .osm, .xodr, .xosc, .yaml"),
-        ("g.usdc", [".glb"], ConfigError, ".add.xml, .glb, .osm, .xodr, .xosc, .yaml"),
-        ("g.usdc", [".add.xml"], ConfigError, ".add.xml, .glb, .osm, .xodr, .xosc, .yaml"),
-        ("g.usdc", ["a.xml"], ConfigError, ".add.xml, .glb, .osm, .xodr, .xosc, .yaml"),
+        ("g.usdc", ["a.glb", "b.foo"], ConfigError, ".glb, .osm, .osm.xml, .xodr, .xosc, .yaml"),
+        ("g.usdc", [".glb"], ConfigError, ".add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml"),
+        ("g.usdc", [".add.xml"], ConfigError, ".add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml"),
+        ("g.usdc", ["a.xml"], ConfigError, ".add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml"),
         ("g.usdc", ["a.add.xml", "a.add.xml"], ConfigError, "each file once"),
         ("g.usdc", ["a.glb", "a.glb"], ConfigError, "each file once"),
         ("g.usdc", [], ConfigError, "one or more"),
@@ -180,7 +202,9 @@ def test_what_cannot_be_exported_leaves_no_file(made, tmp_path, source, outputs,
 def test_build_refuses_formats_before_it_works(tmp_path):
     run = CliRunner().invoke(main, ["build", "--with", "glb,ifc", "-o", str(tmp_path / "g.usdz")])
     assert run.exit_code == 2
-    assert "allowed: a path that ends in .add.xml, .glb, .osm, .xodr, .xosc, .yaml" in run.output
+    assert (
+        "allowed: a path that ends in .add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml" in run.output
+    )
     assert not list(tmp_path.iterdir())
 
 

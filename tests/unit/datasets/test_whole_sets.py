@@ -15,10 +15,10 @@ from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
 from garage2usd.datasets import cluster, make_dataset, verify_dataset
 
-ALL = ["add.xml", "glb", "osm", "xodr", "xosc", "yaml"]
+ALL = ["add.xml", "dxf", "geojson", "glb", "osm", "osm.xml", "xodr", "xosc", "yaml"]
 MASKS = {"maps": {"grid": {"resolution_m": 0.5, "keepout": True, "speed": True}}}
 TEXTS = {"add.xml", "difficulty.json", "keepout.yaml", "labels.json", "netccfg", "osm", "report.json", "speed.yaml"}
-TEXTS |= {"xodr", "xosc", "yaml"}
+TEXTS |= {"dxf", "geojson", "osm.xml", "xodr", "xosc", "yaml"}
 PICTURES = {"pgm", "keepout.pgm", "speed.pgm"}
 
 

@@ -122,7 +122,8 @@ def test_one_bad_width_refuses_no_file(tmp_path):
         space.format(80, "") + space.format(81, '<tag k="width" v="wide"/>') + AISLE.format('<tag k="width" v="-3"/>')
     )
     read = read_survey(write_osm(tmp_path / "a.osm", [{}], others))
-    assert (len(read.stalls), len(read.lanes), read.lanes[0].width_m) == (1, 1, None)
+    assert (len(read.stalls), len(read.lanes), read.lanes[0].width_m) == (2, 1, None)
+    assert "2.5 m are taken" in read.unread[0].reason
     assert [part.name for part in read.unread] == ["way 80", "way 81", "way 90"]
     lane = feature("lane", "LineString", [[0, 8], [9, 8]], width="narrow")
     stall = feature("stall", "Polygon", [box(0)])

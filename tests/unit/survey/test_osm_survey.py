@@ -266,5 +266,6 @@ def test_other_suffixes_are_refused(tmp_path, name):
     with pytest.raises(ConfigError) as raised:
         read_survey(tmp_path / name)
     assert str(raised.value) == (
-        f"SOURCE: got '{tmp_path / name}'; allowed: a path that ends in .toml, .csv, .geojson, .json, .osm, .xodr"
+        f"SOURCE: got '{tmp_path / name}'; allowed: a path that ends in .toml, .csv, .geojson, .json, .osm, "
+        ".osm.xml, .xodr"
     )
