@@ -77,12 +77,13 @@ class DrawnShape(NamedTuple):
 
 
 class DrawnText(NamedTuple):
-    """A text of a drawing, the middle of its first line and its point of insertion, (x, y), and its height z."""
+    """A text of a drawing: the middle of its first line and its point of insertion, height z, and size of letters."""
 
     text: str
     places: tuple[tuple[float, float], ...]
     layer: str
     height: float = 0.0
+    size: float = 0.0
 
 
 @dataclass
@@ -228,7 +229,7 @@ def _text(entity: Any, layer: str) -> Iterator[DrawnText]:  # noqa: ANN401 - a t
     cos, sin = math.cos(turn_rad), math.sin(turn_rad)
     places.insert(0, (float(x) + right * cos - up * sin, float(y) + right * sin + up * cos))
     if all(math.isfinite(value) and abs(value) < _MOST_COORDINATE for place in places for value in place):
-        yield DrawnText(text, tuple(places), layer, float(z))
+        yield DrawnText(text, tuple(places), layer, float(z), height)
 
 
 def _lines(entity: Any) -> Iterator[tuple[Floats, tuple[float, float], bool]]:  # noqa: ANN401 - an entity of ezdxf

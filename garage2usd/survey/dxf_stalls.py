@@ -22,6 +22,8 @@ LEAST_STOREY_M = 1.8
 """Difference in height from which on stalls lie on different levels."""
 _FEWEST = 4
 """Stalls on a layer from which on it is read as stalls whatever its name."""
+_MOST_EXTENT_M, _MOST_UNNAMED = 5000.0, 20_000
+"""Extent and number of shapes up to which a layer without a word for stalls is searched for these."""
 _COMMON = 0.5
 """Share of a stall that another one covers if both are the same."""
 _BESIDE_M, _SIDE_M = 0.15, 3.0
@@ -105,6 +107,9 @@ def _stalls(shapes: ShapesInMetres, unread: list[Unplaced], *, anywhere: bool = 
     for shape, points in shapes.pairs(None):
         of_layers[shape.layer].append((shape, points))
     for layer, pairs in sorted(of_layers.items()):
+        extent_m = np.ptp(np.concatenate([points for _, points in pairs]), axis=0).max()
+        if extent_m > _MOST_EXTENT_M or len(pairs) > _MOST_UNNAMED:
+            continue
         stalls = _in_rows(_on_layers(pairs, walls, shapes.unit_m))
         if len(stalls) >= _FEWEST:
             found += stalls

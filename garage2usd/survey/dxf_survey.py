@@ -1,17 +1,19 @@
 """Surveys as DXF: floor plans of CAD programs, by the names of their layers and blocks and by the size of stalls."""
 
+import re
 from collections import Counter, defaultdict
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import chain
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from garage2usd.survey.drawing_words import PartKind, is_one_way, number_told, portal_told, size_told, use_told
-from garage2usd.survey.dxf_drawing import Drawing, read_drawing
+from garage2usd.survey.dxf_drawing import Drawing, DrawnText, read_drawing
 from garage2usd.survey.dxf_stalls import LEAST_STOREY_M, FoundStall, ShapesInMetres, line_or_point, stalls_in_metres
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import Survey, Unplaced
@@ -28,6 +30,12 @@ _GAP_M = 0.02
 _MOST_SAME = 2
 """Stalls that a text may stand in to be a number."""
 _LONGEST_WORD = 30
+_LEVEL = re.compile(
+    r"\b(?:[BPLU]\d|UG|EG|OG|-\d|level|floor|basement|ebene|niveau|nivel|planta|sótano|piano)|geschoss"
+    r"|地下|负|层|층|階",
+    re.IGNORECASE,
+)
+"""Words of the titles of floor plans."""
 _DIGITS = 2
 
 
@@ -40,7 +48,8 @@ def read_dxf_survey(path: Path) -> Survey | SurveyedBuilding:
         A DXF. Names of layers and blocks tell stalls, lanes, columns, walls, outlines, doors, ramps, and stairs or
         lifts. Stalls are rings of their size, blocks of their size, and cells between lines; without a name for stalls,
         rings and cells of their size on any layer. Texts within a stall are its number, or tell its use. Stalls at
-        several heights are levels. Of several floor plans beside each other, the one with the most stalls is read.
+        several heights are levels. Of several floor plans beside each other, the one with the most stalls is read;
+        the others are levels that are imported by name.
 
     Raises
     ------
@@ -55,7 +64,7 @@ def read_dxf_survey(path: Path) -> Survey | SurveyedBuilding:
     unread.extend(Unplaced(f"{count} parts", reason) for reason, count in sorted(drawing.left_out.items()))
     heights_m = _floors_m(found)
     if len(heights_m) < 2:  # noqa: PLR2004 - levels over each other
-        return _survey(found, drawing, unit_m, unread)
+        return _beside(found, drawing, unit_m, unread)
     levels, names = [], _level_names(found, heights_m)
     ramps = [shape for shape in drawing.shapes if shape.kind is PartKind.RAMP and len(shape.points) > 1]
     for height_m, name in zip(heights_m, names, strict=True):
@@ -65,7 +74,11 @@ def read_dxf_survey(path: Path) -> Survey | SurveyedBuilding:
             texts=[text for text in drawing.texts if _is_at(text.height * unit_m, height_m, heights_m)],
         )
         stalls = [stall for stall in found if _is_at(stall.height_m, height_m, heights_m)]
-        levels.append(SurveyedLevel(name, _survey(stalls, of_level, unit_m, []), height_m, height_m))
+        plans = _plans(stalls, ShapesInMetres(of_level, unit_m))
+        apart = [Unplaced(f"{plan.stalls} stalls", f"a floor plan beside that of level {name}") for plan in plans[1:]]
+        levels.append(
+            SurveyedLevel(name, _survey(stalls, of_level, unit_m, plans[0].ground, apart), height_m, height_m)
+        )
     joined = []
     for number, shape in enumerate(ramps):
         ends = [names[_nearest(heights_m, height * unit_m)] for height in shape.heights]
@@ -78,12 +91,54 @@ def read_dxf_survey(path: Path) -> Survey | SurveyedBuilding:
     return SurveyedBuilding(tuple(levels), tuple(joined), tuple(unread))
 
 
-def _survey(found: Sequence[FoundStall], drawing: Drawing, unit_m: float, unread: Sequence[Unplaced]) -> Survey:
-    """Return the survey of a level: of its floor plan with the most stalls."""
+def _beside(
+    found: Sequence[FoundStall], drawing: Drawing, unit_m: float, unread: Sequence[Unplaced]
+) -> Survey | SurveyedBuilding:
+    """Return the survey of the only floor plan, or the one with the most stalls as a level, and the others by name."""
+    plans = _plans(found, ShapesInMetres(drawing, unit_m))
+    if not plans:
+        return Survey((), unread=tuple(unread))
+    if len(plans) == 1:
+        return _survey(found, drawing, unit_m, plans[0].ground, unread)
+    names = _names_of_plans(plans, drawing, unit_m)
+    told = [
+        Unplaced(name, f"a floor plan of {plan.stalls} stalls beside {names[0]}; --level {name!r} imports it")
+        for name, plan in zip(names[1:], plans[1:], strict=True)
+    ]
+    largest, *others = (
+        SurveyedLevel(name, _survey(found, drawing, unit_m, plan.ground, notes), 0.0)
+        for name, plan, notes in zip(names, plans, ([*unread, *told], *([unread] * len(told))), strict=True)
+    )
+    return SurveyedBuilding((largest,), others=tuple(others))
+
+
+def _names_of_plans(plans: Sequence["_Plan"], drawing: Drawing, unit_m: float) -> list[str]:
+    """Return the name of each floor plan: the largest text on it or beside it that tells a level, or else a number."""
+    texts = sorted(drawing.texts, key=lambda text: -text.size)
+    names: list[str] = []
+    for number, plan in enumerate(plans):
+        around = plan.ground.envelope.buffer(_APART_M, join_style="mitre")
+        near = [
+            text.text
+            for text in texts
+            if _LEVEL.search(text.text) and around.intersects(_place(text, unit_m)) and len(text.text) <= _LONGEST_WORD
+        ]
+        names.append(next((text for text in near if text not in names), f"plan {number + 1}"))
+    return names
+
+
+def _place(text: DrawnText, unit_m: float) -> shapely.Point:
+    (x, y), *_ = text.places
+    return shapely.Point(x * unit_m, -y * unit_m)
+
+
+def _survey(
+    found: Sequence[FoundStall], drawing: Drawing, unit_m: float, plan: shapely.Geometry, unread: Sequence[Unplaced]
+) -> Survey:
+    """Return the survey of a floor plan."""
     parts = SurveyParts()
     parts.unread.extend(unread)
     shapes = ShapesInMetres(drawing, unit_m)
-    plan = _plan(found, shapes, parts)
     ours = [stall for stall in found if plan.intersects(shapely.Point(np.mean(stall.corners, axis=0)))]
     mouths = [shapely.LineString(line) for line in shapes.of(PartKind.MOUTH, plan) if len(line) > 1]
     _add_stalls(parts, ours, drawing, unit_m, mouths)
@@ -142,8 +197,17 @@ def _level_names(found: Sequence[FoundStall], heights_m: Sequence[float]) -> lis
     return names if len(set(names)) == len(heights_m) else [f"{height_m:g} m" for height_m in heights_m]
 
 
-def _plan(found: Sequence[FoundStall], shapes: ShapesInMetres, parts: SurveyParts) -> shapely.Geometry:
-    """Return the ground of the floor plan with the most stalls, and name the others."""
+class _Plan(NamedTuple):
+    """The ground of a floor plan and its number of stalls."""
+
+    ground: shapely.Geometry
+    stalls: int
+
+
+def _plans(found: Sequence[FoundStall], shapes: ShapesInMetres) -> list[_Plan]:
+    """Return the floor plans with stalls, the one with the most first."""
+    if not found:
+        return []
     stalls = [shapely.Polygon(stall.corners) for stall in found]
     middles = shapely.centroid(stalls)
     rings = [shapely.Polygon(ring) for ring in shapes.of(PartKind.OUTLINE, None, rings=True) if len(ring) > 3]  # noqa: PLR2004
@@ -152,20 +216,12 @@ def _plan(found: Sequence[FoundStall], shapes: ShapesInMetres, parts: SurveyPart
         outside = ~shapely.intersects(shapely.union_all(held), middles)
         around = held + [ground.buffer(_APART_M) for ground, is_out in zip(stalls, outside, strict=True) if is_out]
     else:
-        around = [ground.buffer(_APART_M) for ground in stalls]
+        around = held + [ground.buffer(_APART_M) for ground in stalls]
         for kind in (PartKind.WALL, PartKind.COLUMN):
             around += [line_or_point(line).buffer(_APART_M) for line in shapes.of(kind, None)]
-    plans = list(shapely.get_parts(shapely.union_all(around)))
-    counts = [int(shapely.intersects(plan, middles).sum()) for plan in plans] if stalls else []
-    if not any(counts):
-        return shapely.Polygon()
-    best = counts.index(max(counts))
-    for plan, count in zip(plans, counts, strict=True):
-        if count and plan is not plans[best]:
-            x, z = plan.centroid.coords[0]
-            name = f"the floor plan around x {x:.0f} m, y {-z:.0f} m"
-            parts.unread.append(Unplaced(name, f"{count} stalls beside the plan of {counts[best]} that is read"))
-    return plans[best]
+    grounds = shapely.get_parts(shapely.union_all(around))
+    plans = [_Plan(ground, int(shapely.intersects(ground, middles).sum())) for ground in grounds]
+    return sorted((plan for plan in plans if plan.stalls), key=lambda plan: (-plan.stalls, *plan.ground.bounds))
 
 
 def _add_stalls(
@@ -235,11 +291,7 @@ def _add_portals(
         middle = area.centroid if area.geom_type == "Polygon" else area
         is_wide = any(is_point for _, is_point in members) or sides_m(area)[1] >= _LEAST_DOOR_M
         if is_wide and middle.distance(ground.exterior) <= _AT_WALL_M:
-            said = [
-                text.text
-                for text in drawing.texts
-                if area.distance(shapely.Point(np.array(text.places[0]) * (shapes.unit_m, -shapes.unit_m))) < _BESIDE_M
-            ]
+            said = [text.text for text in drawing.texts if area.distance(_place(text, shapes.unit_m)) < _BESIDE_M]
             names = chain(said, *(told for told, _ in members))
             found.append((middle.coords[0], portal_told(*names)))
     add_doors(parts, found)

@@ -131,15 +131,15 @@ def _closers(marked: Floats, walls: Floats) -> Floats:
     along = marked[:, 1] - marked[:, 0]
     lengths_m = np.hypot(*along.T)
     teeth = np.flatnonzero(lengths_m > _COMB_M)
-    everything = np.concatenate([marked, walls])
-    tree = shapely.STRtree(shapely.linestrings(everything))
+    lines = shapely.linestrings(np.concatenate([marked, walls]))
+    tree, around = shapely.STRtree(lines), shapely.buffer(lines[teeth], _GAP_M)
     ends, outwards = [], []
     for end in (0, 1):
         points = marked[teeth, end]
         beside = tree.query(shapely.points(points), predicate="dwithin", distance=_GAP_M)
-        # its own line is always there; copies of a line on itself are no other lines
-        lies = np.array([not _is_same(marked[teeth[one]], everything[other]) for one, other in beside.T], dtype=bool)
-        touched = np.bincount(beside[0][lies] if len(lies) else [], minlength=len(teeth)) > 0
+        # its own line is always there, and so may be copies of it or of parts of it
+        lies = ~shapely.within(lines[beside[1]], around[beside[0]])
+        touched = np.bincount(beside[0][lies], minlength=len(teeth)) > 0
         ends.append(points[~touched])
         outwards.append((along[teeth] / lengths_m[teeth, None])[~touched] * (1 if end else -1))
     free, out = np.concatenate(ends), np.concatenate(outwards)
@@ -173,9 +173,3 @@ def _closers(marked: Floats, walls: Floats) -> Floats:
                 if np.hypot(*(hit - point)) >= (1 - _SAME_WIDTH) * np.hypot(*way):
                     closers.append([point, hit])
     return np.array(closers).reshape(-1, 2, 2)
-
-
-def _is_same(one: Floats, other: Floats) -> bool:
-    """Return True if a segment lies on another one that is as long or shorter."""
-    line = shapely.LineString(one)
-    return bool(shapely.LineString(other).within(line.buffer(_GAP_M)))

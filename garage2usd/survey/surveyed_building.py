@@ -67,11 +67,14 @@ class SurveyedBuilding:
         The ramps between them.
     unread
         Parts of the source that belong to no level and are not in the survey.
+    others
+        Levels in frames of their own, as floor plans that are drawn beside each other, which are read by name only.
     """
 
     levels: tuple[SurveyedLevel, ...]
     ramps: tuple[SurveyedRamp, ...] = ()
     unread: tuple[Unplaced, ...] = field(default=(), repr=False)
+    others: tuple[SurveyedLevel, ...] = field(default=(), repr=False)
 
     @classmethod
     def of(cls, survey: "Survey | SurveyedBuilding") -> "SurveyedBuilding":
@@ -91,10 +94,10 @@ class SurveyedBuilding:
         ConfigError
             If there is no level of this name; names those that there are.
         """
-        for level in self.levels:
+        for level in (*self.levels, *self.others):
             if level.name == name:
                 return SurveyedBuilding((level,), unread=self.unread)
-        names = ", ".join(level.name for level in self.in_order if level.name)
+        names = ", ".join(level.name for level in (*self.in_order, *self.others) if level.name)
         raise ConfigError("level", name, names or "none, as the source has no levels")
 
 

@@ -15,7 +15,7 @@ from garage2usd.config.stalls import SizeClass
 from garage2usd.garage import StallUse
 from garage2usd.survey.drawing_words import PartKind, kind_of
 from garage2usd.survey.dxf_survey import read_dxf_survey
-from garage2usd.survey.reader import read_survey
+from garage2usd.survey.reader import read_building, read_survey
 from garage2usd.survey.survey import PortalKind, Survey
 from garage2usd.survey.surveyed_building import SurveyedBuilding
 
@@ -280,10 +280,20 @@ def test_of_plans_beside_each_other_the_largest_is_read(tmp_path, outlined):
         sheet.row(count, x=x)
         if outlined:
             sheet.box(x - 1, -1, 30, 16, "OUTLINE")
+    sheet.text("2. UG", (65, -4))
+    sheet.text("Level B3", (121, -3))
     survey = sheet.read(tmp_path)
     assert_stalls(survey, sheet.ground(*row_of(9, 60)))
-    told = sorted(part.reason for part in survey.unread if part.name.startswith("the floor plan"))
-    assert told == ["3 stalls beside the plan of 9 that is read", "5 stalls beside the plan of 9 that is read"]
+    told = {part.name: part.reason for part in survey.unread}
+    assert told == {
+        "plan 2": "a floor plan of 5 stalls beside 2. UG; --level 'plan 2' imports it",
+        "Level B3": "a floor plan of 3 stalls beside 2. UG; --level 'Level B3' imports it",
+    }
+    building = read_building(tmp_path / "plan.dxf")
+    (third,) = building.only("Level B3").levels
+    assert_stalls(third.survey, sheet.ground(*row_of(3, 120)))
+    with pytest.raises(ConfigError, match=r"2\. UG, plan 2, Level B3"):
+        building.only("B4")
 
 
 def test_stalls_at_several_heights_are_levels_with_ramps(tmp_path):
