@@ -133,6 +133,8 @@ def _judge(case: Case, status: int, said: str) -> tuple[str, list[str]]:
     wrong = ["a traceback"] if "Traceback (most recent call last)" in said else []
     if status >= 0:
         wrong += [] if status in {0, 1, 2} else [f"ended with {status}"]
+        if case.arguments[0] == "import" and status:
+            wrong += [] if said.startswith("Error: ") and len(said.splitlines()) == 1 else ["other than one line"]
         wrong += ["no word of what is wrong"] if status == 2 and "rror" not in said and "Usage" not in said else []
         return "answered", wrong
     number = -status
