@@ -14,6 +14,7 @@ Floats = NDArray[np.float64]
 _ORIGIN_DIGITS = 6
 """Decimals of the origin in degrees: a tenth of a metre."""
 _REACH_M = 100_000.0
+_HALF_TURN_DEG, _TURN_DEG = 180.0, 360.0
 
 
 def ground_of(degrees: ArrayLike, place: str, *, around: ArrayLike | None = None) -> tuple[Floats, tuple[float, float]]:
@@ -40,10 +41,13 @@ def ground_of(degrees: ArrayLike, place: str, *, around: ArrayLike | None = None
     ConfigError
         If points are too far from each other for one plane.
     """
-    points = np.asarray(degrees, np.float64)
-    middles = points if around is None else np.asarray(around, np.float64)
+    points = np.array(degrees, np.float64)
+    middles = points if around is None else np.array(around, np.float64)
+    if np.ptp(middles[:, 0]) > _HALF_TURN_DEG:  # on both sides of the antimeridian
+        points[:, 0], middles[:, 0] = points[:, 0] % _TURN_DEG, middles[:, 0] % _TURN_DEG
     middle = (middles.min(axis=0) + middles.max(axis=0)) / 2
     longitude, latitude = (round(degree, _ORIGIN_DIGITS) + 0.0 for degree in middle.tolist())
+    longitude -= _TURN_DEG * (longitude > _HALF_TURN_DEG)
     projection = f"+proj=tmerc +lat_0={latitude!r} +lon_0={longitude!r} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m"
     to_metres = Transformer.from_crs("EPSG:4326", projection, always_xy=True)
     x, y = to_metres.transform(points[:, 0], points[:, 1])

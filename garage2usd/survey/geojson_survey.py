@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.common.documents import MAX_REPORT_BYTES, read_json
+from garage2usd.common.documents import read_json
 from garage2usd.garage import Point
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import PortalKind, Survey, Unplaced
@@ -50,6 +50,8 @@ _SHAPES = {
 }
 _NESTING = {"Point": 0, "MultiPoint": 1, "LineString": 1, "MultiLineString": 2, "Polygon": 2, "MultiPolygon": 3}
 _COLUMN_M = 0.4
+_MOST_BYTES = 40 * 1024 * 1024
+"""Size limit of a file, which takes up to twenty times as much memory."""
 _TRUE = {"yes", "true", "1", "-1", "reverse"}
 
 
@@ -87,7 +89,7 @@ def read_geojson_survey(path: Path) -> Survey | SurveyedBuilding:
     MissingExtraError
         For longitudes and latitudes, without the extra ``maps``.
     """
-    document = read_json(path, field="SOURCE", max_bytes=MAX_REPORT_BYTES)
+    document = read_json(path, field="SOURCE", max_bytes=_MOST_BYTES)
     parts = SurveyParts()
     shapes = list(_shapes_of(document, path, parts))
     form = document.get("coordinates", "degrees")
@@ -236,9 +238,10 @@ def _position(position: object, place: str) -> tuple[float, float]:
 def _check_degrees(shape: _Shape) -> None:
     for longitude, latitude in shape.positions:
         if abs(longitude) > 180 or abs(latitude) > 90:  # noqa: PLR2004 - of the earth
-            allowed = (
-                "longitude from -180 to 180 and latitude from -90 to 90; "
-                'metres need the member "coordinates": "metres" of the outermost object'
+            allowed = "longitude from -180 to 180 and latitude from -90 to 90; " + (
+                "the longitude comes first, and these seem to be swapped"
+                if abs(longitude) <= 90 and abs(latitude) <= 180  # noqa: PLR2004
+                else 'metres need the member "coordinates": "metres" of the outermost object'
             )
             refuse(f"{shape.place}.geometry.coordinates", (longitude, latitude), allowed)
 

@@ -22,6 +22,7 @@ from garage2usd.survey.survey import (
     SurveyedStall,
     Unplaced,
 )
+from garage2usd.survey.text import refuse
 
 Floats = NDArray[np.float64]
 
@@ -35,6 +36,10 @@ _DIGITS = 6
 _COLUMN_DIGITS = 2
 _MOST_OF_NUMBER = 40
 _LEAST_SOLID_M2 = 0.01
+MOST_STALLS = 20_000
+"""Number of stalls and of parts that cannot be read up to which a file is imported."""
+_MOST_POINTS, _FINE_M = 1000, 0.01
+"""Number of points of a line from which on it is simplified, and the distance up to which it then differs."""
 _LEAST_HALF_M = 1.25
 """Half the width of the narrowest lane; stalls that are nearer to its centre line lie on it."""
 
@@ -82,6 +87,8 @@ class SurveyParts:
         use, size, number
             As in `SurveyedStall`.
         """
+        if len(self.stalls) + len(self.unread) >= MOST_STALLS:
+            refuse(name, f"more than {MOST_STALLS} stalls", f"{MOST_STALLS} stalls in a file")
         self._named[name] += 1
         if self._named[name] > 1:
             name = f"{name} ({self._named[name]})"
@@ -241,7 +248,7 @@ def corners_of(ring: Iterable[Sequence[float]]) -> tuple[Point, ...]:
     it is nearer than `STRAIGHT_M`.
     """
     points = list(_without_repeats(ring))
-    while len(points) > _CORNERS:
+    while _CORNERS < len(points) <= _MOST_POINTS:
         off_m = _distances_to_neighbours(points)
         straightest = int(np.argmin(off_m.round(_DIGITS)))
         if off_m[straightest] >= STRAIGHT_M:
@@ -279,7 +286,13 @@ def _distances_to_neighbours(points: Sequence[Point]) -> Floats:
 
 
 def _without_repeats(line: Iterable[Sequence[float]], *, closes: bool = False) -> tuple[Point, ...]:
-    """Return the points of a line or ring, rounded, without those that repeat the one before or, if asked, close it."""
+    """Return the points of a line or ring, rounded, without those that repeat the one before or, if asked, close it.
+
+    Of very many points, those are left out that lie on the straights between others.
+    """
+    line = list(line)
+    if len(line) > _MOST_POINTS:
+        line = shapely.get_coordinates(shapely.LineString([place[:2] for place in line]).simplify(_FINE_M)).tolist()
     points: list[Point] = []
     for place in line:
         point = _point(place)

@@ -8,12 +8,14 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import NoReturn
 
-from garage2usd.common.documents import MAX_REPORT_BYTES, read_bytes
+from garage2usd.common.documents import read_bytes
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.stalls import SizeClass
 from garage2usd.garage import StallUse
 from garage2usd.survey.survey import PortalKind
 
+_MOST_BYTES = 32 * 1024 * 1024
+"""Size limit of XML, which takes up to thirty times as much memory."""
 _MARKS = {
     codecs.BOM_UTF8: "utf-8",
     codecs.BOM_UTF16_LE: "utf-16",
@@ -68,7 +70,7 @@ def read_xml(path: Path, root: str, program: str) -> ET.Element:
         If the file cannot be read, is not well formed, has another root, or declares a document type, whose entities
         could expand without limit.
     """
-    data = read_bytes(path, field="SOURCE", max_bytes=MAX_REPORT_BYTES)
+    data = read_bytes(path, field="SOURCE", max_bytes=_MOST_BYTES)
     text = _decoded(data, path)
     if "<!DOCTYPE" in text:
         raise ConfigError("SOURCE", str(path), f"{program} without a document type declaration (<!DOCTYPE)")
@@ -94,7 +96,8 @@ def _decoded(data: bytes, path: Path) -> str:
         raise ConfigError(f"{path.name}: encoding", encoding, "a known one, such as UTF-8 or ISO-8859-1") from None
     except ValueError as error:
         said = f"{error.reason} at byte {error.start}" if isinstance(error, UnicodeDecodeError) else "no text"
-        raise ConfigError("SOURCE", str(path), f"text in {encoding}, as its XML declares ({said})") from None
+        why = "as its XML declares" if declared else "as it declares no other encoding"
+        raise ConfigError("SOURCE", str(path), f"text in {encoding}, {why} ({said})") from None
 
 
 def length_of(text: object) -> float | None:

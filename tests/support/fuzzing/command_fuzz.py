@@ -21,10 +21,16 @@ import sys
 import tempfile
 import time
 from collections import Counter
+from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
+from math import inf
 from pathlib import Path
+from typing import TypeVar
 
-from support.fuzzing.command_inputs import Case, Corpus, draw_case, lay_out, make_corpus
+from support.fuzzing.command_inputs import Case, draw_case, lay_out, make_corpus
+
+Made = TypeVar("Made")
 
 SLOWEST_S = 10.0
 """A default build, which some damaged configurations are, plans in metres and checks itself: some five seconds."""
@@ -36,8 +42,17 @@ _OUTPUT = "out"
 class Fuzz:
     """Runs cases in a folder of its own."""
 
-    def __init__(self, corpus: Corpus, folder: Path, seed: int) -> None:
-        self.corpus, self.folder, self.seed = corpus, folder, seed
+    def __init__(
+        self,
+        draw: Callable[[int], Case],
+        folder: Path,
+        *,
+        slowest_s: float = SLOWEST_S,
+        hard_s: int = _HARD_S,
+        most_mb: float = inf,
+    ) -> None:
+        self.draw, self.folder = draw, folder
+        self.slowest_s, self.hard_s, self.most_mb = slowest_s, hard_s, most_mb
         self.outcomes: Counter[str] = Counter()
         self.kinds: Counter[str] = Counter()
         self.slowest = (0.0, -1)
@@ -45,17 +60,18 @@ class Fuzz:
 
     def run(self, number: int) -> None:
         """Run one case and note what was wrong with it."""
-        case = draw_case(self.corpus, self.seed, number)
+        case = self.draw(number)
         place = self.folder / f"case_{number}"
         work, temporary = place / "work", place / "temporary"
         work.mkdir(parents=True)
         temporary.mkdir()
         lay_out(case, work)
         before = _listing(work)
-        status, seconds = _call(case, work, temporary)
+        status, seconds, used_mb = _call(case, work, temporary, self.hard_s)
         said = (place / "stderr").read_text(errors="replace")
         outcome, wrong = _judge(case, status, said)
-        wrong += [f"{seconds:.1f} s"] if seconds > SLOWEST_S else []
+        wrong += [f"{seconds:.1f} s"] if seconds > self.slowest_s else []
+        wrong += [f"{used_mb:.0f} MB"] if used_mb > self.most_mb else []
         wrong += ["wrote outside its output"] if _listing(work) != before else []
         wrong += ["left temporary files"] if outcome == "answered" and any(temporary.iterdir()) else []
         self.outcomes[outcome] += 1
@@ -67,30 +83,30 @@ class Fuzz:
             shutil.rmtree(place)
 
 
-def _call(case: Case, work: Path, temporary: Path) -> tuple[int, float]:
-    """Exit code, negative for a signal, and processor time of a call."""
+def _call(case: Case, work: Path, temporary: Path, hard_s: int) -> tuple[int, float, float]:
+    """Exit code, negative for a signal, processor time and most memory in MB of a call."""
     child = os.fork()
     if child == 0:
-        _become_command(case, work, temporary)
+        _become_command(case, work, temporary, hard_s)
     deadline = time.monotonic() + HANGS_S
     while True:
         found, status, used = os.wait4(child, os.WNOHANG)
         if found:
-            return os.waitstatus_to_exitcode(status), used.ru_utime + used.ru_stime
+            return os.waitstatus_to_exitcode(status), used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
         if time.monotonic() > deadline:
             os.kill(child, signal.SIGKILL)
             deadline = float("inf")
         time.sleep(0.002)
 
 
-def _become_command(case: Case, work: Path, temporary: Path) -> None:
+def _become_command(case: Case, work: Path, temporary: Path, hard_s: int) -> None:
     code = 70
     try:
         for stream, name in ((0, "/dev/null"), (1, "stdout"), (2, "stderr")):
             os.dup2(os.open(work.parent / name, os.O_RDWR | os.O_CREAT), stream)
         os.chdir(work)
         os.environ["TMPDIR"] = tempfile.tempdir = str(temporary)
-        resource.setrlimit(resource.RLIMIT_CPU, (_HARD_S, _HARD_S))
+        resource.setrlimit(resource.RLIMIT_CPU, (hard_s, hard_s))
         from garage2usd.cli import main
         from garage2usd.cli.process import SUPERVISED
         from garage2usd.common import limits
@@ -117,6 +133,8 @@ def _judge(case: Case, status: int, said: str) -> tuple[str, list[str]]:
     wrong = ["a traceback"] if "Traceback (most recent call last)" in said else []
     if status >= 0:
         wrong += [] if status in {0, 1, 2} else [f"ended with {status}"]
+        if case.arguments[0] == "import" and status:
+            wrong += [] if said.startswith("Error: ") and len(said.splitlines()) == 1 else ["other than one line"]
         wrong += ["no word of what is wrong"] if status == 2 and "rror" not in said and "Usage" not in said else []
         return "answered", wrong
     number = -status
@@ -140,9 +158,9 @@ def _listing(folder: Path) -> dict[str, tuple[int, int]]:
     return found
 
 
-def _corpus(folder: Path) -> Corpus:
+def made_apart(make: Callable[[Path], Made], folder: Path) -> Made:
     """The sound files, made by a process of its own: this one must not start USD's threads, as it forks."""
-    maker = multiprocessing.get_context("spawn").Process(target=_store_corpus, args=(folder,))
+    maker = multiprocessing.get_context("spawn").Process(target=_store, args=(make, folder))
     maker.start()
     maker.join()
     if maker.exitcode:
@@ -150,11 +168,11 @@ def _corpus(folder: Path) -> Corpus:
     return pickle.loads((folder / "corpus").read_bytes())
 
 
-def _store_corpus(folder: Path) -> None:
-    (folder / "corpus").write_bytes(pickle.dumps(make_corpus(folder)))
+def _store(make: Callable[[Path], object], folder: Path) -> None:
+    (folder / "corpus").write_bytes(pickle.dumps(make(folder)))
 
 
-def _load_commands() -> None:
+def load_commands() -> None:
     """Load what the commands load, compiled code included, and end `view` and `render` where they would go on."""
     import garage2usd
     import garage2usd.checks
@@ -184,8 +202,9 @@ def _load_commands() -> None:
 
 def fuzz(count: int, seed: int, folder: Path, *, first: int = 0, say: bool = False) -> Fuzz:
     """Run so many cases; the folder keeps what was wrong."""
-    runner = Fuzz(_corpus(folder), folder, seed)
-    _load_commands()
+    corpus = made_apart(make_corpus, folder)
+    runner = Fuzz(partial(draw_case, corpus, seed), folder)
+    load_commands()
     for number in range(first, first + count):
         runner.run(number)
         if say and (number + 1) % 500 == 0:
@@ -200,7 +219,11 @@ def main() -> int:
     parser.add_argument("--first", type=int, default=0)
     options = parser.parse_args()
     folder = Path(tempfile.mkdtemp(prefix="garage2usd-fuzz-"))
-    runner = fuzz(options.count, options.seed, folder, first=options.first, say=True)
+    return told(fuzz(options.count, options.seed, folder, first=options.first, say=True))
+
+
+def told(runner: Fuzz) -> int:
+    """Print what was wrong, and return the exit code."""
     for failure in runner.failures:
         print(failure)
     print(dict(runner.outcomes.most_common()))
@@ -209,9 +232,9 @@ def main() -> int:
         f"slowest {runner.slowest[0]:.1f} s (number {runner.slowest[1]})"
     )
     if not runner.failures:
-        shutil.rmtree(folder)
+        shutil.rmtree(runner.folder)
         return 0
-    print(f"kept in {folder}")
+    print(f"kept in {runner.folder}")
     return 1
 
 
