@@ -158,8 +158,7 @@ class Garage:
     @property
     def remarks(self) -> tuple[str, ...]:
         """Shares of stalls that the site does not hold, one line each."""
-        graphs = (level.planned.graph for level in self.levels if level.planned is not None)
-        return unheld_shares((row for graph in graphs for row in graph.stall_rows), self.config)
+        return unheld_shares(self.plans, self.config)
 
     @property
     def lanes(self) -> LaneGraph:

@@ -28,7 +28,7 @@ from garage2usd.structure.stall_runs import (
     runs_of_rows,
     split_for_motorcycles,
 )
-from garage2usd.structure.stalls import PARALLEL_DEG, PERPENDICULAR_DEG, Edge, StallRow, StallShape, stall_rows
+from garage2usd.structure.stalls import PARALLEL_DEG, PERPENDICULAR_DEG, Edge, StallShape, stall_rows
 
 _MM_PER_M = 1000
 _PASSES = 4
@@ -285,19 +285,24 @@ def wrong_shares(plan: Plan, config: GarageConfig) -> float:
     """Return the sum of the differences between the shares of the stalls of each kind and size and the wanted ones."""
     if config.stalls.is_free or not plan.runs:
         return 0.0
+    return _share_error(_stalls_of(plan, config), config.stalls.shares)
+
+
+def _stalls_of(plan: Plan, config: GarageConfig) -> Counter[_Option]:
+    """Count the stalls of each kind and size."""
     stalls = Counter[_Option]()
     for row in rows_of_runs(plan.structure, config.bay, plan.runs):
         stalls[row.shape.kind, SizeClass(row.shape.size)] += row.count
-    return _share_error(stalls, config.stalls.shares)
+    return stalls
 
 
-def unheld_shares(rows: Iterable[StallRow], config: GarageConfig) -> tuple[str, ...]:
+def unheld_shares(plans: Iterable[Plan], config: GarageConfig) -> tuple[str, ...]:
     """Return a line on the kinds and one on the sizes of stalls, if a share is more than 0.05 from the wanted one.
 
     Parameters
     ----------
-    rows
-        The planned rows of stalls of all levels.
+    plans
+        The plan of each level.
     config
         The wanted shares.
     """
@@ -306,8 +311,8 @@ def unheld_shares(rows: Iterable[StallRow], config: GarageConfig) -> tuple[str, 
         return ()
     lines = []
     held = Counter[_Option]()
-    for row in rows:
-        held[row.shape.kind, SizeClass(row.shape.size)] += row.count
+    for plan in plans:
+        held += _stalls_of(plan, config)
     for part, field in enumerate(("kinds", "sizes")):
         shares: dict[str, list[float]] = {}
         for option in {**stalls.shares, **held}:

@@ -5,8 +5,10 @@ import tomllib
 
 import pytest
 from support.sample_files import REPOSITORY
+from support.soak import soak_but
 
-from garage2usd import GarageConfig
+from garage2usd import GarageConfig, generate, load_config
+from garage2usd.checks import judged_layout
 from garage2usd.common.errors import ConfigError
 from garage2usd.profiles import PROFILE_NAMES, Confidence, Length, Profile, load_profile, read_profile
 
@@ -225,3 +227,22 @@ def test_what_was_read_in_the_wording_of_a_source_names_its_section():
     assert len([name for name, _ in verified if name == "de-garvo"]) >= 12
     for place, source in verified.items():
         assert re.search(r"section \d|\d\.\d", source), place
+
+
+PROFILE_SAMPLES = REPOSITORY / "samples" / "profiles"
+GROSS_M2 = {"cn-jgj100": 28.5, "de-garvo": 33.5, "uk-istructe": 36.0, "us-ada": 33.5}
+"""Ground over parking stalls: a few per cent above what the planner reaches."""
+
+
+def test_each_profile_has_a_sample_of_usual_size():
+    assert {file.stem for file in PROFILE_SAMPLES.iterdir()} == {*PROFILE_NAMES} == {*GROSS_M2}
+    assert all(load_config(file).profile == file.stem for file in PROFILE_SAMPLES.iterdir())
+
+
+@pytest.mark.parametrize("name", soak_but(["cn-jgj100"], GROSS_M2))
+def test_the_sample_of_a_profile_has_some_350_stalls_and_no_error(name):
+    garage = generate(load_config(PROFILE_SAMPLES / f"{name}.toml"))
+    assert 330 <= garage.parking_stalls <= 370
+    assert sum(level.layout.area.gross_m2 for level in garage.levels) / garage.parking_stalls <= GROSS_M2[name]
+    findings = [finding for level in garage.levels for finding in judged_layout(level.layout, level.config)[0]]
+    assert [finding for finding in findings if finding.severity == "error"] == []
