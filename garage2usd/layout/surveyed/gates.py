@@ -204,27 +204,34 @@ def lacking_portals(
             lanes.add_edge(start, end)
     arriving, leaving = ({node for arc in arcs for node in arc} for arcs in (network.arriving, network.leaving))
     no_way_in, no_way_out = (lanes.subgraph(set(asked) - known) for known in (arriving, leaving))
-    wanted: dict[frozenset[int], set[PortalKind]] = {}
+    wanted: dict[Point, set[PortalKind]] = {}
     for missing, ways, kind in (
         (no_way_in, lanes, PortalKind.ENTRANCE),
         (no_way_out, lanes.reverse(copy=False), PortalKind.EXIT),
     ):
-        before = {node for at in missing for node in (at, *nx.ancestors(ways, at))}
-        around = ways.subgraph(before)
-        for circuit in nx.strongly_connected_components(around):
-            if not any(start not in circuit for start, _ in around.in_edges(circuit)):
-                wanted.setdefault(frozenset(circuit), set()).add(kind)
-    found = []
-    for circuit, kinds in sorted(wanted.items(), key=lambda each: min(each[0])):
-        kind = PortalKind.BOTH if len(kinds) > 1 else next(iter(kinds))
-        found.append(SurveyedPortal(_place_of_door(outline, network, taken, sorted(circuit)), kind))
-    return found
+        around = ways.subgraph({node for at in missing for node in (at, *nx.ancestors(ways, at))})
+        first = [
+            circuit
+            for circuit in map(frozenset, nx.strongly_connected_components(around))
+            if all(start in circuit for start, _ in around.in_edges(circuit))
+        ]
+        doors = {circuit: _best_door(outline, network, taken, sorted(circuit)) for circuit in first}
+        left = set(missing)
+        for circuit in sorted(first, key=doors.__getitem__):
+            served = left.intersection(circuit) | left.intersection(nx.descendants(around, min(circuit)))
+            if served:
+                wanted.setdefault(doors[circuit][-1], set()).add(kind)
+                left -= served
+    return [
+        SurveyedPortal(place, PortalKind.BOTH if len(kinds) > 1 else next(iter(kinds)))
+        for place, kinds in wanted.items()
+    ]
 
 
-def _place_of_door(
+def _best_door(
     outline: shapely.Polygon, network: LaneGraph, taken: shapely.Geometry, nodes: Iterable[int]
-) -> Point:
-    """Return the place on the outline to which the best straight way leads from one of some nodes."""
+) -> tuple[float, int, float, Point]:
+    """Return how good the best straight way from some nodes to the outline is, the least being best, and its end."""
     found = []
     for node in nodes:
         for order, foot in _feet(outline, network, node):
@@ -232,7 +239,7 @@ def _place_of_door(
             over_m2 = way.buffer(_APPROACH_HALF_M, cap_style="flat").intersection(taken).area if way.length else 0.0
             length_m = way.length + (_OTHERWISE_M if order else 0.0)
             found.append((round(float(over_m2), 1), order, round(float(length_m), 2), foot))
-    return min(found)[-1]
+    return min(found)
 
 
 def _feet(outline: shapely.Polygon, network: LaneGraph, node: int) -> Iterator[tuple[int, Point]]:
