@@ -110,6 +110,8 @@ class Gate(NamedTuple):
         Length of the piece of wall around the door.
     door
         (x, z) of the middle of the door, if it is for both directions; else it is the foot.
+    lane
+        (x, z) on the centre line that the way leads to; None for any.
     """
 
     kind: LaneKind
@@ -117,6 +119,7 @@ class Gate(NamedTuple):
     outwards: Point
     wall_m: float
     door: Point | None = None
+    lane: Point | None = None
 
 
 class _Approach(NamedTuple):
@@ -234,7 +237,8 @@ def _approach(
     reach_m = 2 * min(each.line.distance(foot) for each in lines) + SAME_M
     ray = shapely.LineString([gate.foot, (foot.x - out_x * reach_m, foot.y - out_z * reach_m)])
     ways = []
-    for number, each in enumerate(lines):
+    asked = lines if gate.lane is None else [min(lines, key=lambda each: each.line.distance(shapely.Point(gate.lane)))]
+    for number, each in enumerate(asked):
         ends = [shapely.Point(each.line.coords[place]) for place in (0, -1)]
         if each.line.intersects(ray):
             ends.append(shapely.Point(shapely.shortest_line(foot, each.line.intersection(ray)).coords[-1]))
@@ -246,7 +250,7 @@ def _approach(
             shut += len(stalls.query(way, predicate="crosses"))
             ways.append((shut, not is_ahead, round(foot.distance(end), _DIGITS), number, end))
     *_, number, end = min(ways, key=lambda way: way[:4])
-    ahead = lines[number]
+    ahead = asked[number]
     # the ground of the node ends where that of the lane begins
     free_m = max(foot.distance(end) - ahead.width_m / 2, _LEAST_GATE_M)
     half_m = round(min(_GATE_HALF_M, free_m / 2), _DIGITS)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, LookConfig
-from garage2usd.garage import LaneGraph, LaneKind
+from garage2usd.garage import LaneGraph, LaneKind, Point
 from garage2usd.layout import Layout
 from garage2usd.layout.ceiling.beams import ceiling_levels
 from garage2usd.layout.draws import SquareDraws
@@ -36,7 +36,7 @@ from garage2usd.structure.lane_graph import Square, StallType
 from garage2usd.survey.clear_ground import with_clear_widths, with_lanes_to
 from garage2usd.survey.fitted_stalls import FittedStall, Fitting, fitted_stalls
 from garage2usd.survey.lane_network import Gate, lane_network
-from garage2usd.survey.survey import Survey, Unplaced
+from garage2usd.survey.survey import Survey, SurveyedPortal, Unplaced
 
 __all__ = ["FloorAbove", "SurveyedFloor", "lay_out_survey"]
 _EQUIPMENT_M = 0.25
@@ -224,15 +224,19 @@ def _joined(
     door_wall_m = config.bay.portal_side_m
     gates = gates_of(outline, survey.portals, taken, door_wall_m=door_wall_m, keeps_left=keeps_left)
     remarks: tuple[str, ...] = ()
+    added: set[tuple[Point, SurveyedPortal]] = set()
     for rounds in range(1, _MOST_ROUNDS + 1):
         network = with_clear_widths(lane_network(survey.lanes, gates, stalls, walls), standing)
         fitting = fitted_stalls(survey, network, keeps_left=keeps_left, walls=walls)
-        lacking = lacking_portals(outline, network, taken, fitting.cut_off)
-        more = gates_of(outline, lacking, taken, door_wall_m=door_wall_m, keeps_left=keeps_left, others=gates)
-        if not more or rounds == _MOST_ROUNDS:
+        found = lacking_portals(outline, network, taken, fitting.cut_off, is_near=rounds > 1)
+        lacking = {lane: portal for lane, portal in found.items() if (lane, portal) not in added}
+        added |= {*lacking.items()}
+        if not lacking or rounds == _MOST_ROUNDS:
             break
-        gates += more
-        places = ", ".join(f"({portal.position[0]:.1f}, {portal.position[1]:.1f})" for portal in lacking)
+        for lane, portal in lacking.items():
+            more = gates_of(outline, [portal], taken, door_wall_m=door_wall_m, keeps_left=keeps_left, others=gates)
+            gates += [gate._replace(lane=lane) for gate in more]
+        places = ", ".join(f"({portal.position[0]:.1f}, {portal.position[1]:.1f})" for portal in lacking.values())
         remarks = (*remarks, f"doors are added where lanes without a way to one come nearest to the outline: {places}")
     return gates, network, fitting, remarks
 

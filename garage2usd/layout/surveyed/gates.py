@@ -177,9 +177,11 @@ def _free_run_m(
 
 
 def lacking_portals(
-    outline: shapely.Polygon, network: LaneGraph, taken: shapely.Geometry, asked: Collection[int]
-) -> list[SurveyedPortal]:
+    outline: shapely.Polygon, network: LaneGraph, taken: shapely.Geometry, asked: Collection[int], *, is_near: bool
+) -> dict[Point, SurveyedPortal]:
     """Return portals for lanes that cars do not reach from an entrance, or from which they reach no exit.
+
+    Each is given by the place on the lane that it is for.
 
     Parameters
     ----------
@@ -191,6 +193,8 @@ def lacking_portals(
         Ground of stalls, columns and blocks, over which the way from a door leads only where there is no other.
     asked
         Nodes from which cars turn into stalls.
+    is_near
+        True to place them at these nodes, as for those that farther ones reach by turns on the spot only.
 
     Notes
     -----
@@ -204,35 +208,43 @@ def lacking_portals(
             lanes.add_edge(start, end)
     arriving, leaving = ({node for arc in arcs for node in arc} for arcs in (network.arriving, network.leaving))
     no_way_in, no_way_out = (lanes.subgraph(set(asked) - known) for known in (arriving, leaving))
-    wanted: dict[frozenset[int], set[PortalKind]] = {}
+    wanted: dict[tuple[Point, Point], set[PortalKind]] = {}
     for missing, ways, kind in (
         (no_way_in, lanes, PortalKind.ENTRANCE),
         (no_way_out, lanes.reverse(copy=False), PortalKind.EXIT),
     ):
-        before = {node for at in missing for node in (at, *nx.ancestors(ways, at))}
-        around = ways.subgraph(before)
-        for circuit in nx.strongly_connected_components(around):
-            if not any(start not in circuit for start, _ in around.in_edges(circuit)):
-                wanted.setdefault(frozenset(circuit), set()).add(kind)
-    found = []
-    for circuit, kinds in sorted(wanted.items(), key=lambda each: min(each[0])):
-        kind = PortalKind.BOTH if len(kinds) > 1 else next(iter(kinds))
-        found.append(SurveyedPortal(_place_of_door(outline, network, taken, sorted(circuit)), kind))
-    return found
+        around = ways.subgraph({node for at in missing for node in (at, *(() if is_near else nx.ancestors(ways, at)))})
+        first = [
+            circuit
+            for circuit in map(frozenset, nx.strongly_connected_components(around))
+            if all(start in circuit for start, _ in around.in_edges(circuit))
+        ]
+        doors = {circuit: _best_door(outline, network, taken, sorted(circuit)) for circuit in first}
+        left = set(missing)
+        for circuit in sorted(first, key=doors.__getitem__):
+            served = left.intersection(circuit) | left.intersection(nx.descendants(around, min(circuit)))
+            if served:
+                wanted.setdefault(doors[circuit][-2:], set()).add(kind)
+                left -= served
+    return {
+        lane: SurveyedPortal(place, PortalKind.BOTH if len(kinds) > 1 else next(iter(kinds)))
+        for (lane, place), kinds in wanted.items()
+    }
 
 
-def _place_of_door(
+def _best_door(
     outline: shapely.Polygon, network: LaneGraph, taken: shapely.Geometry, nodes: Iterable[int]
-) -> Point:
-    """Return the place on the outline to which the best straight way leads from one of some nodes."""
+) -> tuple[float, int, float, Point, Point]:
+    """Return how good the best straight way from some nodes to the outline is, the least being best, and its ends."""
     found = []
     for node in nodes:
         for order, foot in _feet(outline, network, node):
-            way = shapely.LineString([network.nodes[node].position, foot])
+            here = network.nodes[node].position
+            way = shapely.LineString([here, foot])
             over_m2 = way.buffer(_APPROACH_HALF_M, cap_style="flat").intersection(taken).area if way.length else 0.0
             length_m = way.length + (_OTHERWISE_M if order else 0.0)
-            found.append((round(float(over_m2), 1), order, round(float(length_m), 2), foot))
-    return min(found)[-1]
+            found.append((round(float(over_m2), 1), order, round(float(length_m), 2), here, foot))
+    return min(found)
 
 
 def _feet(outline: shapely.Polygon, network: LaneGraph, node: int) -> Iterator[tuple[int, Point]]:
