@@ -38,7 +38,8 @@ _FILLED = {"HATCH", "MPOLYGON", "SOLID", "TRACE", "3DFACE"}
 _APART = {"MLINE", "ACAD_PROXY_ENTITY", "LEADER", "MULTILEADER"}
 _SILENT = {"DIMENSION", "ARC_DIMENSION", "LARGE_RADIAL_DIMENSION", "VIEWPORT", "IMAGE", "ATTDEF", "LEADER", "OLE2FRAME",
            "MULTILEADER", "WIPEOUT", "RAY", "XLINE", "TOLERANCE", "SUN", "LIGHT"}  # fmt: skip
-_FAULTS = (DXFError, OSError, ValueError, LookupError, AttributeError, TypeError, ArithmeticError, RecursionError)
+_FAULTS = (DXFError, OSError, ValueError, LookupError, AttributeError, TypeError, ArithmeticError, RecursionError,
+           AssertionError)  # fmt: skip
 """Errors of ezdxf on damaged files."""
 
 

@@ -38,8 +38,18 @@ _KINDS = {
 """Parts that classes of elements are."""
 _NAMED = ("IfcSpace", "IfcBuildingElementProxy", "IfcFurnishingElement", "IfcGeographicElement", "IfcVirtualElement")
 """Classes whose names tell what they are."""
-_FLAT = 1e-6
-_FAULTS = (ifcopenshell.Error, OSError, RuntimeError, ValueError, LookupError, AttributeError, TypeError)
+_FLAT, _STRAIGHT_M = 1e-6, 0.005
+_FAULTS = (
+    ifcopenshell.Error,
+    OSError,
+    RuntimeError,
+    ValueError,
+    LookupError,
+    AttributeError,
+    TypeError,
+    AssertionError,
+)
+"""Errors of IfcOpenShell on damaged files."""
 
 
 class ModelPart(NamedTuple):
@@ -156,10 +166,12 @@ def _parts(
         if kind is not None:
             kinds[element[0]] = kind, told, values
             elements.append(element[1])
-    if not elements:
-        return
+    if all(kind is not PartKind.STALL for kind, _, _ in kinds.values()):
+        return  # nothing to lay out, whatever shapes there are
     settings = geom.settings()  # type: ignore[no-untyped-call]
     settings.set("use-world-coords", True)
+    settings.set("disable-opening-subtractions", True)  # walls stand over and under openings, and cuts are slow
+    settings.set("disable-boolean-result", True)
     settings.set("dimensionality", ifcopenshell.ifcopenshell_wrapper.CURVES_SURFACES_AND_SOLIDS)
     iterator = geom.iterator(settings, model, include=elements)
     cos, sin = math.cos(turn_rad), math.sin(turn_rad)
@@ -221,7 +233,7 @@ def _footprint(points: Floats, geometry: Any) -> shapely.Geometry:  # noqa: ANN4
     one, other = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     seen = triangles[np.abs(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]) > _FLAT]
     if len(seen):
-        return shapely.union_all(shapely.polygons(seen), grid_size=1e-4)
+        return shapely.union_all(shapely.polygons(seen), grid_size=1e-4).simplify(_STRAIGHT_M)
     edges = np.array(geometry.edges, np.int64).reshape(-1, 2)
     lines = shapely.union_all(shapely.linestrings(points[edges][:, :, :2])) if len(edges) else shapely.Point()
     return shapely.union_all(shapely.get_parts(shapely.polygonize([lines])))

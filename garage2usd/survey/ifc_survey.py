@@ -103,8 +103,11 @@ def _survey(model: Model, stalls: Sequence[ModelPart], floor_m: float) -> Survey
             parts.add_solid(f"wall {number + 1}", ring_of(solid))
         ours = [door for door in doors if door.ground.distance(ground.exterior) < _AT_WALL_M]
         add_doors(parts, [(door.ground.centroid.coords[0], portal_told(*door.told)) for door in ours])
+    rooms = shapely.union_all(
+        [shapely.Polygon(corners) for corners in parts.solids]
+    )  # within which nothing else counts
     for part in standing:
-        for area in _areas(part.ground):
+        for area in (area for area in _areas(part.ground) if not rooms.covers(area)):
             if part.kind is PartKind.COLUMN:
                 add_column(parts, part.name, area)
             elif part.kind is PartKind.SOLID:

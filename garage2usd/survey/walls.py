@@ -43,8 +43,9 @@ def ground_within(walls: Sequence[shapely.Geometry], stalls: Sequence[shapely.Po
         holes = [shapely.Polygon(ring) for part in shapely.get_parts(wider) for ring in part.interiors]
         for hole in sorted(holes, key=lambda hole: -hole.area):
             grown = shapely.Polygon(hole).buffer(half_m, join_style="mitre")
-            ground = max(shapely.get_parts(shapely.difference(grown, _bodies(standing))), key=lambda part: part.area)
-            ground = shapely.Polygon(ground.exterior).simplify(_STRAIGHT_M)
+            free = shapely.get_parts(_bodies(shapely.difference(grown, _bodies(standing))))
+            largest = max(free, key=lambda part: part.area, default=shapely.Polygon())
+            ground = shapely.Polygon(largest.exterior).simplify(_STRAIGHT_M)
             if ground.is_valid and int(shapely.contains(ground, middles).sum()) >= _HELD * len(stalls):
                 return ground
     return None
