@@ -16,6 +16,7 @@ from garage2usd.garage import Point, StallUse
 from garage2usd.survey.apollo_survey import is_apollo, read_apollo_survey
 from garage2usd.survey.opendrive_lanes import lanes_of_road, parking_lanes
 from garage2usd.survey.opendrive_lines import RoadLine, road_line
+from garage2usd.survey.paired_lanes import paired_lanes
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import Survey, Unplaced
 from garage2usd.survey.text import MOST_M, number_of, portal_kind_of, positive_of, read_xml, refuse, size_of, use_of
@@ -81,6 +82,7 @@ def read_opendrive_survey(path: Path) -> Survey:
             _add_object(parts, element, line, name, place)
         if not any(_is_stall(element) for element in objects):
             _add_parking_lanes(parts, road, line, name, place)
+    parts.lanes = paired_lanes(parts.lanes)
     _add_told(parts, root)
     return parts.survey(origin_deg=_origin(root))
 

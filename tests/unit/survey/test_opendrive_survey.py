@@ -72,7 +72,7 @@ def test_spirals_end_where_scenariogeneration_ends_them(start, end, length, hdg)
         quad(lambda s: math.sin(angle(s)), 0, length, epsabs=1e-9)[0],
     ]
     assert points == pytest.approx(expected, abs=1e-6)
-    assert heading == pytest.approx(angle(length), abs=1e-9)
+    assert heading == pytest.approx(angle(length), abs=1e-8)
     if abs(end - start) > 1e-6:
         peer = xodr.Spiral(start, end, length=length).get_end_data(0, 0, hdg)
         assert points == pytest.approx(peer[:2], abs=1e-4)
