@@ -139,7 +139,7 @@ def _stall(stall: Stall, bearing_deg: float) -> dict[str, str]:
     numbered = {"ref": str(stall.number)} if stall.number else {}
     sized = {} if stall.size == "standard" else {"size": stall.size}
     if not stall.is_parked_in:
-        return {"area:highway": "prohibited", "use": str(stall.use), **numbered}
+        return {"area:highway": "prohibited", "use": str(stall.use), **sized, **numbered}
     return {
         "amenity": "parking_space",
         "capacity": "1",

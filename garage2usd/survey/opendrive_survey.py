@@ -19,6 +19,7 @@ from garage2usd.survey.opendrive_floors import Floors, level_name
 from garage2usd.survey.opendrive_junctions import Link, with_joined_lanes
 from garage2usd.survey.opendrive_lanes import lanes_of_road, parking_lanes
 from garage2usd.survey.opendrive_lines import RoadLine, cubics_of, road_line
+from garage2usd.survey.paired_lanes import paired_lanes
 from garage2usd.survey.parts import SurveyParts
 from garage2usd.survey.survey import Survey, Unplaced
 from garage2usd.survey.surveyed_building import SurveyedBuilding, SurveyedLevel, SurveyedRamp
@@ -103,6 +104,8 @@ def read_opendrive_survey(path: Path) -> Survey | SurveyedBuilding:
         if not has_stalls:
             height_m = floors.nearest(float(heights[key].at(np.array([line.length_m / 2]))[0]))
             _add_parking_lanes(of_floor[height_m], road, line, name, place)
+    for parts in of_floor.values():
+        parts.lanes = paired_lanes(parts.lanes)
     _add_told(list(of_floor.values()), root)
     surveys = {height_m: parts.survey(origin_deg=_origin(root)) for height_m, parts in of_floor.items()}
     if len(surveys) == 1:

@@ -1,13 +1,16 @@
 """Maps as Apollo, CARLA and Autoware write them, made by hand after their converters and public files."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import shapely
 from pyproj import Geod
 
+from garage2usd.survey.paired_lanes import paired_lanes
 from garage2usd.survey.reader import read_survey
+from garage2usd.survey.survey import SurveyedLane
 
 ORIGIN_DEG = 110.498, 41.6706
 GEOD = Geod(ellps="WGS84")
@@ -178,3 +181,16 @@ def test_spaces_without_a_width_are_as_wide_as_they_are_apart(tmp_path):
     told = autoware(tmp_path, [(lines[0], '<tag k="width" v="2.3"/>'), (lines[1], "")])
     assert [shapely.Polygon(stall.corners).area / 5 for stall in told.stalls] == pytest.approx([2.3, 2.6])
     assert len(told.unread) == 1
+
+
+def test_lanes_that_lead_to_and_fro_are_one():
+    there = SurveyedLane(((0.0, 0.0), (10.0, 0.0)), 3.0, one_way=True)
+    back = SurveyedLane(((10.0, -3.2), (0.0, -3.2)), 3.0, one_way=True)
+    (both,) = paired_lanes([there, back])
+    assert (both.one_way, both.width_m) == (False, pytest.approx(6.2))
+    assert {z for _, z in both.points} == {-1.6}
+    same_way = replace(back, points=back.points[::-1])
+    further = replace(back, points=((10.0, -3.6), (0.0, -3.6)))
+    shorter = replace(back, points=((10.0, -3.2), (5.0, -3.2)))
+    for other in (same_way, further, shorter, replace(back, one_way=False)):
+        assert paired_lanes([there, other]) == [there, other]

@@ -26,7 +26,7 @@ SMALL = {"seed": 4, "site": {"width_cells": 7, "height_cells": 8}, "plan": {"epi
 USES = {
     **SMALL,
     "parking": {"ev_share": 0.3, "accessible_share": 0.1},
-    "stalls": {"sizes": {"standard": 0.5, "compact": 0.2, "large": 0.1, "motorcycle": 0.2}},
+    "stalls": {"sizes": {"standard": 0.6, "compact": 0.2, "large": 0.2}},
 }
 GARAGES = {
     "mixed": REPOSITORY / "samples/mixed_stalls.toml",
