@@ -37,7 +37,7 @@ def level_of_layout(
         lamps=lux.lamps,
         dead_lamps=lux.dead_lamps,
         faults=faults,
-        landings={f"[{row}, {col}]": way for (row, col), way in (layout.well.landings.items() if layout.well else ())},
+        landings={f"[{row}, {col}]": way for (row, col), way in layout.source.landings.items()},
         place=place,
     )
 

@@ -23,6 +23,10 @@ USUAL_LANE_M = 6.0
 """Width in metres of a lane whose width is unknown."""
 _GATE_HALF_M, _LEAST_GATE_M = 2.5, 1.0
 """Half the side in metres of the ground of a portal's node, which ends at the wall."""
+_LANDING_M = 1.5
+"""Depth in metres of the ground of a landing's node, before a ramp."""
+_AHEAD_COS = 0.7
+"""Cosine of the angle up to which a lane leads towards a door."""
 _PITCH_M = 6.0
 """Greatest distance in metres between nodes."""
 _STRAIGHT_M = 0.15
@@ -103,12 +107,21 @@ class Gate(NamedTuple):
         Unit vector (x, z) out of the garage.
     wall_m
         Length of the piece of wall around the door.
+    is_landing
+        True where a ramp to another level begins instead.
     """
 
     kind: LaneKind
     foot: Point
     outwards: Point
     wall_m: float
+    is_landing: bool = False
+
+    def is_ahead(self, points: Sequence[Point]) -> bool:
+        """Return True if the last two of some points lead towards the door rather than past it."""
+        (x, z), (end_x, end_z) = points[-2:]
+        along = (end_x - x) * self.outwards[0] + (end_z - z) * self.outwards[1]
+        return along > _AHEAD_COS * math.dist((x, z), (end_x, end_z))
 
 
 class _Approach(NamedTuple):
@@ -171,11 +184,13 @@ def _short_of(line: CentreLine, gates: Iterable[Gate]) -> CentreLine:
     """Return a centre line without the end that lies before a door, where the ground of the door's node is."""
     for gate in gates:
         (x, z), (out_x, out_z) = gate.foot, gate.outwards
-        deep_m = 2 * _GATE_HALF_M + line.width_m / 2
+        deep_m = _LANDING_M if gate.is_landing else 2 * _GATE_HALF_M + line.width_m / 2
         across = [(x - out_x * deep, z - out_z * deep) for deep in (-deep_m, deep_m)]
         ground = shapely.LineString(across).buffer(gate.wall_m / 2, cap_style="flat")
         for place in (0, -1):
             if not ground.covers(shapely.Point(line.line.coords[place])):
+                continue
+            if gate.is_landing and not gate.is_ahead(_ends(line.line)[place]):
                 continue
             rest = [part for part in shapely.get_parts(line.line.difference(ground)) if part.length > SAME_M]
             if rest:

@@ -1,8 +1,8 @@
 """Layouts of surveyed garages: stalls, lanes and columns where the survey has them, in a shell along its outline."""
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, LookConfig
-from garage2usd.garage import LaneGraph, LaneKind
+from garage2usd.garage import LaneGraph, LaneKind, Point
 from garage2usd.layout import Layout
 from garage2usd.layout.ceiling.beams import ceiling_levels
 from garage2usd.layout.draws import SquareDraws
@@ -21,32 +21,48 @@ from garage2usd.layout.measures import FloorArea
 from garage2usd.layout.parking.stalls import stall_quads
 from garage2usd.layout.placement import PlacedStall, Placement, placed
 from garage2usd.layout.source import FloorSource
+from garage2usd.layout.surveyed.ceilings import FloorAbove, surveyed_ceiling
 from garage2usd.layout.surveyed.cores import surveyed_blocks, surveyed_cores
 from garage2usd.layout.surveyed.floor import placed_stalls, surveyed_beams, surveyed_floor
 from garage2usd.layout.surveyed.ground import SurveyedGround
+from garage2usd.layout.surveyed.ramps import LevelRamps
 from garage2usd.layout.surveyed.tiles import SurveyedTiles
 from garage2usd.layout.surveyed.walls import gates_of, surveyed_walls
 from garage2usd.layout.table import ObjectTable, StallTable
-from garage2usd.layout.tiles import CEILING_THICKNESS_M
 from garage2usd.look import drawn_look
-from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.column import ColumnSpec
+from garage2usd.objects.floor_stain import PuddleSpec, StainSpec, TyreMarkSpec
+from garage2usd.objects.kind import rectangle
 from garage2usd.structure.lane_graph import Square, StallType
 from garage2usd.survey.clear_ground import with_clear_widths
 from garage2usd.survey.fitted_stalls import FittedStall, fitted_stalls
 from garage2usd.survey.lane_network import lane_network
 from garage2usd.survey.survey import Survey, Unplaced
 
-__all__ = ["FloorAbove", "SurveyedFloor", "lay_out_survey"]
-_UNDER_FLOOR_M = 0.02
-"""Distance of a ceiling slab's upper face from a floor above that covers a part of it."""
+__all__ = ["FloorAbove", "LevelPart", "SurveyedFloor", "lay_out_survey"]
+_STAINS, _TYRE_MARK_M = (StainSpec, PuddleSpec, TyreMarkSpec), 4.0
 
 
-class FloorAbove(NamedTuple):
-    """The level above a surveyed one: height of its floor over that of this level, and its ground (x, z)."""
+class LevelPart(NamedTuple):
+    """What a surveyed level has as a part of a building.
 
-    storey_m: float
-    ground: shapely.Geometry
+    Attributes
+    ----------
+    above
+        The level above; None of the top one.
+    ramps
+        Its ramps to other levels.
+    has_street
+        True if it has a door to the street although its survey has no portal.
+    """
+
+    above: FloorAbove | None = None
+    ramps: LevelRamps = LevelRamps()
+    has_street: bool = True
+
+
+ALONE = LevelPart()
+"""The only level of a building."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,8 +81,10 @@ class SurveyedFloor(FloorSource):
         Parts of the survey that the garage lacks, with the reasons.
     labels
         Semantic label of each tile with a lane or stalls.
-    above
-        The level above; None of the top one.
+    part
+        Its part of a building.
+    first_landing
+        Number of its first lane node that is a landing, in the order of `LevelRamps.gates`.
     """
 
     survey: Survey
@@ -74,7 +92,8 @@ class SurveyedFloor(FloorSource):
     fitted: tuple[FittedStall, ...]
     unplaced: tuple[Unplaced, ...]
     labels: Mapping[Square, str] = field(repr=False)
-    above: FloorAbove | None = None
+    part: LevelPart = ALONE
+    first_landing: int = 0
     matrices: None = None
 
     @property
@@ -85,7 +104,12 @@ class SurveyedFloor(FloorSource):
     @property
     def again(self) -> "partial[Layout]":
         """Lay out the same survey again."""
-        return partial(lay_out_survey, self.survey, above=self.above)
+        return partial(lay_out_survey, self.survey, part=self.part)
+
+    @property
+    def landings(self) -> dict[Square, Point]:
+        """Unit vector (x, z) towards the ramp from each landing of this level, by (row, col) of `node_squares`."""
+        return {(0, self.first_landing + number): gate.outwards for number, gate in enumerate(self.part.ramps.gates)}
 
     @property
     def area(self) -> FloorArea:
@@ -117,7 +141,7 @@ def lay_out_survey(
     survey: Survey,
     config: GarageConfig,
     *,
-    above: FloorAbove | None = None,
+    part: LevelPart = ALONE,
     unreachable: Collection[str] = (),
     held_back: Collection[str] = (),
     kept_clear: shapely.Geometry | None = None,
@@ -132,8 +156,8 @@ def lay_out_survey(
         A survey that `garage2usd.survey.survey.aligned` returned.
     config
         Sizes, fittings, parking, look and seed.
-    above
-        The level above; None of the top one.
+    part
+        Its part of a building.
     unreachable
         Names of stalls that cars do not get into; they stay as they are.
     held_back
@@ -152,19 +176,26 @@ def lay_out_survey(
     ground = SurveyedGround(survey.outline, survey.columns)
     if not survey.lanes:
         raise ConfigError("lanes", [], "a lane or more")
-    gates = gates_of(
-        ground.polygon,
-        survey.portals,
-        survey.lanes,
-        door_wall_m=config.bay.portal_side_m,
-        keeps_left=keeps_left,
+    ramps = part.ramps
+    doors = (
+        gates_of(
+            ground.polygon,
+            survey.portals,
+            survey.lanes,
+            door_wall_m=config.bay.portal_side_m,
+            keeps_left=keeps_left,
+            landings=ramps.gates,
+        )
+        if survey.portals or part.has_street
+        else []
     )
-    network = lane_network(survey.lanes, gates, survey.stall_polygons())
+    network = lane_network(survey.lanes, [*doors, *ramps.gates], survey.stall_polygons())
     standing = shapely.union_all(
         [
             *survey.stall_polygons(),
             *survey.column_polygons(),
             *survey.solid_polygons(),
+            *ramps.standing,
             ground.polygon.boundary,
         ]
     )
@@ -176,32 +207,39 @@ def lay_out_survey(
     stalls, fitted = placed_stalls(found, ground)
     labels = {stall.square: f"stall_{StallType.TYPE_3.value}" for stall in stalls}
     labels |= {ground.square_at(node.position): node.kind for node in reversed(network.nodes)}
-    source = SurveyedFloor(survey, network, fitted, (*survey.unread, *unplaced), labels, above)
-    tiles = SurveyedTiles(ground, network, stalls, config.bay, survey.solid_polygons())
+    source = SurveyedFloor(survey, network, fitted, (*survey.unread, *unplaced), labels, part, len(doors))
+    tiles = SurveyedTiles(ground, network, stalls, config.bay, survey.solid_polygons(), ramps.standing)
     pillars = _columns(survey, config, look)
     cores = surveyed_cores(tiles, stalls, pillars, config)
     depth_m = ceiling_levels(fittings).beam_depth_m
+    opened = shapely.Polygon() if part.above is None else part.above.openings
     floor = Floor(
         tiles=tiles,
         lanes=network,
         stalls=stalls,
         quads=tuple(stall_quads(stalls, source.access(stalls), network)),
-        shell=surveyed_walls(ground, gates, fittings, look.walls),
+        shell=surveyed_walls(ground, doors, fittings, look.walls),
         pillars=pillars,
         blocks=surveyed_blocks(tiles, cores, fittings.ceiling_height_m, look.walls),
-        ceilings=list(_ceiling(ground, config, above)),
-        beams=surveyed_beams(ground, config.bay, fittings.ceiling_height_m, depth_m, pillars),
+        ceilings=list(surveyed_ceiling(ground, config, part.above)),
+        beams=[
+            beam
+            for beam in surveyed_beams(ground, config.bay, fittings.ceiling_height_m, depth_m, pillars)
+            if not any(shapely.Polygon(outline).intersects(opened) for outline in beam.outlines())
+        ],
         cores=cores,
         shafts=(),
         area_m2=ground.polygon.area,
         draws=SquareDraws([*ground.tiles, *tiles.tiles], seed=config.seed),
-        laid=lambda panels: surveyed_floor(ground, panels, stalls),
+        laid=lambda panels: surveyed_floor(ground, panels, stalls, ramps.openings),
+        ramps=ramps.placements(),
+        ramp_tubes=ramps.tubes(),
     )
     furnishing = furnished(floor, config, look, held_back=held_back, kept_clear=kept_clear, open_boots=open_boots)
     return Layout(
         ground.structure,
         source,
-        ObjectTable(ground.on_tiles(furnishing.objects)),
+        ObjectTable(ground.on_tiles(_beside_ramps(furnishing.objects, ramps))),
         StallTable(stalls),
         fittings.ceiling_height_m,
         furnishing.illuminance,
@@ -215,6 +253,24 @@ def lay_out_survey(
     )
 
 
+def _beside_ramps(parts: Iterable[Iterable[Placement]], ramps: LevelRamps) -> Iterator[Iterable[Placement]]:
+    """Yield groups of objects, without the stains that reach over the ramps of the level and over its openings."""
+    if not ramps.up and not ramps.down:
+        yield from parts
+        return
+    standing = shapely.union_all(ramps.standing)
+    for part in parts:
+        yield [
+            place for place in part if not (isinstance(place.spec, _STAINS) and _ground_of(place).intersects(standing))
+        ]
+
+
+def _ground_of(stain: Placement) -> shapely.Polygon:
+    """Return the rectangle around a stain."""
+    half_x, half_z = (getattr(stain.spec, name, _TYRE_MARK_M) / 2 for name in ("width_m", "depth_m"))
+    return shapely.Polygon([stain.to_world(corner) for corner in rectangle(-half_x, -half_z, half_x, half_z)])
+
+
 def _columns(survey: Survey, config: GarageConfig, look: LookConfig) -> list[Placement]:
     """Place the columns as they were measured, with the guards of the look."""
     height_m, guard = config.fittings.ceiling_height_m, look.columns
@@ -226,19 +282,3 @@ def _columns(survey: Survey, config: GarageConfig, look: LookConfig) -> list[Pla
         )
         for number, column in enumerate(survey.columns, start=1)
     ]
-
-
-def _ceiling(ground: SurveyedGround, config: GarageConfig, above: FloorAbove | None) -> Iterator[Placement]:
-    """Yield the ceiling slab over the part of each tile inside the outline; its upper face may be a floor."""
-    ceiling_m = config.fittings.ceiling_height_m
-    for tile in ground:
-        left, back, right, front = shapely.intersection(tile.box, ground.polygon).bounds
-        spec = CeilingSpec(round(right - left, 6), round(front - back, 6), CEILING_THICKNESS_M)
-        if above is not None:
-            room_m = round(above.storey_m - ceiling_m, 6)
-            if above.ground.covers(shapely.box(left, back, right, front)):
-                spec = replace(spec, thickness_m=room_m, bears_floor=True)
-            else:
-                spec = replace(spec, thickness_m=min(spec.thickness_m, round(room_m - _UNDER_FLOOR_M, 6)))
-        place = (left + right) / 2, (back + front) / 2
-        yield placed("Ceiling", spec, place, height_m=ceiling_m, square=tile.square)

@@ -25,6 +25,8 @@ _LEAST_DOOR_WALL_M = 4.2
 """Least length of the piece of wall around a door."""
 _DOOR_HEAD_M = 0.3
 _LEAST_WALL_M = 0.02
+_FROM_RAMP_M = 6.0
+"""Distance from a ramp up to which the end of a lane leads to it."""
 _KINDS = {
     PortalKind.ENTRANCE: (LaneKind.ENTRANCE,),
     PortalKind.EXIT: (LaneKind.EXIT,),
@@ -66,6 +68,7 @@ def gates_of(
     *,
     door_wall_m: float,
     keeps_left: bool,
+    landings: Sequence[Gate] = (),
 ) -> list[Gate]:
     """Place the doors of a surveyed garage on its outline.
 
@@ -82,6 +85,8 @@ def gates_of(
         Length of the piece of wall around a door; less where the side of the outline is shorter.
     keeps_left
         True if traffic keeps to the left: the side of the entrance beside the exit of the same portal.
+    landings
+        Landings of ramps to other levels, where lanes end without a portal.
 
     Raises
     ------
@@ -90,7 +95,7 @@ def gates_of(
     """
     sides = _sides(outline)
     gates: list[Gate] = []
-    for portal in portals or [_natural_portal(outline, lanes)]:
+    for portal in portals or [_natural_portal(outline, lanes, landings)]:
         kinds = _KINDS[portal.kind]
         needed_m = len(kinds) * _LEAST_DOOR_WALL_M + 2 * _LEAST_WALL_M
         able = [side for side in sides if side.length_m >= needed_m]
@@ -180,11 +185,14 @@ def _spec(length_m: float, fittings: FittingsConfig, look: WallsLook, door: Gate
     )
 
 
-def _natural_portal(outline: shapely.Polygon, lanes: Sequence[SurveyedLane]) -> SurveyedPortal:
-    """Return a portal for a survey without any: the end of a lane nearest to the outline."""
-    ends = [lane.points[place] for lane in lanes for place in (0, -1)]
-    if not ends:
+def _natural_portal(
+    outline: shapely.Polygon, lanes: Sequence[SurveyedLane], landings: Sequence[Gate]
+) -> SurveyedPortal:
+    """Return a portal for a survey without any: the end of a lane nearest to the outline, away from ramps."""
+    every = [lane.points[place] for lane in lanes for place in (0, -1)]
+    if not every:
         raise ConfigError("lanes", [], "a lane or more")
+    ends = [end for end in every if all(math.dist(end, gate.foot) > _FROM_RAMP_M for gate in landings)] or every
     boundary = outline.exterior
     return SurveyedPortal(min(ends, key=lambda end: (round(boundary.distance(shapely.Point(end)), 3), end)))
 
