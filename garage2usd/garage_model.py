@@ -1,6 +1,6 @@
 """A garage as a value: its building, and each level with its layout and, where one was made, its plan."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
@@ -13,6 +13,8 @@ from garage2usd.config import GarageConfig
 from garage2usd.garage import LaneGraph, Stall
 from garage2usd.garage.levels import JoinedLevels, LevelLanes, LevelPlace, RampLane, join_levels, level_name
 from garage2usd.layout import Layout
+from garage2usd.layout.source import FloorSource
+from garage2usd.layout.surveyed import SurveyedFloor
 from garage2usd.planning import Plan, plan_tape_of, tape_of
 from garage2usd.planning.stall_kinds import unheld_shares
 from garage2usd.structure.building import Building
@@ -226,9 +228,12 @@ def _joined(building: Building, levels: Sequence[GarageLevel]) -> JoinedLevels:
         for level in levels
         for layout in [level.layout]
     ]
-    ramps = []
+    ramps: list[RampLane] = []
     for lower in range(1, len(levels)):
         layout, floor_m = levels[lower].layout, levels[lower].floor_m
+        if isinstance(layout.source, SurveyedFloor):
+            ramps += _surveyed_ramps(levels[lower - 1].layout.source, layout.source, lower, floor_m)
+            continue
         lanes = layout.well.lanes(layout.structure) if layout.well else ()
         for link, lane in zip(building.links, lanes, strict=True):
             head = lower - 1, levels[lower - 1].graph.number_of[link.head]
@@ -238,6 +243,19 @@ def _joined(building: Building, levels: Sequence[GarageLevel]) -> JoinedLevels:
             squares = tuple(_square_of(layout.structure, link.squares, x, z) for x, _, z in points)
             ramps.append(RampLane(start, end, points, squares, lower, lane.width_m))
     return join_levels(of_levels, ramps)
+
+
+def _surveyed_ramps(upper: FloorSource, floor: SurveyedFloor, number: int, floor_m: float) -> Iterator[RampLane]:
+    """Yield the ramps up from a level that was surveyed; a node is named by the ramp and by its number on it."""
+    assert isinstance(upper, SurveyedFloor)
+    heads, first = upper.part.ramps.down, upper.first_landing + len(upper.part.ramps.up)
+    for index, ramp in enumerate(floor.part.ramps.up):
+        head = number - 1, first + heads.index(ramp)
+        foot = number, floor.first_landing + index
+        points = tuple((x, round(floor_m + height, _DECIMALS), z) for x, height, z in ramp.points())
+        squares = tuple((index + 1, place) for place in range(len(points)))
+        start, end = (head, foot) if ramp.is_down else (foot, head)
+        yield RampLane(start, end, points, squares, number, ramp.line.width_m)
 
 
 def _square_of(structure: Structure, squares: tuple[tuple[int, int], ...], x: float, z: float) -> tuple[int, int]:

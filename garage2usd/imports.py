@@ -10,6 +10,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import cast
 
+import networkx as nx
 import shapely
 
 from garage2usd.as_built.garage import garage_as_made
@@ -22,9 +23,11 @@ from garage2usd.common.randomness import Step, derived_seed
 from garage2usd.config import GarageConfig
 from garage2usd.config.fittings import CEILING_ROOM_M
 from garage2usd.driving import StallProof, prove_stalls
-from garage2usd.garage.levels import level_places, places_at
+from garage2usd.garage.levels import LevelPlace, level_places, places_at
 from garage2usd.garage_model import Garage, GarageLevel
-from garage2usd.layout.surveyed import FloorAbove, SurveyedFloor, lay_out_survey
+from garage2usd.layout.surveyed import FloorAbove, LevelPart, SurveyedFloor, lay_out_survey
+from garage2usd.layout.surveyed.ramp_places import lanes_to_landings, placed_ramps, widened_outline
+from garage2usd.layout.surveyed.ramps import LevelRamps
 from garage2usd.pipeline import Build, Judged, checked_output, with_things, written
 from garage2usd.profiles import DEFAULT_PROFILE
 from garage2usd.profiles.countries import profile_at
@@ -34,7 +37,7 @@ from garage2usd.structure.building import Building
 from garage2usd.survey.clear_ground import with_medial_lanes
 from garage2usd.survey.enclosure import enclosed
 from garage2usd.survey.reader import read_building
-from garage2usd.survey.survey import Alignment, Survey, Unplaced
+from garage2usd.survey.survey import Alignment, Survey, SurveyedStall, Unplaced
 from garage2usd.survey.surveyed_building import SurveyedBuilding, SurveyedLevel, aligned_building
 from garage2usd.view.thumbnails import draw_pictures
 
@@ -154,16 +157,29 @@ def _laid_out(
     building, alignment = aligned_building(building)
     levels = building.levels
     floors_m, told = _floors_m(levels, config)
-    remarks += told
+    storeys_m = [0.0, *(round(upper - lower, 6) for upper, lower in pairwise(floors_m))]
+    configs = [_config_of(config, number, storey_m) for number, storey_m in enumerate(storeys_m)]
+    ramps, unbuilt = placed_ramps(building, floors_m, configs)
+    surveys = [
+        replace(
+            level.survey,
+            outline=widened_outline(level.survey, own),
+            lanes=lanes_to_landings(level.survey.lanes, own.gates) if own.gates else level.survey.lanes,
+            stalls=_numbered(level.survey.stalls, place) if len(levels) > 1 else level.survey.stalls,
+        )
+        for level, own, place in zip(levels, ramps, places_at(floors_m), strict=True)
+    ]
+    has_street = _have_street(levels, ramps)
     found: list[GarageLevel] = []
-    places = places_at(floors_m)
-    for number, (level, place) in enumerate(zip(levels, places, strict=True)):
-        above, own = None, config
+    for number, (level, place) in enumerate(zip(levels, places_at(floors_m), strict=True)):
+        above = None
         if number:
-            above = FloorAbove(round(floors_m[number - 1] - floors_m[number], 6), _ground(levels[number - 1].survey))
-            own = _config_below(config, number, above.storey_m)
-        layout = with_things(lay_out_survey(level.survey, own, above=above), own, progress=progress)
-        found.append(GarageLevel(place, own, layout, planned=None, source_name=level.name))
+            ground = shapely.Polygon(surveys[number - 1].outline)
+            above = FloorAbove(storeys_m[number], ground, ramps[number - 1].openings)
+        part = LevelPart(above, ramps[number], has_street=has_street[number])
+        layout = lay_out_survey(surveys[number], configs[number], part=part)
+        layout = with_things(layout, configs[number], progress=progress)
+        found.append(GarageLevel(place, configs[number], layout, planned=None, source_name=level.name))
     structures = tuple(level.layout.structure for level in found)
     whole = Building(structures, None, config.building.storey_m, tuple(floors_m) if len(found) > 1 else None)
     frame = alignment.frame(levels[0].survey.origin_deg)
@@ -173,11 +189,7 @@ def _laid_out(
         for level, floor in zip(found, surveyed_floors(garage), strict=True)
         for remark in floor.survey.remarks
     ]
-    return garage, alignment, (*remarks, *of_levels, *_unjoined(garage))
-
-
-def _ground(survey: Survey) -> shapely.Polygon:
-    return shapely.Polygon(survey.outline)
+    return garage, alignment, (*remarks, *told, *of_levels, *unbuilt, *_unjoined(garage))
 
 
 def _with_lanes(building: SurveyedBuilding) -> tuple[SurveyedBuilding, list[str]]:
@@ -218,20 +230,43 @@ def _floors_m(levels: Sequence[SurveyedLevel], config: GarageConfig) -> tuple[li
     return [place.floor_m for place in level_places(len(levels), config.building.storey_m)], remarks
 
 
-def _config_below(config: GarageConfig, number: int, storey_m: float) -> GarageConfig:
-    """Return the settings of a level below the top one: a seed of its own, and a ceiling under the floor above."""
+def _config_of(config: GarageConfig, number: int, storey_m: float) -> GarageConfig:
+    """Return the settings of a level: below the top one a seed of its own, and a ceiling under the floor above."""
+    if not number:
+        return config
     seed = derived_seed(config.seed, Step.LEVELS, number)
     ceiling_m = round(min(config.fittings.ceiling_height_m, storey_m - _LEAST_SLAB_M), 6)
     fittings = config.fittings.model_copy(update={"ceiling_height_m": ceiling_m})
     return config.model_copy(update={"seed": seed, "fittings": fittings})
 
 
+def _numbered(stalls: Sequence[SurveyedStall], place: LevelPlace) -> tuple[SurveyedStall, ...]:
+    """Return stalls with numbers that do not begin with the name of their level, which it adds in the whole garage."""
+    return tuple(replace(stall, number=place.own_name(stall.number)) for stall in stalls)
+
+
+def _have_street(levels: Sequence[SurveyedLevel], ramps: Sequence[LevelRamps]) -> list[bool]:
+    """Tell for each level if it has a door to the street: the ground level of those that ramps join, or the top one.
+
+    Where the source has portals on one of these levels, the others have none.
+    """
+    joined: nx.Graph[int] = nx.Graph()
+    joined.add_nodes_from(range(len(levels)))
+    joined.add_edges_from((number, number + 1) for number, own in enumerate(ramps) if own.down)
+    doors = set()
+    for part in nx.connected_components(joined):
+        if not any(levels[number].survey.portals for number in part):
+            doors.add(min(part, key=lambda number: (levels[number].ordinal != 0, number)))
+    return [number in doors for number in range(len(levels))]
+
+
 def _unjoined(garage: Garage) -> list[str]:
     """Name the levels that no ramp joins with others."""
+    parts = (floor.part.ramps for floor in surveyed_floors(garage))
     return [
         f"level {level.source_name} ({level.name}) is placed alone: no ramp of the source joins it with another level"
-        for level in garage.levels
-        if len(garage.levels) > 1
+        for level, ramps in zip(garage.levels, parts, strict=True)
+        if len(garage.levels) > 1 and not ramps.up and not ramps.down
     ]
 
 

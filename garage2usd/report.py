@@ -3,7 +3,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -208,9 +208,12 @@ def reported_links(garage: Garage) -> tuple[ReportedLink, ...]:
     """Return the records of the ramps between levels; none of a single level."""
     building = garage.building
     clear_m = min(garage.config.fittings.ceiling_height_m, building.storey_m - SLAB_M)
-    links = []
+    links: list[ReportedLink] = []
     for upper, lower in pairwise(garage.levels):
         layout = lower.layout
+        if isinstance(layout.source, SurveyedFloor):
+            links += _surveyed_links(upper, lower, layout.source)
+            continue
         lanes = layout.well.lanes(layout.structure) if layout.well else ()
         links += [
             ReportedLink(
@@ -230,6 +233,29 @@ def reported_links(garage: Garage) -> tuple[ReportedLink, ...]:
             for link, lane in zip(building.links, lanes, strict=True)
         ]
     return tuple(links)
+
+
+def _surveyed_links(upper: GarageLevel, lower: GarageLevel, floor: SurveyedFloor) -> Iterator[ReportedLink]:
+    """Yield the records of the ramps up from a level that was surveyed; they have no squares."""
+    source = upper.layout.source
+    assert isinstance(source, SurveyedFloor)
+    heads = [*source.landings][len(source.part.ramps.up) :]
+    feet = [*floor.landings]
+    for index, ramp in enumerate(floor.part.ramps.up):
+        yield ReportedLink(
+            kind="surveyed",
+            upper=upper.name,
+            lower=lower.name,
+            direction="down" if ramp.is_down else "up",
+            squares=(),
+            head=heads[source.part.ramps.down.index(ramp)],
+            foot=feet[index],
+            rise_m=ramp.storey.rise_m,
+            run_m=round(ramp.line.length_m, 6),
+            steepest_percent=round(100 * ramp.slope, 3),
+            clear_width_m=round(ramp.line.width_m, 6),
+            clear_height_m=round(lower.config.fittings.clear_height_m, 6),
+        )
 
 
 def _reported(stall: Stall, access_square: tuple[int, int] | None = None) -> ReportedStall:

@@ -27,6 +27,8 @@ from garage2usd.reading.whole_garage import garage_root, open_garage
 from garage2usd.scenes.prims import PlacedObject
 
 _SAME_PLACE_DIGITS = 2
+_AXIS = 0.02
+"""Sine of the angle to an axis up to which a ramp of a stage lies along it."""
 _ONTO_RAMP_M = 4.0
 """Length in metres of a straight ramp on which a car that drives onto it, or comes up, may still be turning."""
 
@@ -222,7 +224,10 @@ def _towards_ramps(lanes: LaneGraph) -> dict[tuple[float, float, int | None], Po
         for other in set(lanes.beside[end]) - level_ends:
             (x, z), (ramp_x, ramp_z) = nodes[other].position, nodes[end].position
             far = math.dist((x, z), (ramp_x, ramp_z)) or 1.0
-            way = round((ramp_x - x) / far) + 0.0, round((ramp_z - z) / far) + 0.0
+            along = (ramp_x - x) / far, (ramp_z - z) / far
+            is_on_axis = min(map(abs, along)) < _AXIS
+            way_x, way_z = (round(part, None if is_on_axis else _SAME_PLACE_DIGITS + 4) + 0.0 for part in along)
+            way = way_x, way_z
             found[_key(nodes[other].position, nodes[other].level)] = way
     return found
 

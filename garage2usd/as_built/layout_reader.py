@@ -38,7 +38,7 @@ def level_of_layout(
         dead_lamps=lux.dead_lamps,
         faults=faults,
         is_surveyed=layout.matrices is None,
-        landings={f"[{row}, {col}]": way for (row, col), way in (layout.well.landings.items() if layout.well else ())},
+        landings={f"[{row}, {col}]": way for (row, col), way in layout.source.landings.items()},
         place=place,
     )
 

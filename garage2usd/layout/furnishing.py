@@ -89,7 +89,9 @@ class Floor:
     laid
         Function from the panels of the pieces to those of the floor: for a survey, cut at its tiles.
     well
-        The ramps to other levels; None in a building of one level.
+        The ramps to other levels; None in a building of one level, and of a survey.
+    ramps, ramp_tubes
+        The ramps of a survey up from it, and the lights over them.
     """
 
     tiles: Tiles
@@ -107,6 +109,8 @@ class Floor:
     draws: SquareDraws
     laid: Callable[[list[Placement]], Iterable[Placement]]
     well: Well | None = None
+    ramps: Sequence[Placement] = ()
+    ramp_tubes: Sequence[Placement] = ()
 
     @property
     def squares(self) -> TileGrid | None:
@@ -220,6 +224,8 @@ def furnished(  # noqa: PLR0915 - a statement or two for each kind of object
             yield [*well.ramps(structure, fittings), *well.ceilings(structure, fittings)]
             yield fire_shutters(well, structure, fittings)
             walls, tubes = [*walls, *well.beside_floors(guards)], [*tubes, *well.tubes(structure, fittings)]
+        yield floor.ramps
+        tubes = [*tubes, *floor.ramp_tubes]
         yield ramp_lamps(tubes, look.lights, illuminance.luminance_nit, seed=seed)
         yield floor.blocks
         hung = mounted_objects(

@@ -1,6 +1,6 @@
 """Source of a layout: a plan on squares, or the survey of an existing garage."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.garage import LaneGraph
+from garage2usd.garage import LaneGraph, Point
 from garage2usd.layout.egress.exits import Egress
 from garage2usd.layout.measures import FloorArea
 from garage2usd.layout.placement import PlacedStall
 from garage2usd.layout.shell.well import Well
 from garage2usd.structure.grid import Structure, outside_squares
-from garage2usd.structure.lane_graph import LaneSquares
+from garage2usd.structure.lane_graph import LaneSquares, Square
 
 if TYPE_CHECKING:
     from garage2usd.layout import Layout
@@ -37,6 +37,11 @@ class FloorSource:
     def lanes(self) -> LaneGraph:
         """The lane graph in metres."""
         raise NotImplementedError
+
+    @property
+    def landings(self) -> Mapping[Square, Point]:
+        """Unit vector (x, z) towards the ramp from each landing of this level, by the (row, col) of its lane node."""
+        return {}
 
     @property
     def again(self) -> "Callable[..., Layout]":
@@ -93,6 +98,11 @@ class PlannedFloor(FloorSource):
     def lanes(self) -> LaneGraph:
         """The lane graph in metres."""
         return self.lane_squares.lanes
+
+    @property
+    def landings(self) -> Mapping[Square, Point]:
+        """Unit vector (x, z) towards the ramp from each landing of this level, by (row, col)."""
+        return self.well.landings if self.well else {}
 
     @property
     def again(self) -> "Callable[..., Layout]":

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 
-from garage2usd.as_built.driven_road import BEYOND_TOP_M, bent_floors
+from garage2usd.as_built.driven_road import BEYOND_TOP_M, bent_floors, portal_mouths
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.ramp_line import Bend
 from garage2usd.common.errors import ConfigError
@@ -342,6 +342,14 @@ class DrivePlanner:
             self._bent[lower] = tuple(floor.lifted(level.place.floor_m) for floor in floors)
         return self._bent[lower]
 
+    def _to_the_street(self, level: int) -> tuple[RampFloor, ...]:
+        """Return the floors of the ramps between a level and the street."""
+        if level == 0:
+            return self._on(0).road.ramps
+        built = self._garage.levels[level]
+        mouths = [mouth for mouth in portal_mouths(built) if built.lanes.nodes[mouth.number].name not in built.landings]
+        return tuple(mouth.ramp for mouth in mouths if mouth.ramp is not None)
+
     def _ramp_m(self, lower: int) -> float:
         """Return the length of the ramps down to a level, as seen from above."""
         runs_m = [float(ramp.runs_m[-1] - ramp.runs_m[0]) for ramp in self._on(lower).road.ramps]
@@ -353,8 +361,7 @@ class DrivePlanner:
     def _span(self, end_m: float, level: int, upper: int | None) -> FloorSpan:
         """Return the floors of a level with the ramps down from an upper level, and with those to the street."""
         own_m = self._garage.levels[level].place.floor_m
-        is_street = level == 0 or (upper is None and bool(self._ends(level, LaneKind.ENTRANCE, None)))
-        ramps = [_lifted(ramp, own_m, math.inf) for ramp in self._on(level).road.ramps] if is_street else []
+        ramps = [_lifted(ramp, own_m, math.inf) for ramp in self._to_the_street(level)]
         if upper is not None:
             foot_m = self._garage.levels[upper + 1].place.floor_m
             ramps += [

@@ -128,11 +128,15 @@ class CoilSpec(Spec, kind=RampSpec.kind):
         """Height of the walls over the floor at each station."""
         return np.minimum(self._heights + self.clear_m, self.top_m) - self._heights
 
+    def _bottoms(self) -> float | Floats:
+        """Height over the floor at which the outer faces of walls begin."""
+        return -self.slab_m
+
     def _wall(self, name: str, side: float) -> Part:
         face, back = (side * (self.line.width_m / 2 + depth) for depth in (0.0, self.wall_m))
         tops = self._tops()
         faces = self._band(face, face, (0.0, tops), self._inwards(-side))
-        faces += self._band(back, back, (-self.slab_m, tops), self._inwards(side))
+        faces += self._band(back, back, (self._bottoms(), tops), self._inwards(side))
         faces += self._band(face, back, (tops, tops), _UP)
 
         def along(corners: Floats, normals: Floats) -> Floats:
@@ -170,15 +174,21 @@ class CoilSpec(Spec, kind=RampSpec.kind):
 
         return make_part(name, faces, "hazard", collider=Collider.MESH, project=from_edge)
 
+    @property
+    def _slab_sides(self) -> tuple[float, float]:
+        """Distances inwards of both sides of the slab."""
+        half = self.line.width_m / 2 + self.wall_m
+        return -half, half
+
     def _ends(self) -> list[Face]:
         """Return the upright faces at both ends of the slab."""
-        half = self.line.width_m / 2 + self.wall_m
+        right, left = self._slab_sides
         return [
             self._facing_out(
                 np.array(
                     [
                         self._points(place, over)[end]
-                        for place, over in ((-half, 0.0), (half, 0.0), (half, -self.slab_m), (-half, -self.slab_m))
+                        for place, over in ((right, 0.0), (left, 0.0), (left, -self.slab_m), (right, -self.slab_m))
                     ]
                 ),
                 end,

@@ -24,6 +24,10 @@ USUAL_LANE_M = 6.0
 """Width in metres of a lane whose width is unknown."""
 _GATE_HALF_M, _LEAST_GATE_M = 2.5, 1.0
 """Half the side in metres of the ground of a portal's node, which ends at the wall."""
+_LANDING_M = 1.5
+"""Depth in metres of the ground of a landing's node, before a ramp."""
+_AHEAD_COS = 0.7
+"""Cosine of the angle up to which a lane leads towards a door."""
 _PITCH_M = 6.0
 """Greatest distance in metres between nodes."""
 _STRAIGHT_M = 0.15
@@ -112,6 +116,8 @@ class Gate(NamedTuple):
         (x, z) of the middle of the door, if it is for both directions; else it is the foot.
     lane
         (x, z) on the centre line that the way leads to; None for any.
+    is_landing
+        True where a ramp to another level begins instead.
     """
 
     kind: LaneKind
@@ -120,6 +126,13 @@ class Gate(NamedTuple):
     wall_m: float
     door: Point | None = None
     lane: Point | None = None
+    is_landing: bool = False
+
+    def is_ahead(self, points: Sequence[Point]) -> bool:
+        """Return True if the last two of some points lead towards the door rather than past it."""
+        (x, z), (end_x, end_z) = points[-2:]
+        along = (end_x - x) * self.outwards[0] + (end_z - z) * self.outwards[1]
+        return along > _AHEAD_COS * math.dist((x, z), (end_x, end_z))
 
 
 class _Approach(NamedTuple):
@@ -209,9 +222,10 @@ def _short_of(line: CentreLine, gates: Sequence[Gate], free_m: Sequence[float], 
             if len(lines.query(shapely.Point(end_x, end_z), predicate="dwithin", distance=SAME_M)) > 1:
                 continue
             aside_m = abs((end_x - x) * out_z - (end_z - z) * out_x)
-            deep_m = 2 * _GATE_HALF_M
-            deep_m += line.width_m / 2
-            if free < 2 * _GATE_HALF_M:
+            if gate.is_landing and not gate.is_ahead(_ends(line.line)[place]):
+                continue
+            deep_m = _LANDING_M if gate.is_landing else 2 * _GATE_HALF_M + line.width_m / 2
+            if not gate.is_landing and free < 2 * _GATE_HALF_M:
                 deep_m = min(deep_m, free + max(aside_m, _LEAST_GATE_M / 2) + 2 * _LEAST_GATE_M)
             across = [(x - out_x * deep, z - out_z * deep) for deep in (-deep_m, deep_m)]
             ground = shapely.LineString(across).buffer(gate.wall_m / 2 + _TOUCH_M, cap_style="flat")

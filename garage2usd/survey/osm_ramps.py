@@ -8,7 +8,7 @@ from garage2usd.garage import Point
 from garage2usd.survey.lanelets import CentreLine, lanes_of_lanelets
 from garage2usd.survey.osm_elements import OsmElements, OsmWay
 from garage2usd.survey.osm_levels import OsmLevels, is_repeated, one_way_of
-from garage2usd.survey.survey import Unplaced
+from garage2usd.survey.survey import PortalKind, Unplaced
 from garage2usd.survey.surveyed_building import SurveyedRamp
 from garage2usd.survey.text import length_of
 
@@ -28,12 +28,15 @@ class FoundRamps(NamedTuple):
         Names of the service roads and lanelets that are on no level, as they are parts of ramps.
     to_street
         Level of each lanelet that climbs from a level to no other one, by its name.
+    portals
+        Level of the end of such lanelets on the street, its (x, z), and the direction in which cars drive there.
     """
 
     ramps: tuple[SurveyedRamp, ...]
     unread: tuple[Unplaced, ...]
     parts: frozenset[str]
     to_street: Mapping[str, str]
+    portals: tuple[tuple[str, Point, PortalKind], ...]
 
 
 class _Piece(NamedTuple):
@@ -81,16 +84,22 @@ def ramps_of(osm: OsmElements, levels: OsmLevels) -> FoundRamps:
     ]
     ramps, unread = [], []
     to_street: dict[str, str] = {}
+    portals: list[tuple[str, Point, PortalKind]] = []
     for piece in (_completed(piece, levels) for piece in _chained([*pieces, *lanelets])):
         start, end = piece.levels
         if start is not None and end is not None and start != end:
             ramps.append(SurveyedRamp(piece.name, piece.points, (start, end), piece.width_m, piece.way != 0))
         elif (level := start or end) is not None and ways.isdisjoint(piece.parts):
             to_street |= dict.fromkeys(piece.parts, level)
+            if start is None or end is None:
+                kind = PortalKind.BOTH
+                if piece.way:
+                    kind = PortalKind.ENTRANCE if start is None else PortalKind.EXIT
+                portals.append((level, piece.points[0 if start is None else -1], kind))
         else:
             unread.append(Unplaced(piece.name, "a ramp whose ends do not lie on lanes of two levels"))
     parts = frozenset(ways).union(piece.name for piece in lanelets).difference(to_street)
-    return FoundRamps(tuple(ramps), tuple(unread), parts, to_street)
+    return FoundRamps(tuple(ramps), tuple(unread), parts, to_street, tuple(portals))
 
 
 def _of_way(osm: OsmElements, levels: OsmLevels, way: OsmWay) -> Iterator[_Piece]:

@@ -16,7 +16,7 @@ from garage2usd.survey.osm_levels import OsmArea, OsmLevel, OsmLevels, one_way_o
 from garage2usd.survey.osm_ramps import ramps_of
 from garage2usd.survey.parking_spaces import ParkingSpace
 from garage2usd.survey.parts import SurveyParts
-from garage2usd.survey.survey import PortalKind, Survey, Unplaced
+from garage2usd.survey.survey import PortalKind, Survey, SurveyedPortal, Unplaced
 from garage2usd.survey.surveyed_building import SurveyedBuilding, SurveyedLevel
 from garage2usd.survey.text import length_of, portal_kind_of, size_of, unread_length, use_of
 
@@ -63,7 +63,13 @@ def read_osm_survey(path: Path) -> Survey | SurveyedBuilding:
     if len(levels.names) < 2:  # noqa: PLR2004 - one above another
         return _survey(OsmLevel(osm, levels, levels.names[0] if levels.names else None))
     found = ramps_of(osm, levels)
-    surveys = [_survey(OsmLevel(osm, levels, name, found.parts, found.to_street)) for name in levels.names]
+    surveys = [
+        _survey(
+            OsmLevel(osm, levels, name, found.parts, found.to_street),
+            [SurveyedPortal(place, kind) for level, place, kind in found.portals if level == name],
+        )
+        for name in levels.names
+    ]
     named = zip(levels.names, surveys, strict=True)
     return SurveyedBuilding(
         tuple(SurveyedLevel(name, each, levels.ordinals[name], levels.floors_m.get(name)) for name, each in named),
@@ -72,9 +78,10 @@ def read_osm_survey(path: Path) -> Survey | SurveyedBuilding:
     )
 
 
-def _survey(level: OsmLevel) -> Survey:
-    """Return the survey of one level."""
+def _survey(level: OsmLevel, portals: Sequence[SurveyedPortal] = ()) -> Survey:
+    """Return the survey of one level, with some portals that its ramps to the street have."""
     osm, parts = level.osm, SurveyParts()
+    parts.portals += portals
     _addstalls(parts, level)
     _add_lanelets(parts, level)
     for name, tags, ring in areas_of(osm):

@@ -10,6 +10,7 @@ import shapely
 from garage2usd.garage import LaneGraph, LaneKind
 from garage2usd.layout import Layout, Placement
 from garage2usd.layout.placement import of_spec
+from garage2usd.layout.surveyed import SurveyedFloor
 from garage2usd.objects.floor import FloorSpec
 from garage2usd.objects.kind import rectangle
 from garage2usd.objects.portal import PortalSpec
@@ -175,6 +176,10 @@ def level_title(layout: Layout) -> str:
 
 def wells(layout: Layout, sheet: Sheet) -> Iterator[Region | Line | Text]:
     """Draw the ramps that begin or end on a level."""
+    if isinstance(layout.source, SurveyedFloor):
+        for ramp in (*layout.source.part.ramps.up, *layout.source.part.ramps.down):
+            points = [(x, z) for x, _, z in ramp.points()]
+            yield from _ramp(points, ramp.line.width_m, "down" if ramp.is_down else "up", sheet)
     if layout.well is None:
         return
     columns, rows = (edges.tolist() for edges in (layout.structure.column_edges_m, layout.structure.row_edges_m))
@@ -183,24 +188,29 @@ def wells(layout: Layout, sheet: Sheet) -> Iterator[Region | Line | Text]:
         yield Text(middle, "landing", sheet.letters_m, INK, kind="landing")
     down, up = layout.well.lanes(layout.structure)
     for lane, is_down in ((down, True), (up, False)):
-        line = _Line([(x, z) for x, _, z in lane.points])
-        half, run = lane.width_m / 2, line.length_m
-        left, right = line.beside(-half), line.beside(half)
-        yield from (
-            Region([a, b, c, d], RAMP, "ramp") for (a, b), (d, c) in zip(pairwise(left), pairwise(right), strict=True)
-        )
-        for number in range(1, math.ceil(run / _TREAD_M)):
-            tread = [line.at(number * _TREAD_M, -half), line.at(number * _TREAD_M, half)]
-            yield Line(tread, PAPER, LINE_M / 2, "ramp")
-        tail, tip = (run - _ARROW_M) / 2, (run + _ARROW_M) / 2
-        shaft = [line.at(tail + share * _ARROW_M / _ARROW_PARTS, 0) for share in range(_ARROW_PARTS + 1)]
-        yield Line(shaft, INK, _STROKE_M, "direction")
-        wings = [line.at(tip - _WING_M, -_WING_M), line.at(tip, 0), line.at(tip - _WING_M, _WING_M)]
-        yield Line(wings, INK, _STROKE_M, "direction")
         word = ("down" if is_down else "up") + layout.well.way_in_words(is_down=is_down)
-        # in the middle of a helix, or beside the arrow of a straight ramp
-        place = line.middle if math.dist(line.middle, line.at(run / 2, 0)) > lane.width_m else None
-        yield Text(place or line.at(run / 2, _WORD_ASIDE_M), word, sheet.letters_m, INK, kind="ramp")
+        yield from _ramp([(x, z) for x, _, z in lane.points], lane.width_m, word, sheet)
+
+
+def _ramp(points: list[Point], width_m: float, word: str, sheet: Sheet) -> Iterator[Region | Line | Text]:
+    """Draw a ramp between levels along a line in the direction of driving."""
+    line, half = _Line(points), width_m / 2
+    run = line.length_m
+    left, right = line.beside(-half), line.beside(half)
+    yield from (
+        Region([a, b, c, d], RAMP, "ramp") for (a, b), (d, c) in zip(pairwise(left), pairwise(right), strict=True)
+    )
+    for number in range(1, math.ceil(run / _TREAD_M)):
+        tread = [line.at(number * _TREAD_M, -half), line.at(number * _TREAD_M, half)]
+        yield Line(tread, PAPER, LINE_M / 2, "ramp")
+    tail, tip = (run - _ARROW_M) / 2, (run + _ARROW_M) / 2
+    shaft = [line.at(tail + share * _ARROW_M / _ARROW_PARTS, 0) for share in range(_ARROW_PARTS + 1)]
+    yield Line(shaft, INK, _STROKE_M, "direction")
+    wings = [line.at(tip - _WING_M, -_WING_M), line.at(tip, 0), line.at(tip - _WING_M, _WING_M)]
+    yield Line(wings, INK, _STROKE_M, "direction")
+    # in the middle of a helix, or beside the arrow of a straight ramp
+    place = line.middle if math.dist(line.middle, line.at(run / 2, 0)) > width_m else None
+    yield Text(place or line.at(run / 2, _WORD_ASIDE_M), word, sheet.letters_m, INK, kind="ramp")
 
 
 class _Line:

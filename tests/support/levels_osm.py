@@ -1,6 +1,7 @@
 """Small OSM files with levels: on each a row of stalls along an aisle, in metres, and ramps between them."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import pairwise
 from pathlib import Path
 
 Place = tuple[float, float]
@@ -47,3 +48,19 @@ def add_level(osm: OsmFile, name: str, *, tag: str = "level", stalls: int = STAL
     if aisle:
         ends = [(LEFT, AISLE_Y), (RIGHT, AISLE_Y)]
         osm.way(ends, name, highway="service", service="parking_aisle", width="6", **{tag: name})
+
+
+def ramp_file(*names: str, line: Sequence[Place] = ((-6.0, -10.0), (40.0, -10.0))) -> OsmFile:
+    """Return a file of levels, the top one first, with two-way ramps; the level 0 has a lane towards the street."""
+    osm = OsmFile()
+    for name in names:
+        add_level(osm, name, aisle=False)
+        tags = {"highway": "service", "service": "parking_aisle", "width": "6", "level": name}
+        osm.way([(-18.0 if name == "0" else -6.0, AISLE_Y), (-6.0, AISLE_Y), (40.0, AISLE_Y)], name, **tags)
+        for x in (-6.0, 40.0):
+            osm.way([(x, AISLE_Y), (x, -10.0)], name, **tags)
+    osm.way([(-20, -30), (60, -30), (60, 20), (-20, 20), (-20, -30)], "outline", amenity="parking")
+    for upper, lower in pairwise(names):
+        levels = [upper, *(["ramp"] * (len(line) - 2)), lower]
+        osm.way(line, levels, highway="service", level=f"{lower};{upper}", width="7")
+    return osm

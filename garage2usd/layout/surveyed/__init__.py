@@ -1,7 +1,7 @@
 """Layouts of surveyed garages: stalls, lanes and columns where the survey has them, in a shell along its outline."""
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, NamedTuple
@@ -21,37 +21,53 @@ from garage2usd.layout.measures import FloorArea
 from garage2usd.layout.parking.stalls import stall_quads
 from garage2usd.layout.placement import PlacedStall, Placement, placed
 from garage2usd.layout.source import FloorSource
+from garage2usd.layout.surveyed.ceilings import FloorAbove, surveyed_ceiling
 from garage2usd.layout.surveyed.cores import surveyed_blocks, surveyed_cores
 from garage2usd.layout.surveyed.floor import placed_stalls, surveyed_beams, surveyed_floor
 from garage2usd.layout.surveyed.gates import gates_of, lacking_portals
 from garage2usd.layout.surveyed.ground import SurveyedGround
+from garage2usd.layout.surveyed.ramps import LevelRamps
 from garage2usd.layout.surveyed.tiles import SurveyedTiles
 from garage2usd.layout.surveyed.walls import surveyed_walls
 from garage2usd.layout.table import ObjectTable, StallTable
-from garage2usd.layout.tiles import CEILING_THICKNESS_M
 from garage2usd.look import drawn_look
-from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.column import ColumnSpec
+from garage2usd.objects.floor_stain import PuddleSpec, StainSpec, TyreMarkSpec
+from garage2usd.objects.kind import rectangle
 from garage2usd.structure.lane_graph import Square, StallType
 from garage2usd.survey.clear_ground import with_clear_widths, with_lanes_to
 from garage2usd.survey.fitted_stalls import FittedStall, Fitting, fitted_stalls
 from garage2usd.survey.lane_network import Gate, lane_network
 from garage2usd.survey.survey import Survey, SurveyedPortal, Unplaced
 
-__all__ = ["FloorAbove", "SurveyedFloor", "lay_out_survey"]
+__all__ = ["FloorAbove", "LevelPart", "SurveyedFloor", "lay_out_survey"]
 _EQUIPMENT_M = 0.25
 """Depth in metres of what hangs on walls, beside which lanes end."""
 _MOST_ROUNDS = 4
 """Number of times that doors are looked for that lanes lack."""
-_UNDER_FLOOR_M = 0.02
-"""Distance of a ceiling slab's upper face from a floor above that covers a part of it."""
+_STAINS, _TYRE_MARK_M = (StainSpec, PuddleSpec, TyreMarkSpec), 4.0
 
 
-class FloorAbove(NamedTuple):
-    """The level above a surveyed one: height of its floor over that of this level, and its ground (x, z)."""
+class LevelPart(NamedTuple):
+    """What a surveyed level has as a part of a building.
 
-    storey_m: float
-    ground: shapely.Geometry
+    Attributes
+    ----------
+    above
+        The level above; None of the top one.
+    ramps
+        Its ramps to other levels.
+    has_street
+        True if it has a door to the street although its survey has no portal.
+    """
+
+    above: FloorAbove | None = None
+    ramps: LevelRamps = LevelRamps()
+    has_street: bool = True
+
+
+ALONE = LevelPart()
+"""The only level of a building."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,8 +86,10 @@ class SurveyedFloor(FloorSource):
         Parts of the survey that the garage lacks, with the reasons.
     labels
         Semantic label of each tile with a lane or stalls.
-    above
-        The level above; None of the top one.
+    part
+        Its part of a building.
+    first_landing
+        Number of its first lane node that is a landing, in the order of `LevelRamps.gates`.
     """
 
     survey: Survey
@@ -79,7 +97,8 @@ class SurveyedFloor(FloorSource):
     fitted: tuple[FittedStall, ...]
     unplaced: tuple[Unplaced, ...]
     labels: Mapping[Square, str] = field(repr=False)
-    above: FloorAbove | None = None
+    part: LevelPart = ALONE
+    first_landing: int = 0
     matrices: None = None
 
     @property
@@ -90,7 +109,12 @@ class SurveyedFloor(FloorSource):
     @property
     def again(self) -> "partial[Layout]":
         """Lay out the same survey again."""
-        return partial(lay_out_survey, self.survey, above=self.above)
+        return partial(lay_out_survey, self.survey, part=self.part)
+
+    @property
+    def landings(self) -> dict[Square, Point]:
+        """Unit vector (x, z) towards the ramp from each landing of this level, by (row, col) of `node_squares`."""
+        return {(0, self.first_landing + number): gate.outwards for number, gate in enumerate(self.part.ramps.gates)}
 
     @property
     def area(self) -> FloorArea:
@@ -122,7 +146,7 @@ def lay_out_survey(
     survey: Survey,
     config: GarageConfig,
     *,
-    above: FloorAbove | None = None,
+    part: LevelPart = ALONE,
     unreachable: Collection[str] = (),
     held_back: Collection[str] = (),
     kept_clear: shapely.Geometry | None = None,
@@ -137,8 +161,8 @@ def lay_out_survey(
         A survey that `garage2usd.survey.survey.aligned` returned.
     config
         Sizes, fittings, parking, look and seed.
-    above
-        The level above; None of the top one.
+    part
+        Its part of a building.
     unreachable
         Names of stalls that cars do not get into; they stay as they are.
     held_back
@@ -156,12 +180,13 @@ def lay_out_survey(
     ground = SurveyedGround(survey.outline, survey.columns)
     if not survey.lanes:
         raise ConfigError("lanes", [], "a lane or more")
-    gates, network, fitting, added = _joined(survey, ground.polygon, config)
+    ramps = part.ramps
+    doors, network, fitting, added = _joined(survey, ground.polygon, config, part)
     if fitting.laneless:
         with_more = with_lanes_to(survey, fitting.laneless)
         if more := len(with_more.lanes) - len(survey.lanes):
             survey = with_more
-            gates, network, fitting, added = _joined(survey, ground.polygon, config)
+            doors, network, fitting, added = _joined(survey, ground.polygon, config, part)
             added = (f"{more} lane{'' if more == 1 else 's'} to stalls without one are laid over free ground", *added)
     survey = replace(survey, remarks=tuple(dict.fromkeys([*survey.remarks, *added])))
     found, unplaced = fitting.stalls, fitting.unplaced
@@ -171,32 +196,39 @@ def lay_out_survey(
     stalls, fitted = placed_stalls(found, ground, look.font)
     labels = {stall.square: f"stall_{StallType.TYPE_3.value}" for stall in stalls}
     labels |= {ground.square_at(node.position): node.kind for node in reversed(network.nodes)}
-    source = SurveyedFloor(survey, network, fitted, (*survey.unread, *unplaced), labels, above)
-    tiles = SurveyedTiles(ground, network, stalls, config.bay, survey.solid_polygons())
+    source = SurveyedFloor(survey, network, fitted, (*survey.unread, *unplaced), labels, part, len(doors))
+    tiles = SurveyedTiles(ground, network, stalls, config.bay, survey.solid_polygons(), ramps.standing)
     pillars = _columns(survey, config, look)
     cores = surveyed_cores(tiles, stalls, pillars, config)
     depth_m = ceiling_levels(fittings).beam_depth_m
+    opened = shapely.Polygon() if part.above is None else part.above.openings
     floor = Floor(
         tiles=tiles,
         lanes=network,
         stalls=stalls,
         quads=tuple(stall_quads(stalls, source.access(stalls), network)),
-        shell=surveyed_walls(ground, gates, fittings, look.walls),
+        shell=surveyed_walls(ground, doors, fittings, look.walls),
         pillars=pillars,
         blocks=surveyed_blocks(tiles, cores, fittings.ceiling_height_m, look.walls),
-        ceilings=list(_ceiling(ground, config, above)),
-        beams=surveyed_beams(ground, config.bay, fittings.ceiling_height_m, depth_m, pillars),
+        ceilings=list(surveyed_ceiling(ground, config, part.above)),
+        beams=[
+            beam
+            for beam in surveyed_beams(ground, config.bay, fittings.ceiling_height_m, depth_m, pillars)
+            if not any(shapely.Polygon(outline).intersects(opened) for outline in beam.outlines())
+        ],
         cores=cores,
         shafts=(),
         area_m2=ground.polygon.area,
         draws=SquareDraws([*ground.tiles, *tiles.tiles], seed=config.seed),
-        laid=lambda panels: surveyed_floor(ground, panels, stalls),
+        laid=lambda panels: surveyed_floor(ground, panels, stalls, ramps.openings),
+        ramps=ramps.placements(),
+        ramp_tubes=ramps.tubes(),
     )
     furnishing = furnished(floor, config, look, held_back=held_back, kept_clear=kept_clear, open_boots=open_boots)
     return Layout(
         ground.structure,
         source,
-        ObjectTable(ground.on_tiles(furnishing.objects)),
+        ObjectTable(ground.on_tiles(_beside_ramps(furnishing.objects, ramps))),
         StallTable(stalls),
         fittings.ceiling_height_m,
         furnishing.illuminance,
@@ -211,13 +243,13 @@ def lay_out_survey(
 
 
 def _joined(
-    survey: Survey, outline: shapely.Polygon, config: GarageConfig
+    survey: Survey, outline: shapely.Polygon, config: GarageConfig, part: LevelPart
 ) -> tuple[list[Gate], LaneGraph, Fitting, tuple[str, ...]]:
     """Return the doors of a survey, its lane graph, its stalls beside lanes, and remarks on doors that it lacks."""
     keeps_left = config.standard.drives_on_left
     stalls = survey.stall_polygons()
     solids = shapely.union_all(survey.solid_polygons())
-    taken = shapely.union_all([*stalls, *survey.column_polygons(), solids])
+    taken = shapely.union_all([*stalls, *survey.column_polygons(), solids, *part.ramps.standing])
     # equipment hangs on the walls
     standing = shapely.union_all([taken, outline.boundary.buffer(_EQUIPMENT_M)])
     walls = shapely.union_all([outline.boundary, solids.boundary])
@@ -226,19 +258,42 @@ def _joined(
     remarks: tuple[str, ...] = ()
     added: set[tuple[Point, SurveyedPortal]] = set()
     for rounds in range(1, _MOST_ROUNDS + 1):
-        network = with_clear_widths(lane_network(survey.lanes, gates, stalls, walls), standing)
+        # ramps to other levels do not stand in for the doors to the street
+        has_landings = bool(gates) or not part.has_street or rounds > 1
+        landings = part.ramps.gates if has_landings else ()
+        network = with_clear_widths(lane_network(survey.lanes, [*gates, *landings], stalls, walls), standing)
         fitting = fitted_stalls(survey, network, keeps_left=keeps_left, walls=walls)
         found = lacking_portals(outline, network, taken, fitting.cut_off, is_near=rounds > 1)
         lacking = {lane: portal for lane, portal in found.items() if (lane, portal) not in added}
         added |= {*lacking.items()}
-        if not lacking or rounds == _MOST_ROUNDS:
+        if (not lacking and has_landings) or rounds == _MOST_ROUNDS:
             break
         for lane, portal in lacking.items():
             more = gates_of(outline, [portal], taken, door_wall_m=door_wall_m, keeps_left=keeps_left, others=gates)
             gates += [gate._replace(lane=lane) for gate in more]
+        if not lacking:
+            continue
         places = ", ".join(f"({portal.position[0]:.1f}, {portal.position[1]:.1f})" for portal in lacking.values())
         remarks = (*remarks, f"doors are added where lanes without a way to one come nearest to the outline: {places}")
     return gates, network, fitting, remarks
+
+
+def _beside_ramps(parts: Iterable[Iterable[Placement]], ramps: LevelRamps) -> Iterator[Iterable[Placement]]:
+    """Yield groups of objects, without the stains that reach over the ramps of the level and over its openings."""
+    if not ramps.up and not ramps.down:
+        yield from parts
+        return
+    standing = shapely.union_all(ramps.standing)
+    for part in parts:
+        yield [
+            place for place in part if not (isinstance(place.spec, _STAINS) and _ground_of(place).intersects(standing))
+        ]
+
+
+def _ground_of(stain: Placement) -> shapely.Polygon:
+    """Return the rectangle around a stain."""
+    half_x, half_z = (getattr(stain.spec, name, _TYRE_MARK_M) / 2 for name in ("width_m", "depth_m"))
+    return shapely.Polygon([stain.to_world(corner) for corner in rectangle(-half_x, -half_z, half_x, half_z)])
 
 
 def _columns(survey: Survey, config: GarageConfig, look: LookConfig) -> list[Placement]:
@@ -252,19 +307,3 @@ def _columns(survey: Survey, config: GarageConfig, look: LookConfig) -> list[Pla
         )
         for number, column in enumerate(survey.columns, start=1)
     ]
-
-
-def _ceiling(ground: SurveyedGround, config: GarageConfig, above: FloorAbove | None) -> Iterator[Placement]:
-    """Yield the ceiling slab over the part of each tile inside the outline; its upper face may be a floor."""
-    ceiling_m = config.fittings.ceiling_height_m
-    for tile in ground:
-        left, back, right, front = shapely.intersection(tile.box, ground.polygon).bounds
-        spec = CeilingSpec(round(right - left, 6), round(front - back, 6), CEILING_THICKNESS_M)
-        if above is not None:
-            room_m = round(above.storey_m - ceiling_m, 6)
-            if above.ground.covers(shapely.box(left, back, right, front)):
-                spec = replace(spec, thickness_m=room_m, bears_floor=True)
-            else:
-                spec = replace(spec, thickness_m=min(spec.thickness_m, round(room_m - _UNDER_FLOOR_M, 6)))
-        place = (left + right) / 2, (back + front) / 2
-        yield placed("Ceiling", spec, place, height_m=ceiling_m, square=tile.square)

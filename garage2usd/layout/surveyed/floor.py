@@ -28,9 +28,9 @@ _OUTWARDS = {Edge.UP: (0.0, -1.0), Edge.DOWN: (0.0, 1.0), Edge.LEFT: (-1.0, 0.0)
 
 
 def surveyed_floor(
-    ground: SurveyedGround, panels: Iterable[Placement], stalls: Sequence[PlacedStall]
+    ground: SurveyedGround, panels: Iterable[Placement], stalls: Sequence[PlacedStall], opened: shapely.Geometry
 ) -> Iterator[Placement]:
-    """Yield the floor panel of each tile, with openings for stalls and for the ground outside the outline.
+    """Yield the floor panel of each tile, with openings for stalls, for ramps, and for the ground outside the outline.
 
     A tile that is all stalls has none. The markings are those of the panels of the floor's pieces, as far as they lie
     on the tile and outside the stalls; where pieces overlap, those of the first one.
@@ -43,6 +43,7 @@ def surveyed_floor(
         near = sorted(stall_panels.query(tile.box).tolist())
         openings = [shape for index in near for shape in tile.local(taken[index])]
         openings += tile.local(shapely.difference(tile.box, ground.polygon))
+        openings += tile.local(opened) if opened.intersects(tile.box) else []
         closed = shapely.union_all([shapely.Polygon(opening) for opening in openings])
         if closed.area > tile.box.area - LEAST_FLOOR_M2:
             continue

@@ -55,6 +55,8 @@ class SurveyedTiles(Tiles):
         Size of the columns, beside which carriageways keep clear.
     solids
         Blocks on the floor.
+    wells
+        Ramps on the floor, and openings in it.
 
     Attributes
     ----------
@@ -69,14 +71,17 @@ class SurveyedTiles(Tiles):
         stalls: Sequence[PlacedStall],
         bay: BayConfig,
         solids: Sequence[shapely.Polygon] = (),
+        wells: Sequence[shapely.Polygon] = (),
     ) -> None:
         self.bay, self.setback_m = bay, bay.column_size_m / 2
         self.stall_places = {}
         self._outline, self._lines, self._stalls = ground.polygon, ground.lines, tuple(stalls)
-        self.solids = tuple(solids)
+        self.solids, self._wells = tuple(solids), tuple(wells)
         self.mouths = shapely.union_all([shapely.MultiPoint(_with_front(stall)).convex_hull for stall in stalls])
         walls = self._outline.boundary
-        standing = shapely.union_all([walls, *solids, *(shapely.Polygon(stall.corners_m()) for stall in stalls)])
+        standing = shapely.union_all(
+            [walls, *solids, *wells, *(shapely.Polygon(stall.corners_m()) for stall in stalls)]
+        )
         pieces = LanePieces(lanes, ground.lines, standing, self.setback_m)
         self.doors, self._beside, self._steps = pieces.doors, pieces.beside, pieces.steps
         found = {tile.square: tile for tile in pieces.tiles}
@@ -258,7 +263,7 @@ class SurveyedTiles(Tiles):
 
     def _free(self, lanes: Iterable[Tile], count: int) -> Iterator[Tile]:
         """Yield rectangular pieces of the ground without lanes and stalls."""
-        taken = [*self.solids, *(_ground(tile) for tile in lanes)]
+        taken = [*self.solids, *self._wells, *(_ground(tile) for tile in lanes)]
         free = self._outline.difference(shapely.union_all(taken))
         half_m = _LEAST_FREE_M / 2
         open_ground = free.buffer(-half_m, join_style="mitre").buffer(half_m, join_style="mitre").intersection(free)
