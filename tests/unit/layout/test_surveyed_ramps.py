@@ -61,8 +61,11 @@ def test_cars_reach_every_stall_over_the_ramp(name, request):
 
 
 def test_a_bend_is_named_as_no_drive_leads_over_it(below, bent):
-    assert below.remarks == ()
-    assert [remark.partition(":")[0] for remark in bent.remarks] == ["ramp way 32 between levels 0 and -1 bends"]
+    told = [
+        [remark.partition(":")[0] for remark in made.remarks if "doors are added" not in remark]
+        for made in (below, bent)
+    ]
+    assert told == [[], ["ramp way 32 between levels 0 and -1 bends"]]
 
 
 @pytest.mark.parametrize(
@@ -71,7 +74,7 @@ def test_a_bend_is_named_as_no_drive_leads_over_it(below, bent):
 def test_a_drive_leads_from_the_street_over_the_ramp(name, stall, street, request):
     made = request.getfixturevalue(name)
     doors = [len(level.layout.of_kind("portal")) for level in made.garage.levels]
-    assert doors == [2 if number == street else 0 for number in range(len(doors))]
+    assert doors == [1 if number == street else 0 for number in range(len(doors))]
     found = drive(made.stage, stall).trajectory
     parked = found.y_m[np.argmin(np.abs(found.speed_m_s) + (found.arc_m < 60))]
     assert parked == pytest.approx(-3.6 * (int(stall[1]) - 1), abs=0.01)
