@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from garage2usd.common.documents import read_json
 from garage2usd.garage import Point
 from garage2usd.survey.parts import SurveyParts
+from garage2usd.survey.stall_cells import stall_corners
 from garage2usd.survey.survey import PortalKind, Survey, Unplaced
 from garage2usd.survey.surveyed_building import SurveyedBuilding, SurveyedLevel, SurveyedRamp, ordinals_of
 from garage2usd.survey.text import (
@@ -40,6 +41,8 @@ _KINDS = {
     "outline": "outline",
     "parking": "outline",
 }
+_UNNAMED = "area"
+"""Kind of an area that tells none."""
 _SHAPES = {
     "stall": ("Polygon", "MultiPolygon"),
     "outline": ("Polygon", "MultiPolygon"),
@@ -47,6 +50,7 @@ _SHAPES = {
     "lane": ("LineString", "MultiLineString"),
     "column": ("Point", "MultiPoint", "Polygon", "MultiPolygon"),
     "portal": ("Point", "MultiPoint"),
+    _UNNAMED: ("Polygon", "MultiPolygon"),
 }
 _NESTING = {"Point": 0, "MultiPoint": 1, "LineString": 1, "MultiLineString": 2, "Polygon": 2, "MultiPolygon": 3}
 _COLUMN_M = 0.4
@@ -92,6 +96,8 @@ def read_geojson_survey(path: Path) -> Survey | SurveyedBuilding:
     document = read_json(path, field="SOURCE", max_bytes=_MOST_BYTES)
     parts = SurveyParts()
     shapes = list(_shapes_of(document, path, parts))
+    if any(shape.kind == "stall" for shape in shapes):
+        shapes = [shape for shape in shapes if shape.kind != _UNNAMED]
     form = document.get("coordinates", "degrees")
     if form not in ("metres", "degrees"):
         refuse(f"{path.name}: coordinates", form, "'metres', or 'degrees' for longitude and latitude")
@@ -109,12 +115,29 @@ def read_geojson_survey(path: Path) -> Survey | SurveyedBuilding:
         (shape, [(x, z) for x, z in points.tolist()])
         for shape, points in zip(shapes, np.split(ground, ends), strict=False)
     ]
+    placed = list(_with_stalls_by_size(placed, parts.remarks))
     names = list(dict.fromkeys(name for shape, _ in placed if shape.kind == "stall" for name in _levels(shape)))
     if len(names) < 2:  # noqa: PLR2004 - one above another
         for shape, points in placed:
             _add(parts, shape, points)
         return parts.survey(origin_deg=origin_deg)
     return _building(placed, names, parts.unread, origin_deg)
+
+
+def _with_stalls_by_size(
+    placed: Sequence[tuple[_Shape, list[Point]]], remarks: list[str]
+) -> Iterator[tuple[_Shape, list[Point]]]:
+    """Yield shapes; areas without a kind that have the size of a stall are stalls, whose numbers are their names."""
+    count = 0
+    for shape, points in placed:
+        if shape.kind != _UNNAMED:
+            yield shape, points
+        elif stall_corners(points) is not None:
+            count += 1
+            told = {"number": shape.properties.get("name")} | dict(shape.properties)
+            yield shape._replace(kind="stall", properties=told), points
+    if count:
+        remarks.append(f"{count} areas that tell no kind are read as stalls, by their size")
 
 
 def _building(
@@ -171,11 +194,12 @@ def _shapes_of(document: object, path: Path, parts: SurveyParts) -> Iterator[_Sh
         if not isinstance(properties, dict):
             refuse(f"{place}.properties", properties, "an object or null")
         kind, portal = _kind_of(properties)
-        if kind is None:
+        geometry = feature.get("geometry")
+        if kind is None and not (isinstance(geometry, dict) and geometry.get("type") in _SHAPES[_UNNAMED]):
             continue
         given = feature.get("id", properties.get("id", properties.get("name")))
         name = f"feature {index}" if given is None or isinstance(given, dict | list) else str(given)
-        yield from _parts_of(feature.get("geometry"), _Shape(name, kind, properties, place, [], False, portal), parts)
+        yield from _parts_of(geometry, _Shape(name, kind or _UNNAMED, properties, place, [], False, portal), parts)
 
 
 def _kind_of(properties: Mapping[str, Any]) -> tuple[str | None, PortalKind]:

@@ -27,6 +27,7 @@ _CLOSED_M = 10.0
 _FILLED = 0.7
 """Share of a rectangle around all parts from which on it is the outline."""
 _SMOOTHED_M = 1.0
+_SLIT_M = 0.01
 _USUAL_LANE_M = 6.0
 _DIGITS = 6
 
@@ -253,5 +254,14 @@ def _outline_around(survey: Survey) -> tuple[Point, ...]:
         outline = wider.simplify(_SMOOTHED_M - _MARGIN_M)
     else:
         outline = rectangle
+    corners = _rounded(outline)
+    if not shapely.Polygon(corners).is_valid:
+        # it touches itself
+        parts = shapely.get_parts(outline.buffer(-_SLIT_M, join_style="mitre"))
+        corners = _rounded(shapely.Polygon(max(parts, key=shapely.area).exterior))
+    return corners
+
+
+def _rounded(outline: shapely.Polygon) -> tuple[Point, ...]:
     corners = shapely.get_coordinates(shapely.normalize(outline))[:-1]
     return tuple((round(float(x), 3), round(float(z), 3)) for x, z in corners)

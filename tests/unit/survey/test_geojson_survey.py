@@ -164,3 +164,25 @@ def test_nothing_else_than_json_is_read(tmp_path):
     path.write_text("{")
     with pytest.raises(ConfigError, match="allowed: JSON"):
         read_survey(path)
+
+
+def test_areas_of_the_size_of_stalls_are_stalls_where_no_feature_tells_its_kind(tmp_path):
+    def area(name, x, z, width, length):
+        ring = [[x, z], [x + width, z], [x + width, z + length], [x, z + length], [x, z]]
+        return {
+            "type": "Feature",
+            "properties": {"name": name, "road_id": "B4"},
+            "geometry": {"type": "Polygon", "coordinates": [ring]},
+        }
+
+    row = [area(str(277 + number), 2.5 * number, 0, 2.5, 5) for number in range(8)]
+    rooms = [area("plant room", 0, 20, 12, 9)]
+    path = tmp_path / "garage.geojson"
+    features = [*row, *rooms]
+    path.write_text(json.dumps({"type": "FeatureCollection", "coordinates": "metres", "features": features}))
+    survey = read_survey(path)
+    assert [(stall.name, stall.number) for stall in survey.stalls] == [(str(n), str(n)) for n in range(277, 285)]
+    assert survey.remarks == ("8 areas that tell no kind are read as stalls, by their size",)
+    features.append({**area("A", 40, 0, 2.5, 5), "properties": {"kind": "stall"}})
+    path.write_text(json.dumps({"type": "FeatureCollection", "coordinates": "metres", "features": features}))
+    assert len(read_survey(path).stalls) == 1
