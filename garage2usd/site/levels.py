@@ -1,4 +1,5 @@
 """The sites of all levels of a garage before any lanes: obstacles, portals, and ramps that are given or drawn."""
+# Over 300 lines: what a site has no room for is told by the rules that draw its ramps.
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass

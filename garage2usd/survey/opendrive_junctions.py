@@ -49,7 +49,8 @@ def with_joined_lanes(
             start, end = (tuple(np.round(moved.points[place], _DIGITS).tolist()) for place in (0, -1))
             if (end, start) in joined:
                 other_road, other_number, other = joined[end, start]
-                joined[end, start] = other_road, other_number, other._replace(one_way=False)
+                width_m = other.width_m + lane.width_m
+                joined[end, start] = other_road, other_number, other._replace(one_way=False, width_m=width_m)
             else:
                 joined.setdefault((start, end), (road, number, moved))
     yield from joined.values()

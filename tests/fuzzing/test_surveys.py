@@ -7,6 +7,7 @@ import pytest
 from support.fuzzing.survey_inputs import draw_survey_case
 from support.sample_files import REPOSITORY
 from support.soak import soak_but
+from support.survey_files import program_files
 from support.survey_texts import TEXTS
 
 from garage2usd.survey.reader import SURVEY_SUFFIXES
@@ -21,8 +22,8 @@ def test_a_damaged_survey_is_imported_or_ends_in_one_line_within_a_minute_and_a_
 
 
 def test_every_format_has_sound_files_that_are_damaged():
-    sound = {f".{suffix}": [text.encode()] for suffix, text in TEXTS.items()}
-    assert sound.keys() | {".json"} >= set(SURVEY_SUFFIXES)
+    sound = {f".{suffix}": [text.encode()] for suffix, text in TEXTS.items()} | program_files()
+    assert sound.keys() | {".json", ".osm.xml"} >= set(SURVEY_SUFFIXES)
     cases = [draw_survey_case(sound, 1, number) for number in range(200)]
     changed = [next(iter(case.files.values())) not in sound[case.arguments[1][3:]] for case in cases]
     assert sum(changed) > 180

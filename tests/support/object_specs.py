@@ -8,6 +8,7 @@ from garage2usd.assets.figures import POSES
 from garage2usd.assets.lettering import OWN_FONT
 from garage2usd.config.look import ColumnSection, Dirt, Guard
 from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_BODIES, PAINTS, VehicleClass
+from garage2usd.garage.path_line import PathLine
 from garage2usd.garage.ramp_lines import CoilLine
 from garage2usd.objects.bag import BagSort, BagSpec
 from garage2usd.objects.barrier import BarrierSpec
@@ -16,7 +17,7 @@ from garage2usd.objects.bicycle import BicycleSpec
 from garage2usd.objects.cable_tray import CableTraySpec
 from garage2usd.objects.car import CarSpec, OpenCarSpec, car_spec
 from garage2usd.objects.cardboard_box import BoxSpec
-from garage2usd.objects.ceiling import CeilingSpec
+from garage2usd.objects.ceiling import CeilingSpec, OpenCeilingSpec
 from garage2usd.objects.charger import ChargerSpec
 from garage2usd.objects.coil import CoilSpec, CrossingSpec
 from garage2usd.objects.column import Board, ColumnSpec
@@ -41,6 +42,7 @@ from garage2usd.objects.number_plate import NumberPlateSpec, OpenPlateSpec, OwnP
 from garage2usd.objects.obstacle import ObstacleSpec
 from garage2usd.objects.pallet import PalletSpec
 from garage2usd.objects.panel import Marking, Paint, Surface
+from garage2usd.objects.path_ramp import PathRampSpec
 from garage2usd.objects.person import PEOPLE, PersonSpec
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.pram import PramSpec
@@ -70,6 +72,7 @@ MARKINGS = (
     Marking(((0.2, 2.0), (1.0, 1.0), (2.0, 2.0)), Surface.PAINT_WHITE, Paint.HATCHING),
 )
 OPENING = ((-3.0, -3.25), (-3.0, -2.0), (-1.0, -2.0), (-1.0, -3.25))
+PATH = PathLine(((0.0, 0.0), (26.0, 0.0)), 3.3)
 COIL = CoilLine(4.05, 4.05, 8.8, 4.2)
 RISE = ((0.3, 0.0), (0.8, 0.0), (4.4, 0.27), (24.1, 3.23), (27.7, 3.5), (30.2, 3.5))
 
@@ -100,6 +103,19 @@ SPECS = {
     ),
     "coil": CoilSpec(COIL, COIL.profile(3.6, 3.6, foot_first=True), 1, 0.25, 0.2, 3.35, 7.2),
     "top_coil": CoilSpec(COIL, COIL.profile(3.6, 3.6, foot_first=False), -1, 0.25, 0.2, 6.8, 6.8),
+    "path_ramp": PathRampSpec(
+        PATH,
+        ((0.0, 0.0), (5.0, 0.5), (PATH.length_m - 5.0, 3.1), (PATH.length_m, 3.6)),
+        1,
+        0.25,
+        0.2,
+        6.8,
+        6.8,
+        open_m=12.0,
+        ceiling_m=3.2,
+        walls=(True, True),
+        has_head_wall=True,
+    ),
     "coil_crossing": CrossingSpec(6.45, 6.45, 0.25),
     "ramp_plain": RampSpec(6.2, 0.3, 5.84, RISE, 9.3, 3.2, 4.8, dado_m=0.0, has_stripe=False),
     "sky": SkySpec(width_m=6.8, start_m=9.3, end_m=30.21, ground_m=3.45, low_m=4.8, high_m=7.8),
@@ -119,6 +135,7 @@ SPECS = {
     "column_rectangular_rubber": ColumnSpec(0.6, 3.2, RECTANGULAR, is_long_along_x=True, guard=Guard.RUBBER),
     "ceiling": CeilingSpec(8.1, 8.1, 0.25),
     "ceiling_of_a_lower_level": CeilingSpec(8.1, 8.1, 0.4, bears_floor=True),
+    "ceiling_with_an_opening": OpenCeilingSpec(8.1, 8.1, 0.4, openings=(((-1.0, -2.0), (3.0, -2.0), (3.0, 2.0)),)),
     "tube": LampSpec(1.5, 0.12, drop_m=0.115, luminance_nit=4000.0),
     "beam": BeamSpec(7.5, 0.4, 0.4),
     "node": BeamNodeSpec(((-0.3, -0.2, 0.3, 0.2), (-0.2, 0.2, 0.2, 0.3)), 0.4),

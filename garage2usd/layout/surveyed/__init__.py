@@ -1,4 +1,5 @@
 """Layouts of surveyed garages: stalls, lanes and columns where the survey has them, in a shell along its outline."""
+# Over 300 lines: a floor takes all its parts in one place.
 
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence

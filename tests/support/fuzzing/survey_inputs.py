@@ -258,7 +258,7 @@ _STRUCTURAL: dict[str, list[Mutation]] = {
     ".xodr": [_elements],
     ".geojson": [_values],
     ".json": [_values],
-}
+}  # drawings, models and venues have the mutations of all
 
 
 def sound_surveys(folder) -> dict[str, list[bytes]]:
@@ -267,9 +267,10 @@ def sound_surveys(folder) -> dict[str, list[bytes]]:
     from garage2usd.imports import import_layout
     from support.sample_files import REPOSITORY
     from support.small_survey import SURVEY
+    from support.survey_files import program_files
     from support.survey_texts import TEXTS
 
-    sound = {f".{suffix}": [text.encode()] for suffix, text in TEXTS.items()}
+    sound = {f".{suffix}": [text.encode()] for suffix, text in TEXTS.items()} | program_files()
     sound[".json"] = sound[".geojson"]
     sound[".toml"] += [(REPOSITORY / "samples/surveys/lot.toml").read_bytes(), SURVEY.encode()]
     (folder / "small.toml").write_text(SURVEY)

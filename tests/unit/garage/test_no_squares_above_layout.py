@@ -79,6 +79,7 @@ def test_one_lane_graph_and_one_stall_stand_above_structure():
         "Stall": "garage/stalls.py",
         "SurveyedStall": "survey/survey.py",  # as a drawing of others has it, before it is placed
         "DrawnStall": "survey/toml_survey.py",  # its settings in a TOML drawing
+        "FoundStall": "survey/dxf_stalls.py",  # as a drawing has it, in its units
         "FittedStall": "survey/fitted_stalls.py",  # with its mouth and lane
         "ReportedStall": "reading/report.py",  # the record of one in the report's JSON
     }

@@ -148,11 +148,11 @@ def test_a_stage_without_an_exit_and_one_without_lanes_are_refused(made, tmp_pat
     kinds = stage.GetPrimAtPath("/Garage/LaneGraph/Nodes").GetAttribute("garage:lane:kind")
     kinds.Set([str(kind).replace("exit", "lane") for kind in kinds.Get()])
     stage.Export(str(tmp_path / "closed.usdc"))
-    with pytest.raises(ConfigError, match="a garage whose lanes join an entrance and an exit"):
+    with pytest.raises(ConfigError, match="a stall that lanes and ramps join with the street"):
         garage2usd.export(tmp_path / "closed.usdc", [tmp_path / "out" / "a.xosc"])
     stage.GetPrimAtPath("/Garage/LaneGraph").SetActive(False)
     stage.Export(str(tmp_path / "bare.usdc"))
-    with pytest.raises(ConfigError, match="a garage whose lanes join an entrance and an exit"):
+    with pytest.raises(ConfigError, match="a stall that lanes and ramps join with the street"):
         garage2usd.export(tmp_path / "bare.usdc", [tmp_path / "out" / "a.xosc"])
     assert not (tmp_path / "out").exists()
 

@@ -40,7 +40,7 @@ def built(builds):
         ({"along": "9:"}, "along", "ENTRANCE:STALL"),
         ({"along": "first:1"}, "along", "ENTRANCE:STALL"),
         ({"along": None}, "along", "for the sensor front"),
-        ({"along": "9:1"}, "entrance", "1"),
+        ({"along": "9:A1-01"}, "entrance", "1"),
         ({"along": "Inside"}, "along", "a camera that moves"),
         ({"along": "Nothing"}, "camera", "/Garage/Cameras/Drive"),
         ({"every_m": 0.0}, "every_m", "0.01 m or more"),

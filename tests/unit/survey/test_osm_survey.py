@@ -262,11 +262,11 @@ def test_malformed_files_are_refused(tmp_path, text, message):
     assert message in str(raised.value)
 
 
-@pytest.mark.parametrize("name", ["lot.dxf", "lot", "lot.xodr.gz"])
+@pytest.mark.parametrize("name", ["lot.dwg", "lot", "lot.xodr.gz"])
 def test_other_suffixes_are_refused(tmp_path, name):
     with pytest.raises(ConfigError) as raised:
         read_survey(tmp_path / name)
     assert str(raised.value) == (
         f"SOURCE: got '{tmp_path / name}'; allowed: a path that ends in .toml, .csv, .geojson, .json, .osm, "
-        ".osm.xml, .xodr"
+        ".osm.xml, .xodr, .dxf, .ifc, .zip"
     )

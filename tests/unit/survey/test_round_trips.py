@@ -101,7 +101,8 @@ def test_both_maps_have_the_same_lanes(exported, sample):
     _, of_roads = exported(sample, "xodr")
     _, of_lanelets = exported(sample, "osm")
     grounds = [ground_of(read_survey(path).lanes) for path in (of_roads, of_lanelets)]
-    assert grounds[0].symmetric_difference(grounds[1]).area < 0.02 * grounds[0].area
+    # connecting roads are laid from middle to middle, up to half a lane beside where they are
+    assert grounds[0].symmetric_difference(grounds[1]).area < 0.03 * grounds[0].area
     both = [[lane for lane in read_survey(path).lanes if not lane.one_way] for path in (of_roads, of_lanelets)]
     for lane in both[1]:  # the roads through junctions are two-way as well
         assert any(
