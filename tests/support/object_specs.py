@@ -72,7 +72,7 @@ MARKINGS = (
     Marking(((0.2, 2.0), (1.0, 1.0), (2.0, 2.0)), Surface.PAINT_WHITE, Paint.HATCHING),
 )
 OPENING = ((-3.0, -3.25), (-3.0, -2.0), (-1.0, -2.0), (-1.0, -3.25))
-PATH = PathLine.rounded([(0.0, 0.0), (20.0, 0.0), (34.0, 14.0)], 3.0, 20.0)
+PATH = PathLine(((0.0, 0.0), (26.0, 0.0)), 3.3)
 COIL = CoilLine(4.05, 4.05, 8.8, 4.2)
 RISE = ((0.3, 0.0), (0.8, 0.0), (4.4, 0.27), (24.1, 3.23), (27.7, 3.5), (30.2, 3.5))
 
@@ -111,8 +111,8 @@ SPECS = {
         0.2,
         6.8,
         6.8,
-        open_m=0.0,  # walls without a step, whose sliver of a millimetre single precision distorts
-        ceiling_m=3.2,
+        open_m=0.0,
+        ceiling_m=6.8,
         walls=(True, True),
         has_head_wall=True,
     ),
