@@ -92,17 +92,25 @@ def squares(layout: Layout, found: MeasuredCirculation) -> Iterator[Region | Lin
 
 
 def ribbons(layout: Layout) -> Iterator[Region]:
-    """Return the floor of a garage without a grid, and its lanes as ribbons of their own width."""
+    """Return the floor of a garage without a grid, and its lanes as ribbons of their own width, up to the walls."""
+    assert isinstance(layout.source, SurveyedFloor)
+    inside = shapely.Polygon(layout.source.survey.outline)
     for floor in layout.of_kind("floor"):
         (x, _, z), spec = floor.position_m, floor.spec
         assert isinstance(spec, FloorSpec)
         half_x, half_z = spec.width_m / 2, spec.depth_m / 2
-        yield Region(rectangle(x - half_x, z - half_z, x + half_x, z + half_z), FREE, "free")
+        yield from _within(inside, shapely.box(x - half_x, z - half_z, x + half_x, z + half_z), FREE, "free")
     lanes = layout.lane_graph
     for edge in lanes.edges:
         ends = [lanes.nodes[number].position for number in (edge.start, edge.end)]
         ground = shapely.LineString(ends).buffer(edge.width_m / 2, quad_segs=4)
-        yield Region(list(ground.exterior.coords)[:-1], LANE_COLOUR[LaneKind.STRAIGHT], "lane")
+        yield from _within(inside, ground, LANE_COLOUR[LaneKind.STRAIGHT], "lane")
+
+
+def _within(inside: shapely.Polygon, ground: shapely.Polygon, colour: Colour, name: str) -> Iterator[Region]:
+    for part in shapely.get_parts(shapely.normalize(ground.intersection(inside))):
+        if part.geom_type == "Polygon":
+            yield Region(list(part.exterior.coords)[:-1], colour, name)
 
 
 def arrows(lanes: LaneGraph) -> Iterator[Line]:
