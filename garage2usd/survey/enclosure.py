@@ -105,7 +105,8 @@ def _around_lanes(survey: Survey) -> Survey:
         for points in _inside(shapely.LineString(lane.points), near)
     ]
     if not served:
-        return survey
+        told = f"its lanes are more than {_REACH_M:g} m away from all stalls; others are laid on its free ground"
+        return replace(survey, lanes=(), remarks=(*survey.remarks, told))
     strips = [
         shapely.LineString(lane.points).buffer((lane.width_m or _LANE_M) / 2, cap_style="flat", join_style="mitre")
         for lane in served

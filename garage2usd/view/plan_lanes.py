@@ -50,6 +50,7 @@ _BREAK_M = 0.35
 _ARROW_M, _WING_M = 6.0, 0.9
 _ARROW_PARTS = 6
 _STROKE_M = 0.25
+_LEAST_M2 = 1e-3
 _WORD_ASIDE_M = 1.6
 
 
@@ -109,7 +110,7 @@ def ribbons(layout: Layout) -> Iterator[Region]:
 
 def _within(inside: shapely.Polygon, ground: shapely.Polygon, colour: Colour, name: str) -> Iterator[Region]:
     for part in shapely.get_parts(shapely.normalize(ground.intersection(inside))):
-        if part.geom_type == "Polygon":
+        if part.area > _LEAST_M2:
             yield Region(list(part.exterior.coords)[:-1], colour, name)
 
 

@@ -21,8 +21,8 @@ pytestmark = [
     pytest.mark.skipif(not HAS_SENSOR_JUDGES, reason="no environment with nuscenes-devkit"),
 ]
 
-EVERY_M = 15.0
-"""Distance of the poses, of which two are on the ramp: one above its middle, and one below."""
+EVERY_M = 12.0
+"""Distance of the poses, of which three are on the ramp, above its middle and below."""
 MILLIMETRE = 1e-3
 U1, U2 = FLOORS_M
 HALF_WAY_M = (FLOORS_M[U1] + FLOORS_M[U2]) / 2
@@ -94,8 +94,8 @@ def test_the_car_is_at_the_height_of_the_floor(loaded):
         else:
             assert (heights < HALF_WAY_M).all()
         sloped += (is_off & (heights < FLOORS_M[U1])).sum()
-        assert np.count_nonzero(~is_off) > 5
-    assert sloped == 2
+        assert np.count_nonzero(~is_off) >= 5
+    assert sloped == 3
 
 
 def test_points_of_the_floor_are_at_its_height(loaded):
@@ -127,7 +127,7 @@ def test_boxes_hold_their_points_and_stand_on_the_floors_of_their_levels(loaded)
             boxes[entry["level"]] += 1
     assert {*points} == {*boxes} == {U1, U2}
     assert min(points.values()) > 500
-    assert min(boxes.values()) > 20
+    assert min(boxes.values()) >= 20
 
 
 def test_the_car_is_on_the_map_of_its_level(loaded):
