@@ -1,0 +1,164 @@
+"""Tracks: the states of everything that moves in a garage in operation, agent by agent over time."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from enum import IntEnum, StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+class AgentClass(StrEnum):
+    """Semantic class of an agent."""
+
+    CAR = "car"
+    VAN = "van"
+    TRUCK = "truck"
+    PERSON = "person"
+
+
+class AgentState(IntEnum):
+    """State of an agent at a time."""
+
+    DRIVES = 0
+    WAITS = 1
+    MANOEUVRES = 2
+    PARKED = 3
+    WALKS = 4
+    STANDS = 5
+
+
+@dataclass(frozen=True)
+class Agent:
+    """An agent: a vehicle or a person.
+
+    Attributes
+    ----------
+    name
+        Unique name, such as ``car_007`` or ``person_012``.
+    kind
+        Semantic class.
+    length_m, width_m, height_m
+        Size of its bounding box: along its heading, across, and up; of cars without mirrors.
+    rear_axle_m
+        Distance from the middle of the footprint back to the rear axle; 0 for persons.
+    wheelbase_m
+        Distance between the axles; 0 for persons.
+    body
+        Key of the catalogue of cars (`garage2usd.config.vehicles.CAR_BODIES`), or of the catalogue of people.
+    paint
+        Paint of a car, one of `PAINTS`; empty for persons.
+    prim
+        Path of the prim of a car that stands parked in the stage when the tracks begin; empty for others.
+    behaviour
+        Special behaviour by which the agent is labelled, such as ``waits_for_stall`` or ``runs``; empty for usual ones.
+    """
+
+    name: str
+    kind: AgentClass
+    length_m: float
+    width_m: float
+    height_m: float
+    rear_axle_m: float = 0.0
+    wheelbase_m: float = 0.0
+    body: str = ""
+    paint: str = ""
+    prim: str = ""
+    behaviour: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """The states of one agent; all arrays have shape (n,).
+
+    Attributes
+    ----------
+    agent
+        The agent.
+    time_s
+        Ascending multiples of the step of the tracks. Between samples that are further apart than a step the agent
+        stands still. The agent is in the garage from the first sample to the last, both included.
+    x_m, y_m, z_m
+        Middle of its footprint on the floor, in the stage's frame: Y is up.
+    yaw_rad
+        Heading, right-handed about +Y, 0 points to -Z; continuous in time.
+    pitch_rad
+        Pitch of the floor under the agent, positive with the nose up.
+    speed_m_s
+        Speed along the floor, negative in reverse.
+    acceleration_m_s2
+        Rate of the speed.
+    steering_rad
+        Mean angle of the front wheels, positive to the left; 0 for persons.
+    state
+        `AgentState` by number; int8.
+    level
+        Number of its level, from 0; the upper one on the upper half of a ramp; int8.
+    stall
+        Name of the stall that it parks in or leaves, for each sample of a car that manoeuvres or is parked; empty
+        otherwise. As intervals: (first sample, past the last sample, name).
+    """
+
+    agent: Agent
+    time_s: Floats
+    x_m: Floats
+    y_m: Floats
+    z_m: Floats
+    yaw_rad: Floats
+    pitch_rad: Floats
+    speed_m_s: Floats
+    acceleration_m_s2: Floats
+    steering_rad: Floats
+    state: NDArray[np.int8]
+    level: NDArray[np.int8]
+    stall: tuple[tuple[int, int, str], ...] = ()
+
+    def __len__(self) -> int:
+        """Return the number of samples."""
+        return len(self.time_s)
+
+    def at(self, times_s: Floats) -> NDArray[np.float64]:
+        """Return (x, y, z, yaw, pitch) at times, NaN where the agent is not in the garage; shape (len(times_s), 5)."""
+        columns = (self.x_m, self.y_m, self.z_m, self.yaw_rad, self.pitch_rad)
+        return np.stack(
+            [np.interp(times_s, self.time_s, column, left=np.nan, right=np.nan) for column in columns], axis=1
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Tracks:
+    """The tracks of a garage in operation.
+
+    Attributes
+    ----------
+    tracks
+        One track for each agent that moves, in the order of their first samples; cars that never move are those of the
+        stage.
+    step_s
+        Step of the samples.
+    duration_s
+        Duration of the tracks; they begin at 0.
+    source
+        File of the garage.
+    facts
+        Seed, settings and counts, as JSON can hold them.
+    log
+        One line for each event that a user may ask about: agents that were stuck, arrivals turned away.
+    """
+
+    tracks: tuple[Track, ...]
+    step_s: float
+    duration_s: float
+    source: str = ""
+    facts: Mapping[str, object] = field(default_factory=dict)
+    log: tuple[str, ...] = ()
+
+    def __iter__(self) -> Iterator[Track]:
+        """Iterate over the tracks."""
+        return iter(self.tracks)
+
+    def __len__(self) -> int:
+        """Return the number of tracks."""
+        return len(self.tracks)
