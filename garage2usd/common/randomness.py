@@ -35,6 +35,9 @@ class Step(IntEnum):
     SETTINGS = 41
     SPLITS = 42
     DRIVES = 43
+    TRAFFIC = 44
+    TRAFFIC_CARS = 45
+    TRAFFIC_PEOPLE = 46
 
 
 def generator(seed: int, step: Step, attempt: int = 0) -> np.random.Generator:

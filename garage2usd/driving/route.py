@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import chain
 
-from garage2usd.driving.car import DesignCar
+from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.garage import Find, Nose, StallProof, prove_garage
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
@@ -97,19 +97,39 @@ class Router:
         entrances, exits
             Permitted portals; the default is all.
         """
-        if proof is None:
-            (proof,) = prove_garage(self._road.garage, [stall], car=self._car, limits=self._limits)
+        proof = proof or self.proof_of(stall)
         if proof.nose is None or proof.way_in is None or proof.way_out is None:
             return proof
         entrances = self.portals(LaneKind.ENTRANCE) if entrances is None else tuple(entrances)
         exits = self.portals(LaneKind.EXIT) if exits is None else tuple(exits)
-        arrival = self._led(stall, proof, proof.way_in, entrances, is_back=True)
-        departure = self._led(stall, proof, proof.way_out, exits, is_back=False)
+        arrival, departure = self.arrival(stall, proof, entrances), self.departure(stall, proof, exits)
         if arrival is None or departure is None:
             return replace(
                 proof, way_in=proof.way_in if arrival else None, way_out=proof.way_out if departure else None
             )
         return Route(stall.name, proof.nose, arrival[1], departure[1], arrival[0], departure[0], proof.is_full)
+
+    def proof_of(self, stall: Stall) -> StallProof:
+        """Search the proof of a stall."""
+        (proof,) = prove_garage(self._road.garage, [stall], car=self._car, limits=self._limits)
+        return proof
+
+    def arrival(self, stall: Stall, proof: StallProof, entrances: Sequence[Portal]) -> tuple[Path, Portal] | None:
+        """Return the shortest path found from outside one of some entrances into a proven stall."""
+        assert proof.way_in is not None
+        return self._led(stall, proof.way_in.end, entrances, proof.way_in, is_full=proof.is_full, is_back=True)
+
+    def departure(
+        self, stall: Stall, proof: StallProof, exits: Sequence[Portal], *, parked: Pose | None = None
+    ) -> tuple[Path, Portal] | None:
+        """Return the shortest path found out of a proven stall to outside one of some exits.
+
+        `parked` is the pose of the car in the stall, if it is another one than at the end of the arrival.
+        """
+        assert proof.way_out is not None
+        if parked is None:
+            return self._led(stall, proof.way_out.start, exits, proof.way_out, is_full=proof.is_full, is_back=False)
+        return self._led(stall, parked, exits, None, is_full=proof.is_full, is_back=False)
 
     def through(self, entrance: Portal, exits: Sequence[Portal]) -> tuple[Path, Portal] | None:
         """Return the shortest path found from an entrance through the garage to one of some exits."""
@@ -121,15 +141,21 @@ class Router:
         return None
 
     def _led(
-        self, stall: Stall, proof: StallProof, proven: Manoeuvre, portals: Sequence[Portal], *, is_back: bool
+        self,
+        stall: Stall,
+        parked: Pose,
+        portals: Sequence[Portal],
+        proven: Manoeuvre | None,
+        *,
+        is_full: bool,
+        is_back: bool,
     ) -> tuple[Path, Portal] | None:
         """Extend the proven manoeuvre to a portal, or back to one; otherwise find another from the same parked pose."""
-        roadmap = self._roadmap(proof.is_full)
-        parked = proven.end if is_back else proven.start
+        roadmap = self._roadmap(is_full)
         garage = self._road.garage
         used = garage.lanes.arriving if is_back else garage.lanes.leaving
         poses = roadmap.roomy_poses([arc for arc in garage.near(stall.access) if arc in used], is_back=is_back)
-        standing = self._standing(proof.is_full).without(garage.unseen(stall))
+        standing = self._standing(is_full).without(garage.unseen(stall))
         further = replace(self._limits, gear_changes=_MORE_CHANGES, reach_m=_FURTHER_M)
 
         def ways(
@@ -142,7 +168,7 @@ class Router:
 
         together, each = families(poses), [[pose] for pose in poses]
         rounds = (
-            chain([proven], ways(self._limits, together)),
+            chain([proven] if proven else [], ways(self._limits, together)),
             chain(ways(self._limits, each), ways(further, together), ways(further, each)),
             ways(further, together, find_guided_way),
         )

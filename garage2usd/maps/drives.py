@@ -13,7 +13,7 @@ from garage2usd.as_built.ramp_line import Bend
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.spelling import find_named, spans_in_words
 from garage2usd.config.outputs import DriveConfig, Leg
-from garage2usd.driving import BentFloor, DesignCar, Portal, Pose, RampFloor
+from garage2usd.driving import BentFloor, DesignCar, Portal, Pose, RampFloor, StallProof
 from garage2usd.driving.manoeuvre import Gear
 from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.road import FloorSpan
@@ -76,6 +76,31 @@ class Drive:
         }
 
 
+@dataclass(frozen=True, eq=False)
+class DrivenLeg:
+    """A path between the street and a stall.
+
+    Attributes
+    ----------
+    path
+        The path.
+    portal
+        The portal to the street at its other end.
+    spans
+        The floors along the path.
+    stretches
+        Length, level and whether it is a ramp, of each stretch; of a ramp the upper level.
+    is_full
+        True if it is clear of a car in every other stall.
+    """
+
+    path: Path
+    portal: Portal
+    spans: tuple[FloorSpan, ...]
+    stretches: tuple[tuple[float, int, bool], ...]
+    is_full: bool
+
+
 @dataclass(frozen=True)
 class _Part:
     """A part of a drive: the path on one level, or over a ramp between two levels.
@@ -111,6 +136,8 @@ class DrivePlanner:
         The garage.
     settings, car
         Limits of the car's motion, and the car.
+    are_stalls_changing
+        True if other cars may take the place of the parked ones: paths are then clear of both.
 
     Notes
     -----
@@ -119,11 +146,18 @@ class DrivePlanner:
     """
 
     def __init__(
-        self, garage: BuiltGarage, settings: DriveConfig | None = None, *, car: DesignCar | None = None
+        self,
+        garage: BuiltGarage,
+        settings: DriveConfig | None = None,
+        *,
+        car: DesignCar | None = None,
+        are_stalls_changing: bool = False,
     ) -> None:
         self._garage, self._settings, self._car = garage, settings or DriveConfig(), car or DesignCar()
+        self._are_stalls_changing = are_stalls_changing
         self._routes: dict[int, LevelRoutes] = {}
         self._bent: dict[int, tuple[BentFloor, ...]] = {}
+        self._proofs: dict[str, StallProof] = {}
 
     def drive(
         self,
@@ -182,6 +216,45 @@ class DrivePlanner:
         motion = timed(path, self._settings, car=self._car, parked_after=parked_after, spans=self._spans(parts))
         return Drive(whole, leg, motion, self._car, self._settings)
 
+    def proof_of(self, stall: Stall) -> StallProof:
+        """Return the proof of a stall of the whole garage, searched once."""
+        if stall.name not in self._proofs:
+            own = self._garage.levels[stall.level].place.own_name(stall.name)
+            self._proofs[stall.name] = self._on(stall.level).proof_of(own)
+        return self._proofs[stall.name]
+
+    def leg(self, stall: Stall, leg: Leg, *, parked: Pose | None = None) -> DrivenLeg | None:
+        """Return the shortest path found from the street into a stall, or out of it to the street; None without one.
+
+        Parameters
+        ----------
+        stall
+            A stall of the whole garage.
+        leg
+            `Leg.IN` or `Leg.OUT`.
+        parked
+            Pose of the car in the stall when it leaves, if it is another one than that of the proof.
+        """
+        proof, is_in = self.proof_of(stall), leg is Leg.IN
+        if not proof.is_proven:
+            return None
+        kind = LaneKind.ENTRANCE if is_in else LaneKind.EXIT
+        way = self._way_to_street(stall.level)
+        street = {kind: self._ends(way[-1], kind, None)}
+        portals = self._towards_street(way, kind, street)
+        own = self._garage.levels[stall.level].place.own_name(stall.name)
+        found = self._on(stall.level).leg_of(own, proof, portals, parked=parked, is_in=is_in)
+        if found is None:
+            return None
+        path, portal = found
+        try:
+            parts, end = self._led(way, portal, _Part(path.pieces, stall.level), street, is_in=is_in)
+        except ConfigError:
+            return None
+        whole = Path(end.pose if is_in else path.start, tuple(piece for part in parts for piece in part.pieces))
+        stretches = tuple((part.length_m, part.level, part.is_ramp) for part in parts)
+        return DrivenLeg(whole, end, self._spans(parts), stretches, proof.is_full)
+
     def is_driven_through(self) -> bool:
         """Return True if a drive is found from the street to the lowest level, and one from there back to the street.
 
@@ -218,7 +291,12 @@ class DrivePlanner:
 
     def _on(self, level: int) -> LevelRoutes:
         if level not in self._routes:
-            self._routes[level] = LevelRoutes(self._garage.levels[level], self._settings, self._car)
+            self._routes[level] = LevelRoutes(
+                self._garage.levels[level],
+                self._settings,
+                self._car,
+                are_stalls_changing=self._are_stalls_changing,
+            )
         return self._routes[level]
 
     @cached_property

@@ -2,12 +2,14 @@
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 
 from garage2usd.as_built.driven_road import driven_road
 from garage2usd.as_built.level import BuiltLevel
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.outputs import DriveConfig
-from garage2usd.driving import DesignCar, Portal, StallProof
+from garage2usd.driving import DesignCar, Portal, Pose, StallProof
+from garage2usd.driving.path import Path
 from garage2usd.driving.route import Route, Router
 from garage2usd.driving.turns import Steering
 from garage2usd.garage import Stall
@@ -24,6 +26,8 @@ class LevelRoutes:
         The level.
     settings, car
         Limits of the car's motion, and the car.
+    are_stalls_changing
+        True if other cars may take the place of the parked ones: paths are then clear of both.
 
     Raises
     ------
@@ -31,10 +35,14 @@ class LevelRoutes:
         If the level has no lanes from an entrance to an exit.
     """
 
-    def __init__(self, level: BuiltLevel, settings: DriveConfig, car: DesignCar) -> None:
+    def __init__(
+        self, level: BuiltLevel, settings: DriveConfig, car: DesignCar, *, are_stalls_changing: bool = False
+    ) -> None:
         if not level.has_whole_graph or not level.lanes.portals("entrance") or not level.lanes.portals("exit"):
             raise ConfigError("PATH", level.source, "a garage whose lanes join an entrance and an exit")
         self.road = driven_road(level, car=car)
+        if are_stalls_changing:
+            self.road = replace(self.road, garage=replace(self.road.garage, taken=frozenset()))
         curvature, wheelbase_m = 1 / car.rear_axle_radius_m, car.wheelbase_m
         # as fast as on a lane, or so slowly that the wheels turn on less way
         rate, fast_m_s = settings.steering_rate_rad_s, settings.lane_speed_m_s
@@ -44,6 +52,18 @@ class LevelRoutes:
         self._names = [stall.name for stall in level.parking_stalls]
         self._taken = {stall.name for stall in level.taken_stalls}
         self._driven = {stall.name: stall for stall in self.road.garage.stalls}
+
+    def proof_of(self, stall: str) -> StallProof:
+        """Return the proof of a stall of the level."""
+        return self.router.proof_of(self._driven[stall])
+
+    def leg_of(
+        self, stall: str, proof: StallProof, portals: Sequence[Portal], *, parked: Pose | None, is_in: bool
+    ) -> tuple[Path, Portal] | None:
+        """Return the shortest path found from one of some portals into a proven stall, or out of it to one."""
+        if is_in:
+            return self.router.arrival(self._driven[stall], proof, portals)
+        return self.router.departure(self._driven[stall], proof, portals, parked=parked)
 
     def route_of(self, stall: str | None, *, entrances: Sequence[Portal], exits: Sequence[Portal]) -> Route:
         """Return the route from one of some entrances into a stall, and out to one of some exits.

@@ -30,6 +30,14 @@ class ParkedCar:
         Size of the body.
     floor_m
         Height of the floor that it stands on.
+    prim
+        Path of its prim in the whole stage.
+    stall
+        Name of its stall in the whole garage; empty for a car outside of stalls.
+    level
+        Number of its level, from 0.
+    label
+        Semantic class.
     """
 
     name: str
@@ -39,6 +47,10 @@ class ParkedCar:
     width_m: float
     height_m: float
     floor_m: float = 0.0
+    prim: str = ""
+    stall: str = ""
+    level: int = 0
+    label: str = "car"
 
 
 def parked_cars(garage: BuiltGarage, *, free: Collection[str] = ()) -> list[ParkedCar]:
@@ -56,7 +68,9 @@ def parked_cars(garage: BuiltGarage, *, free: Collection[str] = ()) -> list[Park
     A car looks to its own -Z, as those of garage2usd's catalogue do; its name in a scenario is ``Car_1`` and so on. The
     box excludes the mirrors, whose width would block passing cars. ASAM OSI also defines vehicle boxes without mirrors.
     """
-    cars = [car for level in garage.levels for car in _on_level(level, free)]
+    cars = [
+        replace(car, level=number) for number, level in enumerate(garage.levels) for car in _on_level(level, free)
+    ]
     return [replace(car, name=f"Car_{number}") for number, car in enumerate(cars, 1)]
 
 
@@ -93,6 +107,9 @@ def _on_level(level: BuiltLevel, free: Collection[str]) -> list[ParkedCar]:
                 width,
                 float(height_m),
                 level.place.floor_m,
+                level.place.path_in_whole(thing.name),
+                "" if home is None else level.place.in_whole(home.name),
+                label=thing.label,
             )
         )
     return cars

@@ -1,0 +1,58 @@
+"""Settings of traffic: cars that arrive, park and leave, and people who walk."""
+
+import math
+from enum import StrEnum
+
+import numpy as np
+from pydantic import Field
+
+from garage2usd.common.settings import Settings
+
+_HOURS = 24.0
+
+
+class Day(StrEnum):
+    """Kinds of day, whose occupancy differs by hour."""
+
+    WEEKDAY = "weekday"
+    WEEKEND = "weekend"
+
+
+_OCCUPANCY: dict[Day, dict[float, float]] = {
+    Day.WEEKDAY: {2: 0.28, 6: 0.31, 8: 0.52, 10: 0.74, 12: 0.76, 14: 0.71, 16: 0.65, 18: 0.55, 20: 0.46, 22: 0.35},
+    Day.WEEKEND: {
+        2: 0.32, 6: 0.28, 8: 0.30, 10: 0.41, 12: 0.55, 14: 0.64, 16: 0.65, 18: 0.60, 20: 0.55, 22: 0.47,
+    },
+}  # fmt: skip
+"""Mean occupancy by hour of the day, as in `samples/recipes/world.toml`."""
+
+
+class TrafficConfig(Settings):
+    """A garage in operation."""
+
+    minutes: float = Field(25.0, gt=0.0, le=1440.0)
+    """Duration."""
+    hour: float = Field(10.0, ge=0.0, lt=_HOURS)
+    """Hour of the day at the start."""
+    day: Day = Day.WEEKDAY
+    """Kind of day, whose occupancy by hour arrivals follow."""
+    stay_minutes: float = Field(70.0, gt=0.0, le=1440.0)
+    """Median of the stays, which are log-normal."""
+    stay_spread: float = Field(0.7, ge=0.0, le=2.0)
+    """Standard deviation of the logarithm of the stays."""
+    arrivals_per_hour: float | None = Field(None, ge=0.0, le=3600.0)
+    """Mean number of arrivals per hour, from which the stays follow by Little's law; if left out, arrivals follow from
+    the stays and the occupancy."""
+    people: bool = True
+    """True if drivers walk between their cars and the stair cores."""
+
+    def occupancy(self, hour: float) -> float:
+        """Return the mean occupancy at an hour of the day, linear between the table's hours."""
+        table = _OCCUPANCY[self.day]
+        return float(np.interp(hour, [*table], [*table.values()], period=_HOURS))
+
+    def mean_stay_minutes(self, capacity: int) -> float:
+        """Return the mean of the stays in a garage of some capacity."""
+        if self.arrivals_per_hour:
+            return 60.0 * capacity * self.occupancy(self.hour) / self.arrivals_per_hour
+        return self.stay_minutes * math.exp(self.stay_spread**2 / 2)

@@ -1,0 +1,257 @@
+"""People who walk between cars and stair cores, on ground that they reserve a step ahead."""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+import shapely
+
+from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.driving.tracks import Agent, AgentClass, AgentState, Track
+from garage2usd.garage import Stall
+from garage2usd.native import elementary
+from garage2usd.traffic.ground import Cells, Floats, Ground
+from garage2usd.traffic.simulation import STEP_S
+from garage2usd.traffic.walking import PERSON_RADIUS_M, Walkways
+
+_SLICE_M = 0.4
+_SPEED_M_S, _SPREAD_M_S = 1.34, 0.2
+"""Mean and standard deviation of walking speeds (Weidmann, Transporttechnik der Fussgänger, 1993: 1.34 and 0.26 m/s)."""
+_BESIDE_M = 0.05
+_OUT_M = 0.6
+_GET_OUT_S = (6.0, 20.0)
+_GET_IN_S = (5.0, 12.0)
+_TALL_M = 1.72
+_RETRY_STEPS = 3
+_HALF_M = PERSON_RADIUS_M
+
+Outlines = Mapping[int, tuple[int, shapely.Polygon]]
+
+
+@dataclass(eq=False)
+class Walker:
+    """A person on a walk.
+
+    Attributes
+    ----------
+    name
+        Name of the person.
+    car
+        Number of the car that the walk begins or ends at.
+    level
+        Number of the level.
+    corners
+        Corners (x, z) of the walk.
+    begin_step
+        Step at which the walk may begin.
+    """
+
+    name: str
+    car: int
+    level: int
+    corners: Floats
+    speed_m_s: float
+    height_m: float
+    begin_step: int
+    pause_steps: int = 0
+    way_m: float = 0.0
+    held: int = 0
+    freed: int = 0
+    retry_at: int = 0
+    cells: list[Cells] = field(default_factory=list)
+    samples: list[tuple[int, float, int]] = field(default_factory=list)
+
+    @property
+    def lengths_m(self) -> Floats:
+        """Distance along the walk at each corner."""
+        return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(self.corners, axis=0).T))])
+
+    @property
+    def is_done(self) -> bool:
+        """True at the end of the walk."""
+        return self.way_m >= float(self._length_m) - 1e-6
+
+    def __post_init__(self) -> None:
+        """Measure the walk."""
+        self._length_m = float(self.lengths_m[-1])
+
+    def places(self, ways: Floats) -> Floats:
+        """Return (x, z) at distances along the walk; shape (n, 2)."""
+        return np.stack([np.interp(ways, self.lengths_m, self.corners[:, axis]) for axis in (0, 1)], axis=1)
+
+
+class Walkers:
+    """The walks of a garage, level by level; kept from run to run."""
+
+    def __init__(self, garage: BuiltGarage) -> None:
+        self._levels = [Walkways(level) for level in garage.levels]
+        self._far: dict[str, float] = {}
+
+    def begin(self, ground: Ground, draw: np.random.Generator) -> "People":
+        """Return the people of a run, nobody yet."""
+        return People(self._levels, ground, draw)
+
+    def distance_m(self, stall: Stall) -> float:
+        """Return the length of the walk from a stall to the nearest stair core, 200 m without one."""
+        if stall.name not in self._far:
+            far = self._levels[stall.level].distance_m(_mouth(stall))
+            self._far[stall.name] = far if math.isfinite(far) else 200.0
+        return self._far[stall.name]
+
+
+def _mouth(stall: Stall) -> tuple[float, float]:
+    (x, z), (to_x, to_z) = stall.corners[:2]
+    return (x + to_x) / 2, (z + to_z) / 2
+
+
+class People:
+    """The people of a run."""
+
+    def __init__(self, levels: list[Walkways], ground: Ground, draw: np.random.Generator) -> None:
+        self._levels, self._ground, self._draw = levels, ground, draw
+        self._walking: list[Walker] = []
+        self._all: list[Walker] = []
+        self._there: set[int] = set()
+        self._coming: set[int] = set()
+
+    def to_car(self, car: int, stall: Stall | None, outline: tuple[int, shapely.Polygon], others: Outlines) -> None:
+        """Let a driver walk from a stair core to a car."""
+        assert stall is not None
+        corners = self._between(car, stall, outline, others)
+        if corners is None:
+            self._there.add(car)
+            return
+        self._coming.add(car)
+        self._add(car, stall.level, corners[::-1], 0.0, self._draw.uniform(*_GET_IN_S))
+
+    def from_car(
+        self, car: int, stall: Stall | None, outline: tuple[int, shapely.Polygon], others: Outlines, now_s: float
+    ) -> None:
+        """Let a driver get out of a car and walk to a stair core."""
+        assert stall is not None
+        self._there.discard(car)
+        corners = self._between(car, stall, outline, others)
+        if corners is not None:
+            self._add(car, stall.level, corners, now_s + self._draw.uniform(*_GET_OUT_S), 0.0)
+
+    def has_arrived(self, car: int) -> bool:
+        """Return True if the driver of a car has come to it, or can only appear in it."""
+        return car in self._there
+
+    def _add(self, car: int, level: int, corners: Floats, begin_s: float, pause_s: float) -> None:
+        speed = float(np.clip(self._draw.normal(_SPEED_M_S, _SPREAD_M_S), 0.8, 1.8))
+        height = float(np.clip(self._draw.normal(_TALL_M, 0.08), 1.5, 1.95))
+        name = f"person_{len(self._all) + 1:04}"
+        walker = Walker(name, car, level, corners, speed, height, round(begin_s / STEP_S), round(pause_s / STEP_S))
+        count = max(math.ceil(walker._length_m / _SLICE_M), 1)  # noqa: SLF001 - its own maker
+        ways = np.linspace(0.0, count * _SLICE_M, 2 * count + 1)
+        discs = self._ground.discs(walker.places(ways), PERSON_RADIUS_M + _BESIDE_M, level)
+        walker.cells = [
+            np.unique(np.concatenate(discs[2 * number : 2 * number + 3])) for number in range(count)
+        ]
+        self._all.append(walker)
+        self._walking.append(walker)
+
+    def _between(
+        self, car: int, stall: Stall, outline: tuple[int, shapely.Polygon], others: Outlines
+    ) -> Floats | None:
+        """Return the walk from the door of a car to the stair core."""
+        level, ground = outline
+        corners = np.array(shapely.get_coordinates(ground))[:4]
+        front, rear = corners[:2].mean(axis=0), corners[2:].mean(axis=0)
+        along = (front - rear) / np.hypot(*(front - rear))
+        left = (corners[0] - corners[1]) / np.hypot(*(corners[0] - corners[1]))
+        half_m = float(np.hypot(*(corners[0] - corners[1]))) / 2
+        middle = (front + rear) / 2
+        mouth = np.array(_mouth(stall))
+        outwards = mouth - np.array(stall.centre)
+        outwards = outwards / (np.hypot(*outwards) or 1.0)
+        near = [shape for number, (own, shape) in others.items() if own == level and number != car]
+        near = [shape for shape in near if shape.distance(ground) < 2.0]  # noqa: PLR2004
+        for side in (1.0, -1.0):
+            aside = side * (half_m + _BESIDE_M + PERSON_RADIUS_M) * left
+            door = middle + 0.3 * along + aside
+            out_m = max(float((mouth - door) @ outwards), 0.0) + _OUT_M
+            out = door + out_m * outwards
+            line = shapely.LineString([door, out])
+            if all(shape.distance(line) >= PERSON_RADIUS_M + _BESIDE_M for shape in near):
+                break
+        else:
+            end = front if float((front - mouth) @ (front - mouth)) < float((rear - mouth) @ (rear - mouth)) else rear
+            door = out = end + (PERSON_RADIUS_M + 0.3) * outwards
+        walk = self._levels[level].walk((float(out[0]), float(out[1])))
+        if walk is None:
+            return None
+        return np.array([door, *walk]) if door is not out else walk
+
+    def advance(self, step: int, now_s: float) -> None:
+        """Advance all people by a step."""
+        for walker in self._walking[:]:
+            if step < walker.begin_step:
+                continue
+            self._advance(walker, step)
+
+    def _advance(self, walker: Walker, step: int) -> None:
+        if walker.is_done:
+            if walker.pause_steps:
+                walker.pause_steps -= 1
+                walker.samples.append((step, walker.way_m, int(AgentState.STANDS)))
+                return
+            for number in range(walker.freed, walker.held):
+                self._ground.people[walker.cells[number]] -= 1
+            walker.freed = walker.held
+            self._walking.remove(walker)
+            if walker.car in self._coming:
+                self._there.add(walker.car)
+                self._coming.discard(walker.car)
+            return
+        need = min(int((walker.way_m + walker.speed_m_s * STEP_S) / _SLICE_M) + 1, len(walker.cells) - 1)
+        while walker.held <= need and step >= walker.retry_at:
+            cells = walker.cells[walker.held]
+            if (self._ground.owner[cells] > 0).any():
+                walker.retry_at = step + _RETRY_STEPS
+                break
+            self._ground.people[cells] += 1
+            walker.held += 1
+        if walker.held == 0:
+            return
+        held_m = walker._length_m if walker.held == len(walker.cells) else walker.held * _SLICE_M  # noqa: SLF001
+        way = min(walker.way_m + walker.speed_m_s * STEP_S, held_m)
+        stands = way - walker.way_m < 1e-9  # noqa: PLR2004
+        walker.way_m = way
+        while walker.freed < min(int(way / _SLICE_M), len(walker.cells) - 1):
+            self._ground.people[walker.cells[walker.freed]] -= 1
+            walker.freed += 1
+        walker.samples.append((step, way, int(AgentState.STANDS if stands else AgentState.WALKS)))
+
+    def tracks(self) -> Iterator[Track]:
+        """Yield the tracks of all people who have walked."""
+        for walker in self._all:
+            if len(walker.samples) > 1:
+                yield _track(walker)
+
+
+def _track(walker: Walker) -> Track:
+    steps = np.array([step for step, _, _ in walker.samples])
+    ways = np.array([way for _, way, _ in walker.samples])
+    places = walker.places(ways)
+    ahead = walker.places(np.minimum(ways + 0.3, walker._length_m)) - walker.places(np.maximum(ways - 0.3, 0.0))  # noqa: SLF001
+    yaw = np.unwrap(elementary.arctan2(-ahead[:, 0], -ahead[:, 1]))
+    speed = np.gradient(ways, STEP_S)
+    zero = np.zeros(len(ways))
+    agent = Agent(walker.name, AgentClass.PERSON, 2 * _HALF_M, 2 * _HALF_M, round(walker.height_m, 2))
+    return Track(
+        agent,
+        np.round(steps * STEP_S, 3),
+        places[:, 0],
+        zero,
+        places[:, 1],
+        yaw,
+        zero,
+        speed,
+        np.gradient(speed, STEP_S),
+        zero,
+        np.array([state for _, _, state in walker.samples], dtype=np.int8),
+        np.full(len(ways), walker.level, dtype=np.int8),
+    )

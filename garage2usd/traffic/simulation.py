@@ -1,0 +1,160 @@
+"""The simulation of cars on reserved ground, in steps of a tenth of a second.
+
+A car drives on only over ground that it holds, and it holds ground up to a place where it may wait. What lies between
+two such places, a junction, a narrow aisle or a manoeuvre, is reserved at once or not at all, so that no car stops
+where it blocks others for good.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from garage2usd.config.outputs import DriveConfig
+from garage2usd.driving.tracks import AgentState
+from garage2usd.traffic.ground import Ground
+from garage2usd.traffic.trips import SLICE_M, Trip
+
+STEP_S = 0.1
+_BRAKING_M_S2 = 1.2
+"""Deceleration with which a car stops at the end of its ground; comfortable as in AASHTO's stopping sight distance,
+which takes up to 3.4 m/s2."""
+_AHEAD_M = 2.5
+"""Ground held beyond the braking distance in metres."""
+_RETRY_STEPS = 4
+_NEAR_M = 0.02
+
+
+@dataclass(eq=False)
+class Driver:
+    """A car under way on a trip.
+
+    Attributes
+    ----------
+    number
+        Number of the car, from 1.
+    trip
+        Its trip.
+    way_m, speed_m_s
+        Distance driven along the floor, and speed.
+    held
+        Number of slices held, from the first one on.
+    freed
+        Number of slices that were released again.
+    samples
+        Step, distance and state at each step.
+    """
+
+    number: int
+    trip: Trip
+    way_m: float = 0.0
+    speed_m_s: float = 0.0
+    held: int = 0
+    freed: int = 0
+    pause_steps: int = 0
+    next_stop: int = 0
+    retry_at: int = 0
+    waits_since: int = -1
+    samples: list[tuple[int, float, int]] = field(default_factory=list)
+
+
+class Simulation:
+    """Cars that drive on the ground of a garage.
+
+    Parameters
+    ----------
+    ground
+        The ground.
+    settings
+        Limits of the cars' motion.
+    """
+
+    def __init__(self, ground: Ground, settings: DriveConfig) -> None:
+        self.ground, self._settings = ground, settings
+        self.step = 0
+        self.drivers: list[Driver] = []
+
+    def try_start(self, number: int, trip: Trip) -> Driver | None:
+        """Let a car begin a trip if the ground up to the first place to wait is free."""
+        driver = Driver(number, trip)
+        if not self._extend(driver, 0.0):
+            return None
+        self.drivers.append(driver)
+        driver.samples.append((self.step, 0.0, int(AgentState.DRIVES)))
+        return driver
+
+    def advance(self, ended: Callable[[Driver], None]) -> None:
+        """Advance all cars by a step; those at the ends of their trips are handed over and leave the simulation."""
+        self.step += 1
+        for driver in self.drivers[:]:
+            self._advance(driver)
+            if driver.way_m >= driver.trip.length_m - 1e-6 and driver.next_stop >= len(driver.trip.stops):
+                self.drivers.remove(driver)
+                ended(driver)
+
+    def _extend(self, driver: Driver, wanted_m: float) -> bool:
+        """Hold the ground up to a distance, and on to a place to wait; return False if some of it is not free."""
+        trip = driver.trip
+        cells, groups = trip.cells(self.ground), trip.groups
+        while driver.held < trip.slices and (driver.held * SLICE_M <= wanted_m or driver.held == 0):
+            last = groups[driver.held]
+            slices = range(driver.held, last + 1)
+            if trip.hint in slices and not self.ground.is_free(cells[trip.hint], driver.number):
+                return False
+            for number in slices:
+                if not self.ground.is_free(cells[number], driver.number):
+                    trip.hint = number
+                    return False
+            for number in slices:
+                self.ground.hold(cells[number], driver.number)
+            driver.held = last + 1
+        return True
+
+    def _advance(self, driver: Driver) -> None:
+        trip, settings = driver.trip, self._settings
+        if driver.pause_steps:
+            driver.pause_steps -= 1
+            driver.samples.append((self.step, driver.way_m, int(AgentState.MANOEUVRES)))
+            return
+        speed, way = driver.speed_m_s, driver.way_m
+        if driver.held < trip.slices and self.step >= driver.retry_at:
+            wanted_m = way + speed * speed / (2 * _BRAKING_M_S2) + _AHEAD_M
+            if not self._extend(driver, wanted_m):
+                driver.retry_at = self.step + _RETRY_STEPS
+        held_m = trip.length_m if driver.held == trip.slices else driver.held * SLICE_M
+        stop = trip.stops[driver.next_stop]
+        limit = trip.limits_m_s[min(int((way + speed * STEP_S) * 10), len(trip.limits_m_s) - 1)]
+        speed_to = min(speed + settings.acceleration_m_s2 * STEP_S, limit)
+        for end_m, braking in ((held_m, _BRAKING_M_S2), (stop.way_m, settings.acceleration_m_s2)):
+            left = end_m - way - speed * STEP_S / 2
+            half = braking * STEP_S / 2
+            speed_to = min(speed_to, -half + math.sqrt(half * half + 2 * braking * left) if left > 0 else 0.0)
+        speed_to = max(speed_to, speed - 4 * _BRAKING_M_S2 * STEP_S, 0.0)
+        end_m = min(held_m, stop.way_m)
+        way_to = min(way + (speed + speed_to) / 2 * STEP_S, end_m)
+        if end_m - way_to < _NEAR_M and speed_to < 0.3:  # noqa: PLR2004 - as slow as that a car stops within the step
+            way_to, speed_to = end_m, 0.0
+        driver.way_m, driver.speed_m_s = way_to, speed_to
+        if way_to >= stop.way_m - 1e-9 and speed_to == 0.0:
+            driver.pause_steps = round(stop.pause_s / STEP_S)
+            driver.next_stop += 1
+        passed = min(int(way_to / SLICE_M), trip.slices - 1)
+        cells = trip.cells(self.ground)
+        while driver.freed < passed:
+            self.ground.release(cells[driver.freed])
+            driver.freed += 1
+        low, high = trip.parking_m
+        stands = speed_to == 0.0 and way_to < stop.way_m
+        state = AgentState.MANOEUVRES if low <= way_to <= high else AgentState.DRIVES
+        if stands:
+            state = AgentState.WAITS
+            driver.waits_since = driver.waits_since if driver.waits_since >= 0 else self.step
+        else:
+            driver.waits_since = -1
+        driver.samples.append((self.step, way_to, int(state)))
+
+    def leave_ground(self, driver: Driver) -> None:
+        """Release all ground of a car."""
+        cells = driver.trip.cells(self.ground)
+        for number in range(driver.freed, driver.held):
+            self.ground.release(cells[number])
+        driver.freed = driver.held
