@@ -329,17 +329,16 @@ def _track_of(visit: _Visit, end_s: float) -> Track:
     accelerations, speeds, stalls = [], [], []
     count = 0
     for driver in drivers:
-        steps = np.array([step for step, _, _ in driver.samples])
-        ways = np.array([way for _, way, _ in driver.samples])
+        steps, ways, speed, state = (np.array(column) for column in zip(*driver.samples, strict=True))
         own = driver.trip.states(ways)
         signs = driver.trip.signs(ways)
-        speed = np.gradient(ways, STEP_S) if len(ways) > 1 else np.zeros(1)
+        own[:, 5] = _steered(own[:, 5], speed)
         parts.append(own)
         times.append(steps * STEP_S)
-        states.append(np.array([state for _, _, state in driver.samples], dtype=np.int8))
+        states.append(state.astype(np.int8))
         levels.append(driver.trip.levels(ways))
         speeds.append(speed * signs)
-        accelerations.append(np.gradient(speed, STEP_S) if len(ways) > 1 else np.zeros(1))
+        accelerations.append(np.diff(speed, append=speed[-1]) / STEP_S)
         low, high = driver.trip.parking_m
         near = np.flatnonzero((ways >= low) & (ways <= high))
         if len(near) and visit.stall is not None:
@@ -379,6 +378,18 @@ def _track_of(visit: _Visit, end_s: float) -> Track:
         level.astype(np.int8),
         tuple(stalls),
     )
+
+
+def _steered(angles: np.ndarray, speed: np.ndarray) -> np.ndarray:
+    """Return the angles of the front wheels, which turn while the car stands between two moves."""
+    stands = np.flatnonzero(speed == 0.0)
+    if not len(stands):
+        return angles
+    result = angles.copy()
+    for run in np.split(stands, np.flatnonzero(np.diff(stands) > 1) + 1):
+        if run[0] > 0 and run[-1] < len(angles) - 1:
+            result[run] = np.linspace(angles[run[0] - 1], angles[run[-1] + 1], len(run))
+    return result
 
 
 def _continuous(yaw: np.ndarray) -> np.ndarray:

@@ -18,6 +18,9 @@ from garage2usd.traffic.walking import PERSON_RADIUS_M, Walkways
 _SLICE_M = 0.4
 _SPEED_M_S, _SPREAD_M_S = 1.34, 0.2
 """Mean and standard deviation of walking speeds (Weidmann, Transporttechnik der Fussgänger, 1993: 1.34 and 0.26 m/s)."""
+_ACCELERATION_M_S2 = 2.5
+"""Acceleration with which a person starts and stops within a step or two (Breniere and Do, J. Biomech. 1986)."""
+_TURN_M, _LOOK_M = 0.5, 0.8
 _BESIDE_M = 0.05
 _OUT_M = 0.6
 _GET_OUT_S = (6.0, 20.0)
@@ -56,11 +59,12 @@ class Walker:
     begin_step: int
     pause_steps: int = 0
     way_m: float = 0.0
+    now_m_s: float = 0.0
     held: int = 0
     freed: int = 0
     retry_at: int = 0
     cells: list[Cells] = field(default_factory=list)
-    samples: list[tuple[int, float, int]] = field(default_factory=list)
+    samples: list[tuple[int, float, float, int]] = field(default_factory=list)
 
     @property
     def lengths_m(self) -> Floats:
@@ -175,7 +179,7 @@ class People:
             out_m = max(float((mouth - door) @ outwards), 0.0) + _OUT_M
             out = door + out_m * outwards
             line = shapely.LineString([door, out])
-            if all(shape.distance(line) >= PERSON_RADIUS_M + _BESIDE_M for shape in near):
+            if all(shape.distance(line) >= PERSON_RADIUS_M + _BESIDE_M for shape in near) and self._is_clear(level, line):
                 break
         else:
             end = front if float((front - mouth) @ (front - mouth)) < float((rear - mouth) @ (rear - mouth)) else rear
@@ -184,6 +188,10 @@ class People:
         if walk is None:
             return None
         return np.array([door, *walk]) if door is not out else walk
+
+    def _is_clear(self, level: int, line: shapely.LineString) -> bool:
+        """Return True if nothing of the building is in the way of a person on a line."""
+        return not self._levels[level].standing.intersects(line.buffer(PERSON_RADIUS_M + _BESIDE_M))
 
     def advance(self, step: int, now_s: float) -> None:
         """Advance all people by a step."""
@@ -196,7 +204,7 @@ class People:
         if walker.is_done:
             if walker.pause_steps:
                 walker.pause_steps -= 1
-                walker.samples.append((step, walker.way_m, int(AgentState.STANDS)))
+                walker.samples.append((step, walker.way_m, 0.0, int(AgentState.STANDS)))
                 return
             for number in range(walker.freed, walker.held):
                 self._ground.people[walker.cells[number]] -= 1
@@ -206,7 +214,7 @@ class People:
                 self._there.add(walker.car)
                 self._coming.discard(walker.car)
             return
-        need = min(int((walker.way_m + walker.speed_m_s * STEP_S) / _SLICE_M) + 1, len(walker.cells) - 1)
+        need = min(int((walker.way_m + _LOOK_M) / _SLICE_M), len(walker.cells) - 1)
         while walker.held <= need and step >= walker.retry_at:
             cells = walker.cells[walker.held]
             if (self._ground.owner[cells] > 0).any():
@@ -217,13 +225,18 @@ class People:
         if walker.held == 0:
             return
         held_m = walker._length_m if walker.held == len(walker.cells) else walker.held * _SLICE_M  # noqa: SLF001
-        way = min(walker.way_m + walker.speed_m_s * STEP_S, held_m)
+        before, left = walker.now_m_s, held_m - walker.way_m
+        most = math.sqrt(2 * _ACCELERATION_M_S2 * max(left - before * STEP_S / 2, 0.0))
+        speed = min(before + _ACCELERATION_M_S2 * STEP_S, walker.speed_m_s, most)
+        way = min(walker.way_m + (before + speed) / 2 * STEP_S, held_m)
+        if held_m - way < 0.01:  # noqa: PLR2004 - within a centimetre of the end a person stands
+            way, speed = held_m, 0.0
         stands = way - walker.way_m < 1e-9  # noqa: PLR2004
-        walker.way_m = way
-        while walker.freed < min(int(way / _SLICE_M), len(walker.cells) - 1):
+        walker.way_m, walker.now_m_s = way, speed
+        while walker.freed < min(int(way / _SLICE_M), walker.held - 1):
             self._ground.people[walker.cells[walker.freed]] -= 1
             walker.freed += 1
-        walker.samples.append((step, way, int(AgentState.STANDS if stands else AgentState.WALKS)))
+        walker.samples.append((step, way, speed, int(AgentState.STANDS if stands else AgentState.WALKS)))
 
     def tracks(self) -> Iterator[Track]:
         """Yield the tracks of all people who have walked."""
@@ -233,12 +246,10 @@ class People:
 
 
 def _track(walker: Walker) -> Track:
-    steps = np.array([step for step, _, _ in walker.samples])
-    ways = np.array([way for _, way, _ in walker.samples])
+    steps, ways, speed, state = (np.array(column) for column in zip(*walker.samples, strict=True))
     places = walker.places(ways)
-    ahead = walker.places(np.minimum(ways + 0.3, walker._length_m)) - walker.places(np.maximum(ways - 0.3, 0.0))  # noqa: SLF001
+    ahead = walker.places(np.minimum(ways + _TURN_M, walker._length_m)) - walker.places(np.maximum(ways - _TURN_M, 0.0))  # noqa: SLF001
     yaw = np.unwrap(elementary.arctan2(-ahead[:, 0], -ahead[:, 1]))
-    speed = np.gradient(ways, STEP_S)
     zero = np.zeros(len(ways))
     agent = Agent(walker.name, AgentClass.PERSON, 2 * _HALF_M, 2 * _HALF_M, round(walker.height_m, 2))
     return Track(
@@ -250,8 +261,8 @@ def _track(walker: Walker) -> Track:
         yaw,
         zero,
         speed,
-        np.gradient(speed, STEP_S),
+        np.diff(speed, append=speed[-1]) / STEP_S,
         zero,
-        np.array([state for _, _, state in walker.samples], dtype=np.int8),
+        state.astype(np.int8),
         np.full(len(ways), walker.level, dtype=np.int8),
     )

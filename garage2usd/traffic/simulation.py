@@ -18,10 +18,11 @@ STEP_S = 0.1
 _BRAKING_M_S2 = 1.2
 """Deceleration with which a car stops at the end of its ground; comfortable as in AASHTO's stopping sight distance,
 which takes up to 3.4 m/s2."""
+_MOST_BRAKING_M_S2 = 3.4
 _AHEAD_M = 2.5
 """Ground held beyond the braking distance in metres."""
 _RETRY_STEPS = 4
-_NEAR_M = 0.02
+_NEAR_M = 0.002
 
 
 @dataclass(eq=False)
@@ -41,7 +42,7 @@ class Driver:
     freed
         Number of slices that were released again.
     samples
-        Step, distance and state at each step.
+        Step, distance, speed and state at each step.
     """
 
     number: int
@@ -54,7 +55,7 @@ class Driver:
     next_stop: int = 0
     retry_at: int = 0
     waits_since: int = -1
-    samples: list[tuple[int, float, int]] = field(default_factory=list)
+    samples: list[tuple[int, float, float, int]] = field(default_factory=list)
 
 
 class Simulation:
@@ -79,7 +80,7 @@ class Simulation:
         if not self._extend(driver, 0.0):
             return None
         self.drivers.append(driver)
-        driver.samples.append((self.step, 0.0, int(AgentState.DRIVES)))
+        driver.samples.append((self.step, 0.0, 0.0, int(AgentState.DRIVES)))
         return driver
 
     def advance(self, ended: Callable[[Driver], None]) -> None:
@@ -113,7 +114,7 @@ class Simulation:
         trip, settings = driver.trip, self._settings
         if driver.pause_steps:
             driver.pause_steps -= 1
-            driver.samples.append((self.step, driver.way_m, int(AgentState.MANOEUVRES)))
+            driver.samples.append((self.step, driver.way_m, 0.0, int(AgentState.MANOEUVRES)))
             return
         speed, way = driver.speed_m_s, driver.way_m
         if driver.held < trip.slices and self.step >= driver.retry_at:
@@ -122,22 +123,21 @@ class Simulation:
                 driver.retry_at = self.step + _RETRY_STEPS
         held_m = trip.length_m if driver.held == trip.slices else driver.held * SLICE_M
         stop = trip.stops[driver.next_stop]
-        limit = trip.limits_m_s[min(int((way + speed * STEP_S) * 10), len(trip.limits_m_s) - 1)]
-        speed_to = min(speed + settings.acceleration_m_s2 * STEP_S, limit)
+        speed_to = min(speed + settings.acceleration_m_s2 * STEP_S, trip.limit_at(way + speed * STEP_S))
         for end_m, braking in ((held_m, _BRAKING_M_S2), (stop.way_m, settings.acceleration_m_s2)):
             left = end_m - way - speed * STEP_S / 2
             half = braking * STEP_S / 2
             speed_to = min(speed_to, -half + math.sqrt(half * half + 2 * braking * left) if left > 0 else 0.0)
-        speed_to = max(speed_to, speed - 4 * _BRAKING_M_S2 * STEP_S, 0.0)
+        speed_to = max(speed_to, speed - _MOST_BRAKING_M_S2 * STEP_S, 0.0)
         end_m = min(held_m, stop.way_m)
         way_to = min(way + (speed + speed_to) / 2 * STEP_S, end_m)
-        if end_m - way_to < _NEAR_M and speed_to < 0.3:  # noqa: PLR2004 - as slow as that a car stops within the step
+        if end_m - way_to < _NEAR_M:
             way_to, speed_to = end_m, 0.0
         driver.way_m, driver.speed_m_s = way_to, speed_to
         if way_to >= stop.way_m - 1e-9 and speed_to == 0.0:
             driver.pause_steps = round(stop.pause_s / STEP_S)
             driver.next_stop += 1
-        passed = min(int(way_to / SLICE_M), trip.slices - 1)
+        passed = min(int(way_to / SLICE_M), driver.held - 1)
         cells = trip.cells(self.ground)
         while driver.freed < passed:
             self.ground.release(cells[driver.freed])
@@ -150,7 +150,7 @@ class Simulation:
             driver.waits_since = driver.waits_since if driver.waits_since >= 0 else self.step
         else:
             driver.waits_since = -1
-        driver.samples.append((self.step, way_to, int(state)))
+        driver.samples.append((self.step, way_to, speed_to, int(state)))
 
     def leave_ground(self, driver: Driver) -> None:
         """Release all ground of a car."""

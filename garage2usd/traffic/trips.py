@@ -121,12 +121,21 @@ class Trip:
             # what limits the speed shortly after a standstill is the acceleration, which the simulation limits itself
             ahead = np.interp(steps[here] - start + _LIMIT_STEP_M, run.way_m, run.speed_m_s)
             limits[here] = np.maximum(np.interp(steps[here] - start, run.way_m, run.speed_m_s), ahead)
+            # and what limits it before one is the braking, likewise
+            braking = np.sqrt(2 * settings.acceleration_m_s2 * np.maximum(start + run.way_m[-1] - steps[here], 0.0))
+            limits[here] += np.where(limits[here] > 0.98 * braking, 0.5, 0.0)  # noqa: PLR2004
         self.limits_m_s: list[float] = np.maximum(limits, 0.1).tolist()
 
     @property
     def slices(self) -> int:
         """Number of slices."""
         return max(math.ceil(self.length_m / SLICE_M - 1e-9), 1)
+
+    def limit_at(self, way_m: float) -> float:
+        """Return the greatest speed at a distance along the floor."""
+        place = min(way_m / _LIMIT_STEP_M, len(self.limits_m_s) - 1.001)
+        low = int(place)
+        return self.limits_m_s[low] + (place - low) * (self.limits_m_s[low + 1] - self.limits_m_s[low])
 
     def layers_at(self, plan_m: Floats) -> list[tuple[int, ...]]:
         """Return the layers that a car holds ground of at distances along the path as seen from above."""
@@ -205,7 +214,7 @@ class Trip:
                 run, right = away @ along, away @ np.array([-along[1], along[0]])
                 same = ahead[own] @ along
                 here = (np.abs(same) > _IN_LINE) & (np.abs(right) <= width_m / 2)
-                here &= (run - half >= lows[0]) & (run + half <= length_m - lows[1])
+                here &= (run >= max(lows[0] + half, 0.0)) & (run <= length_m - max(lows[1] + half, 0.0))
                 if one_way:
                     here &= same > 0
                 else:

@@ -24,7 +24,7 @@ _HEAD_M = 2.0
 _MIDDLE_COST = 1.6
 """Cost of the middle of an aisle, as a factor on that of its sides along the mouths of stalls."""
 _SIDE_M = 1.4
-_TO_DOOR_M = 4.0
+_TO_DOOR_M, _TRIED = 4.0, 16
 
 
 class Walkways:
@@ -45,6 +45,11 @@ class Walkways:
             for piece in pieces
         ]
         cars = [ground for ground, _ in level.cars.values()]
+        self.standing = shapely.union_all(standing)
+        """Ground of everything that stands in a walker's way, except cars."""
+        shapely.prepare(self.standing)
+        self._near = shapely.buffer(self.standing, PERSON_RADIUS_M + 0.05, quad_segs=4)
+        shapely.prepare(self._near)
         self._blocked = shapely.buffer(shapely.union_all([*standing, *quads, *cars]), _CLEAR_M, quad_segs=4)
         shapely.prepare(self._blocked)
         nodes = level.lanes.positions_m
@@ -98,8 +103,12 @@ class Walkways:
         if not len(self._free):
             return None
         away = np.hypot(*(self._free - np.array(place)).T)
-        best = int(away.argmin())
-        return best if away[best] <= within_m else None
+        nearest = np.argsort(away, kind="stable")[:_TRIED]
+        nearest = nearest[away[nearest] <= within_m]
+        lines = shapely.linestrings(np.stack([np.broadcast_to(place, (len(nearest), 2)), self._free[nearest]], axis=1))
+        is_clear = ~shapely.intersects(self._near, lines)
+        found = nearest[is_clear] if is_clear.any() else nearest
+        return int(found[0]) if len(found) else None
 
     def distance_m(self, place: Point) -> float:
         """Return the cost of the walk from a place to the nearest door, infinite without one."""
@@ -109,7 +118,7 @@ class Walkways:
         return min(float(cost[entry]) for cost, _ in self._fields)
 
     def walk(self, place: Point) -> Floats | None:
-        """Return the corners (x, z) of the walk from a place beside the free ground to the nearest door; None without.
+        """Return the corners (x, z) of the walk from a place beside the free ground to in front of the nearest door.
 
         Notes
         -----
@@ -125,8 +134,7 @@ class Walkways:
         numbers = [start]
         while before[numbers[-1]] >= 0:
             numbers.append(int(before[numbers[-1]]))
-        corners = [np.array(place), *self._straightened(self._free[numbers]), np.array(self.doors[door])]
-        return np.array(corners)
+        return np.array([np.array(place), *self._straightened(self._free[numbers])])
 
     def _straightened(self, places: Floats) -> Sequence[Floats]:
         kept = [places[0]]
