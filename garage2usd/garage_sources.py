@@ -15,6 +15,7 @@ from garage2usd.common.errors import ConfigError, ReportError
 from garage2usd.common.progress import Progress, silent
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.config.outputs import DriveConfig, Leg
+from garage2usd.config.traffic import TrafficConfig
 from garage2usd.driving import StallProof
 from garage2usd.garage import Fault
 from garage2usd.garage_model import Garage
@@ -29,11 +30,12 @@ _SETTINGS, _REPORT = ".toml", ".json"
 
 
 class BuiltSource(NamedTuple):
-    """A garage as built, the profile to check it against, and the settings of drives in it."""
+    """A garage as built, the profile to check it against, and the settings of drives and traffic in it."""
 
     garage: BuiltGarage
     profile: Profile
     drive: DriveConfig
+    traffic: TrafficConfig = TrafficConfig()
 
     def findings(self) -> list[Finding]:
         """Return the findings under the profile and by the rules that need none, errors first."""
@@ -139,7 +141,7 @@ def read_built(path: str | Path, *, profile: Profile | None = None, progress: Pr
     # a plan of one level is read as it is, so that its faults become findings
     if report is None or len(report.levels) == 1:
         plan, config = garage_of_plan(path, report=report, profile=profile)
-        return BuiltSource(plan, profile or config.standard, config.maps.drive)
+        return BuiltSource(plan, profile or config.standard, config.maps.drive, config.traffic)
     made = generate(report.config, seed=report.seed, tape=report.tape, progress=progress)
     source = built_source(made, source=str(path), faults=_differences(made, report.levels))
     return source._replace(profile=profile or source.profile)
@@ -161,7 +163,7 @@ def _report_in(path: Path) -> Report | None:
 def built_source(garage: Garage, *, source: str, faults: tuple[Fault, ...] = ()) -> BuiltSource:
     """Return a generated garage as built; `faults` are contradictions in the file that it comes from."""
     built = garage_as_made(garage, source=source, kind="plan", faults=faults)
-    return BuiltSource(built, garage.config.standard, garage.config.maps.drive)
+    return BuiltSource(built, garage.config.standard, garage.config.maps.drive, garage.config.traffic)
 
 
 def generated_of(path: Path, seed: int | None, *, progress: Progress = silent) -> Garage:

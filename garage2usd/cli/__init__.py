@@ -20,6 +20,7 @@ from garage2usd.cli.plan import plan
 from garage2usd.cli.process import SUPERVISED, open_streams, supervise
 from garage2usd.cli.render import render
 from garage2usd.cli.shipped import meshes, schema, textures
+from garage2usd.cli.traffic import traffic
 from garage2usd.cli.view import view
 from garage2usd.common.limits import ONE_THREAD
 from garage2usd.common.package import VERSION
@@ -62,6 +63,7 @@ for _command in (
     render,
     schema,
     textures,
+    traffic,
     view,
 ):
     main.add_command(_command)

@@ -21,6 +21,7 @@ from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import BayConfig, BuildingConfig, SiteConfig
 from garage2usd.config.stalls import StallsConfig
 from garage2usd.config.texture_sets import texture_remarks
+from garage2usd.config.traffic import TrafficConfig
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile, read_profile
 
 __all__ = [
@@ -36,6 +37,7 @@ __all__ = [
     "SiteConfig",
     "StageConfig",
     "StallsConfig",
+    "TrafficConfig",
     "VehiclesConfig",
     "config_from_mapping",
     "config_schema",
@@ -80,6 +82,8 @@ class GarageConfig(Settings):
     """Files of the stage."""
     maps: MapsConfig = MapsConfig()
     """Maps and scenarios."""
+    traffic: TrafficConfig = Field(TrafficConfig(), exclude_if=lambda traffic: traffic == TrafficConfig())
+    """The garage in operation, as the command traffic shows it."""
     profile: str | Profile = DEFAULT_PROFILE
     """The standard that the garage is designed to: 'cn-jgj100', 'de-garvo', 'uk-istructe', 'us-ada', a TOML file with a
     profile of the user, or the contents of such a file. A relative path is resolved against the folder of the

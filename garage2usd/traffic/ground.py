@@ -62,16 +62,17 @@ class Ground:
         sin, cos = elementary.sin(poses[:, 2]), elementary.cos(poses[:, 2])
         middle = (ahead - behind) / 2
         steps = np.arange(-reach, reach + 1)
-        found = []
-        for x, z, s, c, layer in zip(poses[:, 0], poses[:, 1], sin, cos, layers, strict=True):
-            col = round((x - s * middle) / CELL_M) + steps
-            row = round((z - c * middle) / CELL_M) + steps
-            away_x, away_z = (col * CELL_M - x)[None, :], (row * CELL_M - z)[:, None]
-            forward, left = -s * away_x - c * away_z, -c * away_x + s * away_z
-            inside = (forward <= ahead) & (forward >= -behind) & (np.abs(left) <= half)
-            at = np.nonzero(inside)
-            found.append(self._number(col[at[1]], row[at[0]], layer))
-        return found
+        x, z = poses[:, 0], poses[:, 1]
+        cols = np.round((x - sin * middle) / CELL_M).astype(np.int64)[:, None] + steps
+        rows = np.round((z - cos * middle) / CELL_M).astype(np.int64)[:, None] + steps
+        away_x, away_z = cols * CELL_M - x[:, None], rows * CELL_M - z[:, None]
+        sin, cos = sin[:, None], cos[:, None]
+        forward = (-sin * away_x)[:, None, :] + (-cos * away_z)[:, :, None]
+        left = (-cos * away_x)[:, None, :] + (sin * away_z)[:, :, None]
+        pose, row, col = np.nonzero((forward <= ahead) & (forward >= -behind) & (np.abs(left) <= half))
+        layer = np.asarray(layers)[pose]
+        numbers = self._number(cols[pose, col], rows[pose, row], layer)
+        return np.split(numbers, np.searchsorted(pose, np.arange(1, len(poses))))
 
     def discs(self, places: Floats, radius_m: float, layer: int) -> list[Cells]:
         """Return the cells that hold a disc at each (x, z); shape (n, 2)."""
@@ -85,7 +86,7 @@ class Ground:
             found.append(self._number(col[at[1]], row[at[0]], layer))
         return found
 
-    def _number(self, col: Cells, row: Cells, layer: int) -> Cells:
+    def _number(self, col: Cells, row: Cells, layer: Cells | int) -> Cells:
         col = np.clip(col - self._low[layer, 0], 0, self._columns[layer] - 1)
         row = np.clip(row - self._low[layer, 1], 0, self._rows[layer] - 1)
         return self._first[layer] + row * self._columns[layer] + col

@@ -90,11 +90,12 @@ class Walkers:
 
     def __init__(self, garage: BuiltGarage) -> None:
         self._levels = [Walkways(level) for level in garage.levels]
+        self._floors_m = [level.place.floor_m for level in garage.levels]
         self._far: dict[str, float] = {}
 
     def begin(self, ground: Ground, draw: np.random.Generator) -> "People":
         """Return the people of a run, nobody yet."""
-        return People(self._levels, ground, draw)
+        return People(self._levels, self._floors_m, ground, draw)
 
     def distance_m(self, stall: Stall) -> float:
         """Return the length of the walk from a stall to the nearest stair core, 200 m without one."""
@@ -112,7 +113,10 @@ def _mouth(stall: Stall) -> tuple[float, float]:
 class People:
     """The people of a run."""
 
-    def __init__(self, levels: list[Walkways], ground: Ground, draw: np.random.Generator) -> None:
+    def __init__(
+        self, levels: list[Walkways], floors_m: list[float], ground: Ground, draw: np.random.Generator
+    ) -> None:
+        self._floors_m = floors_m
         self._levels, self._ground, self._draw = levels, ground, draw
         self._walking: list[Walker] = []
         self._all: list[Walker] = []
@@ -242,10 +246,10 @@ class People:
         """Yield the tracks of all people who have walked."""
         for walker in self._all:
             if len(walker.samples) > 1:
-                yield _track(walker)
+                yield _track(walker, self._floors_m[walker.level])
 
 
-def _track(walker: Walker) -> Track:
+def _track(walker: Walker, floor_m: float) -> Track:
     steps, ways, speed, state = (np.array(column) for column in zip(*walker.samples, strict=True))
     places = walker.places(ways)
     ahead = walker.places(np.minimum(ways + _TURN_M, walker._length_m)) - walker.places(np.maximum(ways - _TURN_M, 0.0))  # noqa: SLF001
@@ -256,7 +260,7 @@ def _track(walker: Walker) -> Track:
         agent,
         np.round(steps * STEP_S, 3),
         places[:, 0],
-        zero,
+        zero + floor_m,
         places[:, 1],
         yaw,
         zero,

@@ -1,0 +1,78 @@
+"""The command ``garage2usd traffic``."""
+
+import sys
+from pathlib import Path
+
+import click
+
+from garage2usd.cli.bars import Bars
+from garage2usd.cli.options import INPUT_FILE
+
+_SUFFIXES = ".parquet, .csv, .usda, .usdc, .xosc, .fcd.xml, .mcap, .pkl"
+_SHOWN = 8
+
+
+@click.command(short_help="Operate a garage: cars arrive, park and leave, people walk.")
+@click.argument("path", type=INPUT_FILE)
+@click.option("--minutes", type=float, metavar="MINUTES", help="Duration; 25 unless the settings say otherwise.")
+@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Seed of the run.")
+@click.option("--hour", type=float, metavar="HOUR", help="Hour of the day at the start, 0 to 24.")
+@click.option("--arrivals-per-hour", type=float, metavar="NUMBER", help="Mean number of cars that arrive in an hour.")
+@click.option("--people/--no-people", default=None, help="Let drivers walk between their cars and the stair cores.")
+@click.option(
+    "--output",
+    "-o",
+    "outputs",
+    metavar="FILE",
+    type=click.Path(path_type=Path),
+    multiple=True,
+    help=f"Write the tracks; the form follows from the name: {_SUFFIXES}. May be given several times.",
+)
+def traffic(
+    *,
+    path: Path,
+    minutes: float | None,
+    seed: int,
+    hour: float | None,
+    arrivals_per_hour: float | None,
+    people: bool | None,
+    outputs: tuple[Path, ...],
+) -> None:
+    """Operate a garage for some minutes: cars arrive, look for a stall, park, stay and leave; drivers walk.
+
+    PATH is a stage, the report of a build, or a configuration with a structure. Arrivals are a Poisson process whose
+    rate follows the occupancy by hour of the day. Cars keep to their side of two-way aisles, drive only over ground
+    that they have reserved, and wait where they block nobody, so that no two touch. The settings are those of
+    `[traffic]`.
+
+    \b
+    Examples:
+      garage2usd traffic garage.usdz
+      garage2usd traffic garage.usdz --minutes 25 --seed 7 -o tracks.parquet
+      garage2usd traffic garage.usdz --hour 17.5 -o traffic.usdc -o traffic.xosc
+    """  # noqa: D301 - click's mark for a block that is not wrapped
+    from garage2usd.common.output import check_file  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.common.settings import validated  # noqa: PLC0415
+    from garage2usd.config.traffic import TrafficConfig  # noqa: PLC0415
+    from garage2usd.garage_sources import read_built  # noqa: PLC0415
+    from garage2usd.tracks_files import check_form, write_tracks  # noqa: PLC0415
+    from garage2usd.traffic import Operation  # noqa: PLC0415
+
+    for output in outputs:
+        check_form(output)
+        check_file(output)
+    given = {"minutes": minutes, "hour": hour, "arrivals_per_hour": arrivals_per_hour, "people": people}
+    with Bars(sys.stderr) as progress:
+        source = read_built(path, progress=progress)
+        asked = {name: value for name, value in given.items() if value is not None}
+        settings = validated(TrafficConfig, {**source.traffic.model_dump(), **asked}, within="traffic")
+        tracks = Operation(source.garage).run(settings, seed=seed, progress=progress)
+    for output in outputs:
+        write_tracks(output, tracks, source.garage)
+    facts = tracks.facts
+    click.echo(f"{facts['arrivals']:>6}  cars arrive, {facts['departures']} leave, {facts['turned_away']} find no stall")
+    click.echo(f"{facts['walks']:>6}  walks")
+    for line in tracks.log[:_SHOWN]:
+        click.echo(line)
+    if len(tracks.log) > _SHOWN:
+        click.echo(f"and {len(tracks.log) - _SHOWN} lines more")
