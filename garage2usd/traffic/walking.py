@@ -48,8 +48,12 @@ class Walkways:
         self.standing = shapely.union_all(standing)
         """Ground of everything that stands in a walker's way, except cars."""
         shapely.prepare(self.standing)
-        self._near = shapely.buffer(self.standing, PERSON_RADIUS_M + 0.05, quad_segs=4)
-        shapely.prepare(self._near)
+        self._near = [
+            shapely.buffer(ground, PERSON_RADIUS_M + 0.05, quad_segs=4)
+            for ground in (shapely.union_all([self.standing, *quads, *cars]), self.standing)
+        ]
+        for ground in self._near:
+            shapely.prepare(ground)
         self._blocked = shapely.buffer(shapely.union_all([*standing, *quads, *cars]), _CLEAR_M, quad_segs=4)
         shapely.prepare(self._blocked)
         nodes = level.lanes.positions_m
@@ -106,9 +110,11 @@ class Walkways:
         nearest = np.argsort(away, kind="stable")[:_TRIED]
         nearest = nearest[away[nearest] <= within_m]
         lines = shapely.linestrings(np.stack([np.broadcast_to(place, (len(nearest), 2)), self._free[nearest]], axis=1))
-        is_clear = ~shapely.intersects(self._near, lines)
-        found = nearest[is_clear] if is_clear.any() else nearest
-        return int(found[0]) if len(found) else None
+        for ground in self._near:
+            found = nearest[~shapely.intersects(ground, lines)]
+            if len(found):
+                return int(found[0])
+        return int(nearest[0]) if len(nearest) else None
 
     def distance_m(self, place: Point) -> float:
         """Return the cost of the walk from a place to the nearest door, infinite without one."""
