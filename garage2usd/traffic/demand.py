@@ -6,6 +6,7 @@ stays are log-normal, as measured in car parks (Young, "A review of parking lot 
 
 import math
 from dataclasses import dataclass
+from heapq import heapify, heappop, heappush
 
 import numpy as np
 
@@ -56,12 +57,13 @@ def drawn_demand(settings: TrafficConfig, parked: int, capacity: int, draw: np.r
     mu = math.log(mean_s) - spread**2 / 2
     rests = np.exp(draw.normal(mu + spread**2, spread, parked)) * draw.uniform(size=parked)
     leave = [float(rest) if rest < end_s else math.inf for rest in rests]
-    leaving = sorted(time for time in leave if time < end_s)
+    leaving = [time for time in leave if time < end_s]
+    heapify(leaving)
     present, arrivals = parked, []
     for start in np.arange(0.0, end_s, _STEP_S).tolist():
         stop = min(start + _STEP_S, end_s)
         while leaving and leaving[0] < stop:
-            leaving.pop(0)
+            heappop(leaving)
             present -= 1
         wanted = settings.occupancy(settings.hour + stop / 3600) * capacity
         rate = present / mean_s + (wanted - present) / _LEAD_S
@@ -72,5 +74,5 @@ def drawn_demand(settings: TrafficConfig, parked: int, capacity: int, draw: np.r
             arrivals.append((time, stay))
             present += 1
             if time + stay < end_s:
-                leaving = sorted([*leaving, time + stay])
+                heappush(leaving, time + stay)
     return Demand(tuple(leave), tuple(arrivals))
