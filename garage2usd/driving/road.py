@@ -143,12 +143,15 @@ class DrivenRoad:
         Entrances and exits.
     ramps
         Floors of the ramps; all other floor is at height 0.
+    keeps_left
+        True where traffic keeps to the left.
     """
 
     garage: DrivenGarage
     standing: Obstacles
     portals: tuple[Portal, ...]
     ramps: tuple[RampFloor, ...] = ()
+    keeps_left: bool = False
 
 
 class FloorSpan(NamedTuple):

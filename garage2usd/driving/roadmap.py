@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from garage2usd.driving.car import DesignCar, Pose
+from garage2usd.driving.network import Network
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.proof import LanePose
@@ -30,6 +31,7 @@ _BESIDE_M = 0.8
 _DOOR_SPOTS_M, _DOOR_SPOT_M = 12.0, 2.0
 """Length inside a door that has roadmap poses, and their spacing; metres."""
 _DIGITS = 4
+_SIDE_STEP_M = 0.5
 _ASIDE_COST_M, _EDGE_COST_M = 2.0, 3.0
 """Cost in metres of a spot off the lane's centre line, and of each further edge, so that paths keep to centre lines."""
 
@@ -101,9 +103,10 @@ class Roadmap:
     def __init__(
         self, road: DrivenRoad, standing: Obstacles, car: DesignCar, steerings: Sequence[Steering], margin_m: float
     ) -> None:
-        self._lanes = road.garage.lanes
+        self._lanes, self._keeps_left = road.garage.lanes, road.keeps_left
         self._standing, self._car, self._steerings, self._margin_m = standing, car, tuple(steerings), margin_m
         self._known: dict[tuple[Pose, Pose], tuple[Piece, ...] | None] = {}
+        self.network = Network(self, road.portals)
 
     @property
     def lanes(self) -> LaneGraph:
@@ -202,6 +205,67 @@ class Roadmap:
             yield self._placed(Spot(edge[0 if is_back else 1], along, aside_m))
             if grain.is_fine:
                 yield self._placed(Spot(edge[0], along, aside_m, round(length_m / 2, _DIGITS)))
+
+    def own_side_m(self, arc: Arc) -> float:
+        """Return the offset, to the right of the middle, of a car's own half of a two-way lane; 0 on other lanes."""
+        lane = self._lanes.arcs[arc]
+        if lane.one_way or lane.width_m < 2 * (self._car.width_m + 2 * _ROOM_KEPT_M):
+            return 0.0
+        return round((-1 if self._keeps_left else 1) * lane.width_m / 4, _DIGITS)
+
+    def own_side(self, arc: Arc, run_m: float) -> Pose:
+        """Return the pose on the line of a lane arc at a distance from the arc's start."""
+        return self._placed(Spot(arc[0], self._along[arc][0], self.own_side_m(arc), run_m))[1]
+
+    def is_one_line(self, arc: Arc, other: Arc) -> bool:
+        """Return True if the line of an arc and that of the next are one straight line."""
+        return self._along[arc][0] == self._along[other][0] and self.own_side_m(arc) == self.own_side_m(other)
+
+    def onward(self, arc: Arc) -> tuple[Arc, ...]:
+        """Return the successors of a lane arc, without U-turns and routes through a portal."""
+        return self._joins[0][arc]
+
+    def length_m(self, arc: Arc) -> float:
+        """Return the length of a lane arc."""
+        return self._along[arc][1]
+
+    def run_m(self, arc: Arc, pose: Pose) -> float:
+        """Return the distance of a pose from the start of a lane arc, along it."""
+        (x, z), (along_x, along_z) = self._lanes.nodes[arc[0]].position, self._along[arc][0]
+        return (pose.x_m - x) * along_x + (pose.z_m - z) * along_z
+
+    def over_middle_m(self, path: Path, walk: Sequence[Arc]) -> float:
+        """Return the length of a path on which a car is over the middle of the two-way lanes of a walk.
+
+        Notes
+        -----
+        Sampled about every half metre. The grounds of junctions and bends have no middle.
+        """
+        number = max(math.ceil(path.length_m / _SIDE_STEP_M), 1)
+        at = path.at((np.arange(number) + 0.5) * path.length_m / number)
+        turned = elementary.turned(at.yaw_rad)
+        ahead = np.stack([-turned.imag, -turned.real], axis=1)
+        middles = np.stack([at.x_m, at.z_m], axis=1) + ahead * (self._car.length_m / 2 - self._car.rear_overhang_m)
+        is_over = np.zeros(number, dtype=bool)
+        for arc in walk:
+            own_m = self.own_side_m(arc) if arc in self._along else 0.0
+            if not own_m:
+                continue
+            along, length_m = self._along[arc]
+            low, high = (self._turning_m(node, along) for node in arc)
+            away = middles - self._lanes.nodes[arc[0]].position
+            run, aside = away @ along, away @ (-along[1], along[0]) * math.copysign(1.0, own_m)
+            same = ahead @ along
+            half = self._car.width_m / 2 * same + self._car.length_m / 2 * np.sqrt(np.maximum(1 - same**2, 0.0))
+            is_here = (run > low) & (run < length_m - high) & (same > 0) & (np.abs(aside) < 2 * abs(own_m))
+            is_over |= is_here & (aside < half)
+        return float(np.count_nonzero(is_over) * path.length_m / number)
+
+    def _turning_m(self, node: int, along: Point) -> float:
+        """Return the reach of the ground of a junction or bend, 0 for a node whose lanes are all in line."""
+        others = (self._along.get((node, other)) or self._along[other, node] for other in self._lanes.beside[node])
+        is_straight = all(abs(way[0] * along[0] + way[1] * along[1]) > _SAME_WAY for way, _ in others)
+        return 0.0 if is_straight else self._lanes.nodes[node].reach_m(along)
 
     def door_spots(self, portal: Portal) -> Iterator[tuple[Spot, Pose]]:
         """Yield roadmap poses in line with the pose of cars outside a portal, up to the middle of its square."""

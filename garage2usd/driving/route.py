@@ -134,6 +134,9 @@ class Router:
     def through(self, entrance: Portal, exits: Sequence[Portal]) -> tuple[Path, Portal] | None:
         """Return the shortest path found from an entrance through the garage to one of some exits."""
         for is_full in (True, False):
+            found = self._roadmap(is_full).network.through(entrance, exits)
+            if found is not None:
+                return found
             for grain in GRAINS:
                 found = path_between_portals(self._roadmap(is_full), entrance, exits, grain)
                 if found is not None:
@@ -175,9 +178,9 @@ class Router:
         # test all ways of a round coarsely before testing any of them finely
         for found in rounds:
             kept: list[Manoeuvre] = []
-            for grain in GRAINS:
+            for grain in (None, *GRAINS):
                 for way in kept[:] if kept else found:
-                    if grain is GRAINS[0]:
+                    if grain is None:
                         kept.append(way)
                     led = _joined(roadmap, way, portals, grain, is_back=is_back)
                     if led is not None:
@@ -193,12 +196,16 @@ class Router:
 
 
 def _joined(
-    roadmap: Roadmap, way: Manoeuvre, portals: Sequence[Portal], grain: Grain, *, is_back: bool
+    roadmap: Roadmap, way: Manoeuvre, portals: Sequence[Portal], grain: Grain | None, *, is_back: bool
 ) -> tuple[Path, Portal] | None:
     """Join a manoeuvre between a lane and a stall with the path over lanes before or after it."""
     parking = Path.of_way(way)
-    if is_back:
+    if grain is None:
+        found = roadmap.network.led(parking.start if is_back else parking.end, portals, is_back=is_back)
+    elif is_back:
         found = path_from_entrance(roadmap, parking.start, portals, grain)
-        return found and (found[0].then(parking.pieces), found[1])
-    found = path_to_exit(roadmap, parking.end, portals, grain)
-    return found and (parking.then(found[0].pieces), found[1])
+    else:
+        found = path_to_exit(roadmap, parking.end, portals, grain)
+    if found is None:
+        return None
+    return (found[0].then(parking.pieces) if is_back else parking.then(found[0].pieces)), found[1]

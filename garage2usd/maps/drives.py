@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
+from typing import NamedTuple
 
 from garage2usd.as_built.driven_road import BEYOND_TOP_M, bent_floors, portal_mouths
 from garage2usd.as_built.garage import BuiltGarage
@@ -102,8 +103,8 @@ class DrivenLeg:
 
 
 @dataclass(frozen=True)
-class _Part:
-    """A part of a drive: the path on one level, or over a ramp between two levels.
+class RoutePart:
+    """A part of a route: the path on one level, or over a ramp between two levels.
 
     Attributes
     ----------
@@ -124,7 +125,24 @@ class _Part:
 
     @property
     def length_m(self) -> float:
+        """Length of its path as seen from above."""
         return sum(piece.length_m for piece in self.pieces)
+
+
+class PlannedRoute(NamedTuple):
+    """A route, and the parts of its two paths in the order of driving.
+
+    Attributes
+    ----------
+    route
+        The route.
+    arrival, departure
+        Parts of the paths into the stall and out of it.
+    """
+
+    route: Route
+    arrival: tuple[RoutePart, ...]
+    departure: tuple[RoutePart, ...]
 
 
 class DrivePlanner:
@@ -185,6 +203,25 @@ class DrivePlanner:
         ConfigError
             If the stall, entrance or exit does not exist, or no drive connects them.
         """
+        planned = self.route(stall, entrance=entrance, exit=exit)
+        route = planned.route
+        parts = {Leg.IN: planned.arrival, Leg.OUT: planned.departure, Leg.BOTH: planned.arrival + planned.departure}[
+            leg
+        ]
+        whole = route.arrival.then(route.departure.pieces)
+        path = {Leg.IN: route.arrival, Leg.OUT: route.departure, Leg.BOTH: whole}[leg]
+        parked_after = len(route.arrival.pieces) if leg is Leg.BOTH else None
+        motion = timed(path, self._settings, car=self._car, parked_after=parked_after, spans=self.spans(parts))
+        return Drive(route, leg, motion, self._car, self._settings)
+
+    def route(
+        self,
+        stall: str | None = None,
+        *,
+        entrance: int | None = None,
+        exit: int | None = None,  # noqa: A002 - the garage's word
+    ) -> PlannedRoute:
+        """Find the route to a stall and away from it, without its timing; parameters and errors as of `drive`."""
         found = None if stall is None else self._stall(stall)
         driven = self._garage.lanes.driven
         joined = [each for each in self._garage.stalls if each.takes_cars and each.access in driven]
@@ -205,16 +242,43 @@ class DrivePlanner:
             entrances=self._towards_street(way, LaneKind.ENTRANCE, street),
             exits=self._towards_street(way, LaneKind.EXIT, street),
         )
-        into, start = self._led(way, route.entrance, _Part(route.arrival.pieces, level), street, is_in=True)
-        out, end = self._led(way, route.exit, _Part(route.departure.pieces, level), street, is_in=False)
+        into, start = self._led(way, route.entrance, RoutePart(route.arrival.pieces, level), street, is_in=True)
+        out, end = self._led(way, route.exit, RoutePart(route.departure.pieces, level), street, is_in=False)
         arrival = Path(start.pose, tuple(piece for part in into for piece in part.pieces))
         departure = Path(route.departure.start, tuple(piece for part in out for piece in part.pieces))
         whole = Route(place.in_whole(route.stall), route.nose, start, end, arrival, departure, route.is_full)
-        parts = {Leg.IN: into, Leg.OUT: out, Leg.BOTH: [*into, *out]}[leg]
-        path = {Leg.IN: arrival, Leg.OUT: departure, Leg.BOTH: arrival.then(departure.pieces)}[leg]
-        parked_after = len(arrival.pieces) if leg is Leg.BOTH else None
-        motion = timed(path, self._settings, car=self._car, parked_after=parked_after, spans=self._spans(parts))
-        return Drive(whole, leg, motion, self._car, self._settings)
+        return PlannedRoute(whole, tuple(into), tuple(out))
+
+    def spans(self, parts: Sequence[RoutePart]) -> tuple[FloorSpan, ...]:
+        """Return the floors along the parts of a path; the level changes half way on a ramp.
+
+        A path on a level begins and ends at the tops of the ramps from above, and on the landings of those from below.
+        """
+        spans: list[FloorSpan] = []
+        along = 0.0
+        for before, part, after in zip([None, *parts], parts, [*parts[1:], None], strict=False):
+            end = along + part.length_m
+            ramps = [each for each in (before, after) if each is not None and each.is_ramp and not each.is_bent]
+            if part.is_bent and before is not None and after is not None:
+                floors = self._bent_floors(part.level + 1)
+                for end_m, level in ((along + part.length_m / 2, before.level), (end, after.level)):
+                    spans.append(FloorSpan(end_m, self._garage.levels[level].place.floor_m, floors))
+            elif not part.is_ramp:
+                upper = ramps[-1].level if ramps else None
+                if len(ramps) > 1:
+                    # ramps to both levels overlap in plan; switch between them at the foot of the upper one
+                    is_down = ramps[1].level == part.level
+                    foot_m = self._ramp_m(part.level) + _BEYOND_FOOT_M
+                    change_m = along + foot_m if is_down else end - foot_m
+                    spans.append(self._span(change_m, part.level, ramps[0].level))
+                reach_m = 0.0
+                if after is not None and after in ramps:
+                    is_down = after.level == part.level
+                    half_m = self._ramp_m(after.level + 1) / 2
+                    reach_m = after.length_m + half_m if is_down else -half_m
+                spans.append(self._span(end + reach_m, part.level, upper))
+            along = end
+        return tuple(spans)
 
     def proof_of(self, stall: Stall) -> StallProof:
         """Return the proof of a stall of the whole garage, searched once."""
@@ -335,8 +399,8 @@ class DrivePlanner:
         return self._ends(way[0], kind, way[1]) if len(way) > 1 else street[kind]
 
     def _led(
-        self, way: Sequence[int], portal: Portal, part: _Part, street: _Street, *, is_in: bool
-    ) -> tuple[list[_Part], Portal]:
+        self, way: Sequence[int], portal: Portal, part: RoutePart, street: _Street, *, is_in: bool
+    ) -> tuple[list[RoutePart], Portal]:
         """Extend a path from a level's landing to the street, or from the street to the landing, over all levels."""
         parts, end = [part], portal
         for number, (level, other) in enumerate(pairwise(way), 1):
@@ -360,12 +424,12 @@ class DrivePlanner:
             one, two = (path.end, pose) if is_in else (pose, path.start)
             names = (exit_.name, portal_name) if is_in else (portal_name, entrance.name)
             between = self._over_ramp(min(level, other), one, two, names)
-            own = _Part(path.pieces, other)
+            own = RoutePart(path.pieces, other)
             parts = [own, between, *parts] if is_in else [*parts, between, own]
             end = entrance if is_in else exit_
         return parts, end
 
-    def _over_ramp(self, upper: int, one: Pose, other: Pose, landings: tuple[str, str]) -> _Part:
+    def _over_ramp(self, upper: int, one: Pose, other: Pose, landings: tuple[str, str]) -> RoutePart:
         """Return the path over the ramp below a level, between poses on its landings."""
         nodes = self._garage.lanes.nodes
         for line in self._garage.ramp_lines:
@@ -374,43 +438,12 @@ class DrivePlanner:
             if {end.level for end in ends} == {upper, upper + 1} and names == landings:
                 bend = line.bend
                 if bend is not None:
-                    return _Part(_round(bend, one, other), upper, is_ramp=True, is_bent=True)
+                    return RoutePart(_round(bend, one, other), upper, is_ramp=True, is_bent=True)
                 if not line.is_straight:
                     wanted = "a garage whose ramps between levels are straight or three quarters of a circle"
                     raise ConfigError("stall", landings[0], wanted)
         run_m = math.hypot(other.x_m - one.x_m, other.z_m - one.z_m)
-        return _Part((Piece(Gear.FORWARD, run_m),), upper, is_ramp=True)
-
-    def _spans(self, parts: Sequence[_Part]) -> tuple[FloorSpan, ...]:
-        """Return the floors along the parts of a path; the level changes half way on a ramp.
-
-        A path on a level begins and ends at the tops of the ramps from above, and on the landings of those from below.
-        """
-        spans: list[FloorSpan] = []
-        along = 0.0
-        for before, part, after in zip([None, *parts], parts, [*parts[1:], None], strict=False):
-            end = along + part.length_m
-            ramps = [each for each in (before, after) if each is not None and each.is_ramp and not each.is_bent]
-            if part.is_bent and before is not None and after is not None:
-                floors = self._bent_floors(part.level + 1)
-                for end_m, level in ((along + part.length_m / 2, before.level), (end, after.level)):
-                    spans.append(FloorSpan(end_m, self._garage.levels[level].place.floor_m, floors))
-            elif not part.is_ramp:
-                upper = ramps[-1].level if ramps else None
-                if len(ramps) > 1:
-                    # ramps to both levels overlap in plan; switch between them at the foot of the upper one
-                    is_down = ramps[1].level == part.level
-                    foot_m = self._ramp_m(part.level) + _BEYOND_FOOT_M
-                    change_m = along + foot_m if is_down else end - foot_m
-                    spans.append(self._span(change_m, part.level, ramps[0].level))
-                reach_m = 0.0
-                if after is not None and after in ramps:
-                    is_down = after.level == part.level
-                    half_m = self._ramp_m(after.level + 1) / 2
-                    reach_m = after.length_m + half_m if is_down else -half_m
-                spans.append(self._span(end + reach_m, part.level, upper))
-            along = end
-        return tuple(spans)
+        return RoutePart((Piece(Gear.FORWARD, run_m),), upper, is_ramp=True)
 
     def _bent_floors(self, lower: int) -> tuple[BentFloor, ...]:
         """Return the floors of the helices down to a level, at their heights in the garage."""
