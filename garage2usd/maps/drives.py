@@ -312,12 +312,12 @@ class DrivePlanner:
             return None
         path, portal = found
         try:
-            parts, end = self._led(way, portal, _Part(path.pieces, stall.level), street, is_in=is_in)
+            parts, end = self._led(way, portal, RoutePart(path.pieces, stall.level), street, is_in=is_in)
         except ConfigError:
             return None
         whole = Path(end.pose if is_in else path.start, tuple(piece for part in parts for piece in part.pieces))
         stretches = tuple((part.length_m, part.level, part.is_ramp) for part in parts)
-        return DrivenLeg(whole, end, self._spans(parts), stretches, proof.is_full)
+        return DrivenLeg(whole, end, self.spans(parts), stretches, proof.is_full)
 
     def is_driven_through(self) -> bool:
         """Return True if a drive is found from the street to the lowest level, and one from there back to the street.
