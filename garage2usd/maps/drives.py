@@ -280,6 +280,11 @@ class DrivePlanner:
             along = end
         return tuple(spans)
 
+    @property
+    def keeps_left(self) -> bool:
+        """True where traffic keeps to the left."""
+        return self._on(0).road.keeps_left
+
     def proof_of(self, stall: Stall) -> StallProof:
         """Return the proof of a stall of the whole garage, searched once."""
         if stall.name not in self._proofs:

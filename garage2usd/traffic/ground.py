@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation
 
 from garage2usd.native import elementary
 
@@ -90,6 +91,23 @@ class Ground:
         col = np.clip(col - self._low[layer, 0], 0, self._columns[layer] - 1)
         row = np.clip(row - self._low[layer, 1], 0, self._rows[layer] - 1)
         return self._first[layer] + row * self._columns[layer] + col
+
+    def near_cars(
+        self, places: Floats, layer: int, radius_m: float, *, wanted: Sequence[Cells] = ()
+    ) -> NDArray[np.bool_]:
+        """Return True for places (x, z) within a distance of ground that a car holds, or wants; shape (n,)."""
+        own = slice(int(self._first[layer]), int(self._first[layer + 1]))
+        held = self.owner > 0
+        for cells in wanted:
+            held[cells] = True
+        held = held[own].reshape(int(self._rows[layer]), int(self._columns[layer]))
+        reach = math.ceil(radius_m / CELL_M)
+        steps = np.arange(-reach, reach + 1) * CELL_M
+        disc = np.hypot(steps[:, None], steps[None, :]) <= radius_m
+        near = binary_dilation(held, disc)
+        cells = np.round(places / CELL_M).astype(np.int64) - self._low[layer]
+        found: NDArray[np.bool_] = near[cells[:, 1], cells[:, 0]]
+        return found
 
     def is_free(self, cells: Cells, agent: int) -> bool:
         """Return True if cells are held by nobody but a car itself."""

@@ -47,7 +47,7 @@ class _Visit:
     driver: Driver | None = None
     trips: list[tuple[Driver, float, float]] = field(default_factory=list)
     asked_s: float = math.inf
-    parked_spans: list[tuple[float, float]] = field(default_factory=list)
+    before: list[Driver] = field(default_factory=list)
     is_called: bool = False
 
 
@@ -112,7 +112,8 @@ class Operation:
             end_m += length_m
             layer = len(self.garage.levels) + level if is_ramp else level
             stretches.append(Stretch(end_m, layer, None if is_ramp else level))
-        return Trip(found.path, found.spans, stretches, car=self.hull, settings=self._settings, lanes=self._lanes)
+        return Trip(found.path, found.spans, stretches, car=self.hull, settings=self._settings, lanes=self._lanes,
+            keeps_left=self._planner.keeps_left)
 
     def run(self, settings: TrafficConfig, *, seed: int = 0, progress: Progress = silent) -> Tracks:
         """Operate the garage for some minutes.
@@ -138,6 +139,7 @@ class _Run:
         self.cars = Simulation(self.ground, operation._settings)  # noqa: SLF001 - the run is the operation's own
         self.draw = generator(seed, Step.TRAFFIC_CARS)
         self.people = operation.walkers.begin(self.ground, generator(seed, Step.TRAFFIC_PEOPLE))
+        self.people.wanted = self.cars.wanted
         self.log: list[str] = []
         self.counts: Counter[str] = Counter()
         stalls = {stall.name: stall for stall in operation.garage.stalls}
@@ -162,10 +164,15 @@ class _Run:
         demand = drawn_demand(settings, len(movable), capacity, generator(seed, Step.TRAFFIC))
         for visit, leave_s in zip(movable, demand.leave_s, strict=True):
             visit.leave_s = leave_s
-        self.staying = [visit for visit in movable if math.isfinite(visit.leave_s)]
+        self.staying = [visit for visit in movable if math.isfinite(visit.leave_s) and self._leads_out(visit)]
         self.arrivals = list(demand.arrivals)
         self.number = len(standing)
         self.street: list[tuple[_Visit, float]] = []
+
+    def _leads_out(self, visit: _Visit) -> bool:
+        """Return True if a path leads out of a stall for a car as it is parked at the start."""
+        assert visit.stall is not None
+        return self.operation.trip(visit.stall, Leg.OUT, visit.parked) is not None
 
     @property
     def now_s(self) -> float:
@@ -187,6 +194,7 @@ class _Run:
             if step % 5 == 0:
                 self._admit()
                 self._call()
+                self._reconsider()
             self.people.advance(self.cars.step, self.now_s)
             self.cars.advance(self._ended)
         return Tracks(
@@ -197,7 +205,7 @@ class _Run:
             {
                 "seed": self.seed,
                 "settings": self.settings.model_dump(mode="json"),
-                **{name: self.counts[name] for name in ("arrivals", "departures", "turned_away", "walks")},
+                **{name: self.counts[name] for name in ("arrivals", "departures", "turned_away", "changed", "walks")},
             },
             tuple(self.log),
         )
@@ -244,6 +252,29 @@ class _Run:
             return True
         return False
 
+    def _reconsider(self) -> None:
+        """Let drivers who cannot go on to their stall choose another one that lies on their way."""
+        for driver in self.cars.drivers[:]:
+            waited = self.cars.step - driver.waits_since if driver.waits_since >= 0 else 0
+            visit: _Visit = driver.visit  # type: ignore[attr-defined]
+            if waited * STEP_S < _PATIENCE_S or visit.is_called or visit.stall is None:
+                continue
+            driver.waits_since = self.cars.step
+            old = visit.stall
+            if not self._choose(visit):
+                continue
+            trip = self.operation.trip(visit.stall, Leg.IN)
+            assert trip is not None
+            other = self.cars.change_trip(driver, trip)
+            if other is None:
+                self.taken.discard(visit.stall.name)
+                visit.stall = old
+                continue
+            self.taken.discard(old.name)
+            self.counts["changed"] += 1
+            other.visit, visit.driver = visit, other  # type: ignore[attr-defined]
+            visit.before.append(driver)
+
     def _call(self) -> None:
         """Let drivers walk to their cars when their stays end, and cars leave when the drivers are there."""
         for visit in self.staying[:]:
@@ -261,10 +292,7 @@ class _Run:
     def _leave(self, visit: _Visit) -> None:
         assert visit.stall is not None
         trip = self.operation.trip(visit.stall, Leg.OUT, visit.parked)
-        if trip is None:
-            self.log.append(f"{self.now_s:.1f} s: {visit.car.agent.name} stays, as no path leads out of its stall")
-            self.staying.remove(visit)
-            return
+        assert trip is not None
         driver = self.cars.try_start(visit.car.number, trip)
         if driver is None:
             return
@@ -322,7 +350,7 @@ def _outline(middle: tuple[float, float], yaw_rad: float, half_m: float, width_m
 def _track_of(visit: _Visit, end_s: float) -> Track:
     """Return the track of a car from its trips."""
     agent = visit.car.agent
-    drivers = [driver for driver, _, _ in visit.trips]
+    drivers = [*visit.before, *(driver for driver, _, _ in visit.trips)]
     if visit.driver is not None and visit.driver not in drivers:
         drivers.append(visit.driver)
     parts, times, states, levels = [], [], [], []
@@ -348,7 +376,7 @@ def _track_of(visit: _Visit, end_s: float) -> Track:
     pose, time = np.concatenate(parts), np.concatenate(times)
     state, level = np.concatenate(states), np.concatenate(levels)
     speed, acceleration = np.concatenate(speeds), np.concatenate(accelerations)
-    for number in range(len(drivers) - 1):
+    for number in range(len(visit.before), len(drivers) - 1):
         ends = sum(len(each) for each in times[: number + 1])
         state[ends - 1] = state[ends] = int(AgentState.PARKED)
     columns = [pose, time, state, level, speed, acceleration]

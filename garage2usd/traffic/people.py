@@ -1,7 +1,7 @@
 """People who walk between cars and stair cores, on ground that they reserve a step ahead."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -13,7 +13,7 @@ from garage2usd.garage import Stall
 from garage2usd.native import elementary
 from garage2usd.traffic.ground import Cells, Floats, Ground
 from garage2usd.traffic.simulation import STEP_S
-from garage2usd.traffic.walking import PERSON_RADIUS_M, Walkways
+from garage2usd.traffic.walking import BREADTH_M, DEPTH_M, PERSON_RADIUS_M, Walkways
 
 _SLICE_M = 0.4
 _SPEED_M_S, _SPREAD_M_S = 1.34, 0.2
@@ -26,8 +26,7 @@ _OUT_M = 0.6
 _GET_OUT_S = (6.0, 20.0)
 _GET_IN_S = (5.0, 12.0)
 _TALL_M = 1.72
-_RETRY_STEPS = 3
-_HALF_M = PERSON_RADIUS_M
+_RETRY_STEPS, _PATIENCE_STEPS = 3, 18
 
 Outlines = Mapping[int, tuple[int, shapely.Polygon]]
 
@@ -48,6 +47,12 @@ class Walker:
         Corners (x, z) of the walk.
     begin_step
         Step at which the walk may begin.
+    tail
+        Number of corners at the end that stay when the walk is changed: those beside the car.
+    goal
+        Corners at the end of the walk of a person who has stepped aside for a car.
+    legs
+        Corners and samples of the parts before such changes.
     """
 
     name: str
@@ -63,8 +68,12 @@ class Walker:
     held: int = 0
     freed: int = 0
     retry_at: int = 0
+    blocked_steps: int = 0
+    tail: int = 0
+    goal: Floats | None = None
     cells: list[Cells] = field(default_factory=list)
     samples: list[tuple[int, float, float, int]] = field(default_factory=list)
+    legs: list[tuple[Floats, list[tuple[int, float, float, int]]]] = field(default_factory=list)
 
     @property
     def lengths_m(self) -> Floats:
@@ -74,11 +83,11 @@ class Walker:
     @property
     def is_done(self) -> bool:
         """True at the end of the walk."""
-        return self.way_m >= float(self._length_m) - 1e-6
+        return self.way_m >= self.length_m - 1e-6
 
     def __post_init__(self) -> None:
         """Measure the walk."""
-        self._length_m = float(self.lengths_m[-1])
+        self.length_m = float(self.lengths_m[-1])
 
     def places(self, ways: Floats) -> Floats:
         """Return (x, z) at distances along the walk; shape (n, 2)."""
@@ -111,7 +120,13 @@ def _mouth(stall: Stall) -> tuple[float, float]:
 
 
 class People:
-    """The people of a run."""
+    """The people of a run.
+
+    Attributes
+    ----------
+    wanted
+        Returns the ground that a car wants next, by its number.
+    """
 
     def __init__(
         self, levels: list[Walkways], floors_m: list[float], ground: Ground, draw: np.random.Generator
@@ -121,6 +136,7 @@ class People:
         self._walking: list[Walker] = []
         self._all: list[Walker] = []
         self._there: set[int] = set()
+        self.wanted: Callable[[int], list[Cells]] = lambda _: []
         self._coming: set[int] = set()
 
     def to_car(self, car: int, stall: Stall | None, outline: tuple[int, shapely.Polygon], others: Outlines) -> None:
@@ -131,7 +147,7 @@ class People:
             self._there.add(car)
             return
         self._coming.add(car)
-        self._add(car, stall.level, corners[::-1], 0.0, self._draw.uniform(*_GET_IN_S))
+        self._add(car, stall.level, corners[::-1], 0.0, self._draw.uniform(*_GET_IN_S), tail=2)
 
     def from_car(
         self, car: int, stall: Stall | None, outline: tuple[int, shapely.Polygon], others: Outlines, now_s: float
@@ -147,19 +163,58 @@ class People:
         """Return True if the driver of a car has come to it, or can only appear in it."""
         return car in self._there
 
-    def _add(self, car: int, level: int, corners: Floats, begin_s: float, pause_s: float) -> None:
+    def _add(
+        self, car: int, level: int, corners: Floats, begin_s: float, pause_s: float, *, tail: int = 1
+    ) -> None:
         speed = float(np.clip(self._draw.normal(_SPEED_M_S, _SPREAD_M_S), 0.8, 1.8))
         height = float(np.clip(self._draw.normal(_TALL_M, 0.08), 1.5, 1.95))
         name = f"person_{len(self._all) + 1:04}"
         walker = Walker(name, car, level, corners, speed, height, round(begin_s / STEP_S), round(pause_s / STEP_S))
-        count = max(math.ceil(walker._length_m / _SLICE_M), 1)  # noqa: SLF001 - its own maker
-        ways = np.linspace(0.0, count * _SLICE_M, 2 * count + 1)
-        discs = self._ground.discs(walker.places(ways), PERSON_RADIUS_M + _BESIDE_M, level)
-        walker.cells = [
-            np.unique(np.concatenate(discs[2 * number : 2 * number + 3])) for number in range(count)
-        ]
+        walker.tail = tail
+        walker.cells = self._cells(walker)
         self._all.append(walker)
         self._walking.append(walker)
+
+    def _cells(self, walker: Walker) -> list[Cells]:
+        """Return the cells of each slice of a walk."""
+        count = max(math.ceil(walker.length_m / _SLICE_M), 1)
+        ways = np.linspace(0.0, count * _SLICE_M, 2 * count + 1)
+        discs = self._ground.discs(walker.places(ways), PERSON_RADIUS_M + _BESIDE_M, walker.level)
+        return [np.unique(np.concatenate(discs[2 * number : 2 * number + 3])) for number in range(count)]
+
+    def _go_around(self, walker: Walker) -> None:
+        """Change the walk of a person who is blocked, around the ground that cars hold, or out of their way."""
+        ((x, z),) = walker.places(np.array([walker.way_m])).tolist()
+        tail = walker.goal if walker.goal is not None else walker.corners[-walker.tail :]
+        tail_m = float(np.hypot(*np.diff(tail, axis=0).T).sum())
+        if walker.goal is None and walker.way_m >= walker.length_m - tail_m - _SLICE_M:
+            return
+        ways, end = self._levels[walker.level], (float(tail[0][0]), float(tail[0][1]))
+        found = ways.around((x, z), end, self._ground, walker.level)
+        if found is not None and self._turn(walker, np.concatenate([found, tail])):
+            walker.goal = None
+            return
+        if walker.goal is None:
+            blocking = walker.cells[walker.held]
+            cars = {int(number) for number in np.unique(self._ground.owner[blocking]) if number > 0}
+            wanted = [cells for car in sorted(cars) for cells in self.wanted(car)]
+            found = ways.around((x, z), None, self._ground, walker.level, wanted=wanted)
+            if found is not None and self._turn(walker, found):
+                walker.goal = tail
+
+    def _turn(self, walker: Walker, corners: Floats) -> bool:
+        """Let a person go on along other corners if the first step is free."""
+        other = Walker(walker.name, walker.car, walker.level, corners, walker.speed_m_s, walker.height_m, 0)
+        cells = self._cells(other)
+        if (self._ground.owner[cells[0]] > 0).any():
+            return False
+        for number in range(walker.freed, walker.held):
+            self._ground.people[walker.cells[number]] -= 1
+        self._ground.people[cells[0]] += 1
+        walker.legs.append((walker.corners, walker.samples))
+        walker.corners, walker.length_m, walker.cells, walker.samples = other.corners, other.length_m, cells, []
+        walker.way_m, walker.now_m_s, walker.held, walker.freed, walker.retry_at = 0.0, 0.0, 1, 0, 0
+        return True
 
     def _between(
         self, car: int, stall: Stall, outline: tuple[int, shapely.Polygon], others: Outlines
@@ -178,12 +233,12 @@ class People:
         near = [shape for number, (own, shape) in others.items() if own == level and number != car]
         near = [shape for shape in near if shape.distance(ground) < 2.0]  # noqa: PLR2004
         for side in (1.0, -1.0):
-            aside = side * (half_m + _BESIDE_M + PERSON_RADIUS_M) * left
+            aside = side * (half_m + _BESIDE_M + BREADTH_M / 2) * left
             door = middle + 0.3 * along + aside
             out_m = max(float((mouth - door) @ outwards), 0.0) + _OUT_M
             out = door + out_m * outwards
             line = shapely.LineString([door, out])
-            if all(shape.distance(line) >= PERSON_RADIUS_M + _BESIDE_M for shape in near) and self._is_clear(level, line):
+            if all(shape.distance(line) >= BREADTH_M / 2 + _BESIDE_M for shape in near) and self._is_clear(level, line):
                 break
         else:
             end = front if float((front - mouth) @ (front - mouth)) < float((rear - mouth) @ (rear - mouth)) else rear
@@ -205,6 +260,11 @@ class People:
             self._advance(walker, step)
 
     def _advance(self, walker: Walker, step: int) -> None:
+        if walker.is_done and walker.goal is not None:
+            walker.samples.append((step, walker.way_m, 0.0, int(AgentState.STANDS)))
+            if step % _PATIENCE_STEPS == 0:
+                self._go_around(walker)
+            return
         if walker.is_done:
             if walker.pause_steps:
                 walker.pause_steps -= 1
@@ -223,12 +283,17 @@ class People:
             cells = walker.cells[walker.held]
             if (self._ground.owner[cells] > 0).any():
                 walker.retry_at = step + _RETRY_STEPS
+                walker.blocked_steps += _RETRY_STEPS
                 break
+            walker.blocked_steps = 0
             self._ground.people[cells] += 1
             walker.held += 1
         if walker.held == 0:
             return
-        held_m = walker._length_m if walker.held == len(walker.cells) else walker.held * _SLICE_M  # noqa: SLF001
+        if walker.blocked_steps >= _PATIENCE_STEPS:
+            walker.blocked_steps = 0
+            self._go_around(walker)
+        held_m = walker.length_m if walker.held == len(walker.cells) else walker.held * _SLICE_M
         before, left = walker.now_m_s, held_m - walker.way_m
         most = math.sqrt(2 * _ACCELERATION_M_S2 * max(left - before * STEP_S / 2, 0.0))
         speed = min(before + _ACCELERATION_M_S2 * STEP_S, walker.speed_m_s, most)
@@ -245,28 +310,36 @@ class People:
     def tracks(self) -> Iterator[Track]:
         """Yield the tracks of all people who have walked."""
         for walker in self._all:
-            if len(walker.samples) > 1:
+            if len(walker.samples) + sum(len(samples) for _, samples in walker.legs) > 1:
                 yield _track(walker, self._floors_m[walker.level])
 
 
 def _track(walker: Walker, floor_m: float) -> Track:
-    steps, ways, speed, state = (np.array(column) for column in zip(*walker.samples, strict=True))
-    places = walker.places(ways)
-    ahead = walker.places(np.minimum(ways + _TURN_M, walker._length_m)) - walker.places(np.maximum(ways - _TURN_M, 0.0))  # noqa: SLF001
-    yaw = np.unwrap(elementary.arctan2(-ahead[:, 0], -ahead[:, 1]))
-    zero = np.zeros(len(ways))
-    agent = Agent(walker.name, AgentClass.PERSON, 2 * _HALF_M, 2 * _HALF_M, round(walker.height_m, 2))
+    columns, headings = [], []
+    for corners, samples in [*walker.legs, (walker.corners, walker.samples)]:
+        if not samples:
+            continue
+        leg = Walker(walker.name, walker.car, walker.level, corners, walker.speed_m_s, walker.height_m, 0)
+        steps, ways, speed, state = (np.array(column) for column in zip(*samples, strict=True))
+        places = leg.places(ways)
+        ahead = leg.places(np.minimum(ways + _TURN_M, leg.length_m)) - leg.places(np.maximum(ways - _TURN_M, 0.0))
+        columns.append(np.stack([steps * STEP_S, *places.T, speed, state], axis=1))
+        headings.append(elementary.arctan2(-ahead[:, 0], -ahead[:, 1]))
+    time, x, z, speed, state = np.concatenate(columns).T
+    yaw = np.unwrap(np.concatenate(headings))
+    zero = np.zeros(len(time))
+    agent = Agent(walker.name, AgentClass.PERSON, DEPTH_M, BREADTH_M, round(walker.height_m, 2))
     return Track(
         agent,
-        np.round(steps * STEP_S, 3),
-        places[:, 0],
+        np.round(time, 3),
+        x,
         zero + floor_m,
-        places[:, 1],
+        z,
         yaw,
         zero,
         speed,
         np.diff(speed, append=speed[-1]) / STEP_S,
         zero,
         state.astype(np.int8),
-        np.full(len(ways), walker.level, dtype=np.int8),
+        np.full(len(time), walker.level, dtype=np.int8),
     )

@@ -9,9 +9,11 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from garage2usd.config.outputs import DriveConfig
 from garage2usd.driving.tracks import AgentState
-from garage2usd.traffic.ground import Ground
+from garage2usd.traffic.ground import Cells, Ground
 from garage2usd.traffic.trips import SLICE_M, Trip
 
 STEP_S = 0.1
@@ -21,7 +23,7 @@ which takes up to 3.4 m/s2."""
 _MOST_BRAKING_M_S2 = 3.4
 _AHEAD_M = 2.5
 """Ground held beyond the braking distance in metres."""
-_RETRY_STEPS = 4
+_RETRY_STEPS, _LOOK_SLICES = 4, 12
 _NEAR_M = 0.002
 
 
@@ -41,6 +43,8 @@ class Driver:
         Number of slices held, from the first one on.
     freed
         Number of slices that were released again.
+    kept
+        Number of them before all were.
     samples
         Step, distance, speed and state at each step.
     """
@@ -51,6 +55,7 @@ class Driver:
     speed_m_s: float = 0.0
     held: int = 0
     freed: int = 0
+    kept: int = 0
     pause_steps: int = 0
     next_stop: int = 0
     retry_at: int = 0
@@ -83,6 +88,26 @@ class Simulation:
         driver.samples.append((self.step, 0.0, 0.0, int(AgentState.DRIVES)))
         return driver
 
+    def change_trip(self, driver: Driver, trip: Trip) -> Driver | None:
+        """Let a waiting car go on along another trip that passes its pose; None if that is not possible."""
+        here = np.array([driver.way_m])
+        x, _, z, yaw, _, _ = driver.trip.states(here)[0]
+        way_m = trip.way_through(np.array([x, z, yaw]), int(driver.trip.levels(here)[0]))
+        if way_m is None or way_m >= trip.length_m - SLICE_M:
+            return None
+        self.leave_ground(driver)
+        other = Driver(driver.number, trip, way_m)
+        other.held = other.freed = int(way_m / SLICE_M)
+        other.next_stop = sum(stop.way_m <= way_m for stop in trip.stops)
+        if not self._extend(other, way_m):
+            cells = driver.trip.cells(self.ground)
+            for number in range(driver.kept, driver.held):
+                self.ground.hold(cells[number], driver.number)
+            driver.freed = driver.kept
+            return None
+        self.drivers[self.drivers.index(driver)] = other
+        return other
+
     def advance(self, ended: Callable[[Driver], None]) -> None:
         """Advance all cars by a step; those at the ends of their trips are handed over and leave the simulation."""
         self.step += 1
@@ -91,6 +116,15 @@ class Simulation:
             if driver.way_m >= driver.trip.length_m - 1e-6 and driver.next_stop >= len(driver.trip.stops):
                 self.drivers.remove(driver)
                 ended(driver)
+
+    def wanted(self, number: int) -> list[Cells]:
+        """Return the cells that a car wants next: of the slices up to the second place to wait."""
+        for driver in self.drivers:
+            if driver.number == number and driver.held < driver.trip.slices:
+                groups = driver.trip.groups
+                last = groups[min(groups[driver.held] + _LOOK_SLICES, driver.trip.slices - 1)]
+                return driver.trip.cells(self.ground)[driver.freed : last + 1]
+        return []
 
     def _extend(self, driver: Driver, wanted_m: float) -> bool:
         """Hold the ground up to a distance, and on to a place to wait; return False if some of it is not free."""
@@ -157,4 +191,4 @@ class Simulation:
         cells = driver.trip.cells(self.ground)
         for number in range(driver.freed, driver.held):
             self.ground.release(cells[number])
-        driver.freed = driver.held
+        driver.kept, driver.freed = driver.freed, driver.held

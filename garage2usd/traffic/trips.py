@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config.outputs import DriveConfig
-from garage2usd.driving import DesignCar, Pose
+from garage2usd.driving import DesignCar
 from garage2usd.driving.path import Path
 from garage2usd.driving.road import FloorSpan
 from garage2usd.driving.timing import timed
@@ -23,6 +23,7 @@ SLICE_M = 0.5
 _LIMIT_STEP_M = 0.1
 _NODES_A_SLICE = 3
 _IN_LINE = 0.995
+_SAME_M, _SAME_RAD = 2e-3, 1e-3
 _OWN_HALF_M = 0.05
 """Least distance of a waiting car from the middle of an aisle for two-way traffic."""
 _ABREAST_M = 2.1
@@ -77,6 +78,8 @@ class Trip:
         The car, and the limits of its motion.
     lanes
         The lane graph of each level.
+    keeps_left
+        True where traffic keeps to the left.
 
     Attributes
     ----------
@@ -101,8 +104,10 @@ class Trip:
         car: DesignCar,
         settings: DriveConfig,
         lanes: Sequence[LaneGraph],
+        keeps_left: bool = False,
     ) -> None:
         self.path, self.car, self.stretches, self._lanes = path, car, tuple(stretches), lanes
+        self._keeps_left = keeps_left
         motion = timed(path, settings, car=car, spans=spans)
         self._motion = motion
         starts = np.cumsum([0.0, *(float(run.way_m[-1]) for run in motion.runs)])
@@ -218,7 +223,7 @@ class Trip:
                 if one_way:
                     here &= same > 0
                 else:
-                    aside = np.abs(right)
+                    aside = right * np.sign(same) * (-1 if self._keeps_left else 1)
                     here &= (aside >= self.car.width_m / 2 + _OWN_HALF_M) & (
                         aside - self.car.width_m / 2 + width_m / 2 >= _ABREAST_M
                     )
@@ -288,10 +293,20 @@ class Trip:
         numbers = np.searchsorted(ends[:-1], plan, side="right")
         return np.array(levels, dtype=np.int8)[numbers]
 
-    @property
-    def start(self) -> Pose:
-        """First pose."""
-        return self.path.start
+    def way_through(self, pose: Floats, level: int) -> float | None:
+        """Return the distance along the floor at which the trip passes a pose (x, z, yaw) of a level; None if nowhere."""
+        poses, _ = self._nodes
+        away = np.hypot(*(poses[:, :2] - pose[:2]).T)
+        node = int(away.argmin())
+        if away[node] > SLICE_M / 2:
+            return None
+        way = node * SLICE_M / (_NODES_A_SLICE - 1)
+        ahead = np.array([-elementary.sin(pose[2]), -elementary.cos(pose[2])])
+        way += float((pose[:2] - poses[node, :2]) @ ahead)
+        at = self.states(np.array([way]))[0]
+        is_same = math.hypot(at[0] - pose[0], at[2] - pose[1]) < _SAME_M
+        is_same = is_same and abs(math.remainder(at[3] - pose[2], math.tau)) < _SAME_RAD
+        return way if is_same and int(self.levels(np.array([way]))[0]) == level else None
 
 
 @lru_cache(maxsize=64)

@@ -13,10 +13,12 @@ from garage2usd.as_built.core_reader import core_doors
 from garage2usd.as_built.level import BuiltLevel
 from garage2usd.garage import Point
 from garage2usd.objects import CAR_LABELS
+from garage2usd.traffic.ground import Cells, Ground
 
 Floats = NDArray[np.float64]
-PERSON_RADIUS_M = 0.23
-"""Half of the breadth across the shoulders (0.46 m, DIN 33402-2, 50th percentile)."""
+BREADTH_M, DEPTH_M = 0.46, 0.30
+"""Size of a person seen from above (DIN 33402-2, 50th percentile: 0.46 m across the shoulders)."""
+PERSON_RADIUS_M = math.hypot(BREADTH_M, DEPTH_M) / 2
 _GRID_M = 0.4
 _CLEAR_M = 0.3
 _HEAD_M = 2.0
@@ -25,6 +27,7 @@ _MIDDLE_COST = 1.6
 """Cost of the middle of an aisle, as a factor on that of its sides along the mouths of stalls."""
 _SIDE_M = 1.4
 _TO_DOOR_M, _TRIED = 4.0, 16
+_AROUND_M, _ASIDE_M = 0.25, 1.5
 
 
 class Walkways:
@@ -141,6 +144,42 @@ class Walkways:
         while before[numbers[-1]] >= 0:
             numbers.append(int(before[numbers[-1]]))
         return np.array([np.array(place), *self._straightened(self._free[numbers])])
+
+    def around(
+        self, start: Point, end: Point | None, ground: Ground, layer: int, *, wanted: Sequence[Cells] = ()
+    ) -> Floats | None:
+        """Return the corners (x, z) of the shortest walk between two places around the ground that cars hold.
+
+        The walk goes over the grid; None if cars block all. Without an end it leads to the nearest place out of the way
+        of the cars that want some ground.
+        """
+        clear_m = PERSON_RADIUS_M + _AROUND_M
+        is_kept = ~ground.near_cars(self._free, layer, clear_m)
+        other = None if end is None else self._nearest(end, 3.0)
+        if other is not None:
+            is_kept[other] = True
+        elif end is not None:
+            return None
+        away = np.where(is_kept, np.hypot(*(self._free - np.array(start)).T), np.inf)
+        one = int(away.argmin())
+        if away[one] > _ASIDE_M:
+            return None
+        kept = np.flatnonzero(is_kept)
+        number = np.cumsum(is_kept) - 1
+        cost, before = dijkstra(self._graph[kept][:, kept], indices=number[one], return_predecessors=True)
+        if other is None:
+            is_aside = ~ground.near_cars(self._free[kept], layer, clear_m + _AROUND_M, wanted=wanted)
+            at = int(np.where(is_aside, cost, np.inf).argmin())
+            if not is_aside[at]:
+                return None
+        else:
+            at = int(number[other])
+        if not math.isfinite(cost[at]):
+            return None
+        numbers = [at]
+        while before[numbers[-1]] >= 0:
+            numbers.append(int(before[numbers[-1]]))
+        return np.array([start, *self._free[kept[numbers[::-1]]]])
 
     def _straightened(self, places: Floats) -> Sequence[Floats]:
         kept = [places[0]]
