@@ -70,7 +70,9 @@ def traffic(
     for output in outputs:
         write_tracks(output, tracks, source.garage)
     facts = tracks.facts
-    click.echo(f"{facts['arrivals']:>6}  cars arrive, {facts['departures']} leave, {facts['turned_away']} find no stall")
+    click.echo(
+        f"{facts['arrivals']:>6}  cars arrive, {facts['departures']} leave, {facts['turned_away']} find no stall"
+    )
     click.echo(f"{facts['walks']:>6}  walks")
     for line in tracks.log[:_SHOWN]:
         click.echo(line)

@@ -68,9 +68,7 @@ def parked_cars(garage: BuiltGarage, *, free: Collection[str] = ()) -> list[Park
     A car looks to its own -Z, as those of garage2usd's catalogue do; its name in a scenario is ``Car_1`` and so on. The
     box excludes the mirrors, whose width would block passing cars. ASAM OSI also defines vehicle boxes without mirrors.
     """
-    cars = [
-        replace(car, level=number) for number, level in enumerate(garage.levels) for car in _on_level(level, free)
-    ]
+    cars = [replace(car, level=number) for number, level in enumerate(garage.levels) for car in _on_level(level, free)]
     return [replace(car, name=f"Car_{number}") for number, car in enumerate(cars, 1)]
 
 

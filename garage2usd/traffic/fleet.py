@@ -82,9 +82,11 @@ def standing_cars(garage: BuiltGarage) -> list[Car]:
     for number, each in enumerate(parked_cars(garage), 1):
         body = min(
             CAR_BODIES,
-            key=lambda known: abs(known.length_m - each.length_m)  # noqa: B023 - used at once
-            + abs(known.width_m - each.width_m)  # noqa: B023
-            + abs(known.height_m - each.height_m),  # noqa: B023
+            key=lambda known: (
+                abs(known.length_m - each.length_m)
+                + abs(known.width_m - each.width_m)
+                + abs(known.height_m - each.height_m)
+            ),
         )
         is_same = max(abs(body.length_m - each.length_m), abs(body.width_m - each.width_m)) <= _ALIKE_M
         found.append(Car(number, body if is_same else None, PAINTS[0], each))

@@ -24,7 +24,7 @@ from garage2usd.native import elementary
 from garage2usd.traffic.demand import drawn_demand
 from garage2usd.traffic.fleet import HULLS, Car, drawn_car, lies_within, standing_cars
 from garage2usd.traffic.ground import Ground
-from garage2usd.traffic.people import Walker, Walkers
+from garage2usd.traffic.people import Walkers
 from garage2usd.traffic.simulation import STEP_S, Driver, Simulation
 from garage2usd.traffic.trips import Stretch, Trip
 
@@ -112,8 +112,15 @@ class Operation:
             end_m += length_m
             layer = len(self.garage.levels) + level if is_ramp else level
             stretches.append(Stretch(end_m, layer, None if is_ramp else level))
-        return Trip(found.path, found.spans, stretches, car=self.hull, settings=self._settings, lanes=self._lanes,
-            keeps_left=self._planner.keeps_left)
+        return Trip(
+            found.path,
+            found.spans,
+            stretches,
+            car=self.hull,
+            settings=self._settings,
+            lanes=self._lanes,
+            keeps_left=self._planner.keeps_left,
+        )
 
     def run(self, settings: TrafficConfig, *, seed: int = 0, progress: Progress = silent) -> Tracks:
         """Operate the garage for some minutes.
@@ -146,12 +153,13 @@ class _Run:
         self.outlines: dict[int, tuple[int, shapely.Polygon]] = {}
         self.taken: set[str] = set()
         self.visits: list[_Visit] = []
+        self.of_car: dict[int, _Visit] = {}
         capacity = len(operation.stalls)
         movable = []
         for car in standing:
             assert car.stands is not None
             stall = stalls.get(car.stands.stall)
-            visit = _Visit(car, stall)
+            visit = self.of_car[car.number] = _Visit(car, stall)
             if stall is not None:
                 self.taken.add(stall.name)
                 visit.parked = car.parked_pose
@@ -215,7 +223,8 @@ class _Run:
         while self.arrivals and self.arrivals[0][0] <= self.now_s:
             time, stay = self.arrivals.pop(0)
             self.number += 1
-            visit = _Visit(drawn_car(self.number, self.operation.hull, self.draw))
+            car = drawn_car(self.number, self.operation.hull, self.draw)
+            visit = self.of_car[car.number] = _Visit(car)
             if self._choose(visit):
                 visit.leave_s = time + stay
                 self.street.append((visit, self.now_s))
@@ -228,7 +237,6 @@ class _Run:
             assert trip is not None
             visit.driver = self.cars.try_start(visit.car.number, trip)
             if visit.driver is not None:
-                visit.driver.visit = visit  # type: ignore[attr-defined]
                 self.street.remove((visit, since))
                 self.visits.append(visit)
                 self.counts["arrivals"] += 1
@@ -242,7 +250,9 @@ class _Run:
         """Choose a free stall near a stair core for an arriving car."""
         free = [stall for stall in self.operation.stalls if stall.name not in self.taken]
         noise = self.draw.exponential(_NOISE_M, len(free))
-        costs = [self.operation.walkers.distance_m(stall) + far for stall, far in zip(free, noise.tolist(), strict=True)]
+        costs = [
+            self.operation.walkers.distance_m(stall) + far for stall, far in zip(free, noise.tolist(), strict=True)
+        ]
         for index in np.argsort(costs, kind="stable").tolist()[: 4 * _CHOICES]:
             stall = free[index]
             if self.operation.trip(stall, Leg.IN) is None or self.operation.trip(stall, Leg.OUT) is None:
@@ -256,7 +266,7 @@ class _Run:
         """Let drivers who cannot go on to their stall choose another one that lies on their way."""
         for driver in self.cars.drivers[:]:
             waited = self.cars.step - driver.waits_since if driver.waits_since >= 0 else 0
-            visit: _Visit = driver.visit  # type: ignore[attr-defined]
+            visit = self.of_car[driver.number]
             if waited * STEP_S < _PATIENCE_S or visit.is_called or visit.stall is None:
                 continue
             driver.waits_since = self.cars.step
@@ -272,7 +282,7 @@ class _Run:
                 continue
             self.taken.discard(old.name)
             self.counts["changed"] += 1
-            other.visit, visit.driver = visit, other  # type: ignore[attr-defined]
+            visit.driver = other
             visit.before.append(driver)
 
     def _call(self) -> None:
@@ -296,7 +306,6 @@ class _Run:
         driver = self.cars.try_start(visit.car.number, trip)
         if driver is None:
             return
-        driver.visit = visit  # type: ignore[attr-defined]
         visit.driver = driver
         self.outlines.pop(visit.car.number, None)
         self.staying.remove(visit)
@@ -306,7 +315,7 @@ class _Run:
 
     def _ended(self, driver: Driver) -> None:
         """Park a car that has reached its stall, or let one drive off that has reached the street."""
-        visit: _Visit = driver.visit  # type: ignore[attr-defined]
+        visit = self.of_car[driver.number]
         is_in = not visit.trips or visit.trips[-1][0] is not driver
         is_in = is_in and not visit.is_called
         visit.trips.append((driver, driver.samples[0][0] * STEP_S, self.now_s))

@@ -163,9 +163,7 @@ class People:
         """Return True if the driver of a car has come to it, or can only appear in it."""
         return car in self._there
 
-    def _add(
-        self, car: int, level: int, corners: Floats, begin_s: float, pause_s: float, *, tail: int = 1
-    ) -> None:
+    def _add(self, car: int, level: int, corners: Floats, begin_s: float, pause_s: float, *, tail: int = 1) -> None:
         speed = float(np.clip(self._draw.normal(_SPEED_M_S, _SPREAD_M_S), 0.8, 1.8))
         height = float(np.clip(self._draw.normal(_TALL_M, 0.08), 1.5, 1.95))
         name = f"person_{len(self._all) + 1:04}"
@@ -216,9 +214,7 @@ class People:
         walker.way_m, walker.now_m_s, walker.held, walker.freed, walker.retry_at = 0.0, 0.0, 1, 0, 0
         return True
 
-    def _between(
-        self, car: int, stall: Stall, outline: tuple[int, shapely.Polygon], others: Outlines
-    ) -> Floats | None:
+    def _between(self, car: int, stall: Stall, outline: tuple[int, shapely.Polygon], others: Outlines) -> Floats | None:
         """Return the walk from the door of a car to the stair core."""
         level, ground = outline
         corners = np.array(shapely.get_coordinates(ground))[:4]

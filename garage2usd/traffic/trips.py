@@ -128,7 +128,7 @@ class Trip:
             limits[here] = np.maximum(np.interp(steps[here] - start, run.way_m, run.speed_m_s), ahead)
             # and what limits it before one is the braking, likewise
             braking = np.sqrt(2 * settings.acceleration_m_s2 * np.maximum(start + run.way_m[-1] - steps[here], 0.0))
-            limits[here] += np.where(limits[here] > 0.98 * braking, 0.5, 0.0)  # noqa: PLR2004
+            limits[here] += np.where(limits[here] > 0.98 * braking, 0.5, 0.0)
         self.limits_m_s: list[float] = np.maximum(limits, 0.1).tolist()
 
     @property

@@ -42,10 +42,7 @@ class Walkways:
     def __init__(self, level: BuiltLevel) -> None:
         quads = shapely.polygons(np.array([stall.corners for stall in level.stalls]).reshape(-1, 4, 2))
         standing = [
-            piece
-            for _, label, pieces in level.solids.grounds(_HEAD_M)
-            if label not in CAR_LABELS
-            for piece in pieces
+            piece for _, label, pieces in level.solids.grounds(_HEAD_M) if label not in CAR_LABELS for piece in pieces
         ]
         cars = [ground for ground, _ in level.cars.values()]
         self.standing = shapely.union_all(standing)
@@ -79,9 +76,7 @@ class Walkways:
         entries = [self._nearest(door, _TO_DOOR_M) for door in self.doors]
         self.doors = tuple(door for door, entry in zip(self.doors, entries, strict=True) if entry is not None)
         self._entries = [entry for entry in entries if entry is not None]
-        self._fields = [
-            dijkstra(self._graph, indices=entry, return_predecessors=True) for entry in self._entries
-        ]
+        self._fields = [dijkstra(self._graph, indices=entry, return_predecessors=True) for entry in self._entries]
 
     def _connected(self, is_free: NDArray[np.bool_], lanes: shapely.Geometry) -> coo_matrix:
         number = self._number.reshape(self._shape)
@@ -188,7 +183,10 @@ class Walkways:
             last = min(at + 24, len(places) - 1)
             while last > at + 1:
                 line = shapely.LineString([places[at], places[last]])
-                if not self._blocked.intersects(line) and np.ptp(places[at : last + 1] @ _across(line), axis=0) < _SIDE_M / 2:
+                if (
+                    not self._blocked.intersects(line)
+                    and np.ptp(places[at : last + 1] @ _across(line), axis=0) < _SIDE_M / 2
+                ):
                     break
                 last -= 1
             kept.append(places[last])

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+
 from garage2usd.config.traffic import Day, TrafficConfig
 from garage2usd.traffic.demand import drawn_demand
 
