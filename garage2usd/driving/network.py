@@ -75,8 +75,18 @@ class _Shape(NamedTuple):
 
 
 class _Side(NamedTuple):
-    """A line at a node: its offset to the right of the lane's middle, the room to either side of that middle, the reach of
-    the node's ground along it, and the line's length.
+    """A line at a node.
+
+    Attributes
+    ----------
+    own_m, room_m
+        Offset to the right of the lane's middle, and the greatest one to either side.
+    reach_m
+        Reach of the node's ground along it.
+    far_m
+        Length of a door's line.
+    is_door
+        True if it leads through a door.
     """
 
     own_m: float
