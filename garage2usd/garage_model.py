@@ -215,7 +215,8 @@ def _metadata(config: GarageConfig, *plans: Plan) -> dict[str, str | int]:
         "configDigest": config.digest(),
     }
     digest = {"structureDigest": plans[0].structure.digest()} if len(plans) == 1 else {}
-    return {**made, **digest, "profile": config.standard.name}
+    side = {"drivesOn": "left"} if config.standard.drives_on_left else {}
+    return {**made, **digest, "profile": config.standard.name, **side}
 
 
 def _joined(building: Building, levels: Sequence[GarageLevel]) -> JoinedLevels:

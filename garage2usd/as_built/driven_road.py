@@ -107,7 +107,7 @@ def driven_road(level: BuiltLevel, *, car: DesignCar | None = None, height_m: fl
     sides = ((thing.name, shapely.MultiLineString([*_sides(thing, near, height_m)])) for thing, near in ramps)
     standing = driven.standing.without(opened).joined(Obstacles.of([*gates, *sides]))
     portals = tuple(_portals(level, floors, car))
-    return DrivenRoad(driven, standing, portals, floors)
+    return DrivenRoad(driven, standing, portals, floors, keeps_left=level.keeps_left)
 
 
 def portal_mouths(level: BuiltLevel) -> tuple[Mouth, ...]:

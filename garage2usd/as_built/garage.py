@@ -154,8 +154,10 @@ def garage_as_made(garage: Garage, *, source: str, kind: str, faults: tuple[Faul
     faults
         Contradictions in the file that it comes from.
     """
+    keeps_left = garage.config.standard.drives_on_left
     levels = tuple(
-        level_of_layout(level.layout, source=source, kind=kind, place=level.place) for level in garage.levels
+        replace(level_of_layout(level.layout, source=source, kind=kind, place=level.place), keeps_left=keeps_left)
+        for level in garage.levels
     )
     joined = garage.joined
     return _with_ramps(BuiltGarage(source, joined.lane_graph, joined.quads, levels, faults))

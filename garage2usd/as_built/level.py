@@ -116,6 +116,8 @@ class BuiltLevel:
         Its name, the path of its prim and the height of its floor in the whole garage.
     is_surveyed
         True if its stalls and lanes are those of a survey, which nobody designed to a standard.
+    keeps_left
+        True where traffic keeps to the left.
     """
 
     source: str
@@ -136,6 +138,7 @@ class BuiltLevel:
     ramps_below: tuple[Thing, ...] = ()
     place: LevelPlace = ONLY_LEVEL
     is_surveyed: bool = False
+    keeps_left: bool = False
 
     @property
     def street_portals(self) -> list[int]:

@@ -75,7 +75,14 @@ def level_of_stage(
         stage=stage,
         place=place,
         is_surveyed=is_surveyed,
+        keeps_left=_keeps_left(stage),
     )
+
+
+def _keeps_left(stage: Usd.Stage) -> bool:
+    """Return True if a stage says that its traffic keeps to the left."""
+    prim = garage_root(stage)
+    return bool(prim) and prim.GetCustomDataByKey("drivesOn") == "left"
 
 
 def profile_name(stage: Usd.Stage) -> str | None:

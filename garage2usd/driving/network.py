@@ -4,78 +4,129 @@ A two-way lane with room for two cars has one line per direction, in the middle 
 one line in its middle. Turns lead from line to line. A tree of shortest paths from the entrances, or to the exits,
 grows as far as drives need it; a drive adds the way between a line and the start of its manoeuvre.
 """
+# Over 300 lines: the turns, and the trees of paths that are made of them.
 
 import heapq
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import chain, count, pairwise
+from itertools import chain, count
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from garage2usd.driving.car import Pose
+from garage2usd.driving.manoeuvre import Gear
 from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.road import Portal
+from garage2usd.driving.turns import Steering, joining_pieces
 from garage2usd.garage import Arc, LaneKind
+from garage2usd.native import elementary
 
 if TYPE_CHECKING:
     from garage2usd.driving.roadmap import Roadmap
 
 _OUTSIDE = -1
 """Stands for the outer end of a door's arc, which is no lane node."""
-_SHARES = (0.0, 0.5, 1.0)
-"""Places of the stops on a lane's line, as shares of its length."""
-_MOST_ARCS, _TURN_M = 4, 9.0
-"""Greatest number of arcs up to the start of a manoeuvre; length of the arcs after a turn over which it may end."""
-_CHANGES_M = tuple(np.arange(4.0, 16.0, 0.75).tolist())
-"""Distances over which a car may change between a line and the start of its manoeuvre, in metres."""
+_BESIDE_NODE_M = tuple(np.arange(0.0, 10.5, 1.0).tolist())
+"""Distances before a node at which a turn may begin, and after it at which it may end; metres."""
+_SLIGHT_RAD, _SLIGHT_M = math.radians(20.0), (0.0, 1.0, 2.0, 4.0, 7.0)
+"""Greatest angle of a slight bend, and such distances for it."""
+_SHORT_M, _DOUBLE_M = 9.0, (0.0, 2.0, 4.0, 6.0, 8.0)
+"""Greatest length of an arc that may be too short for a turn at each of its ends, and such distances for both."""
+_MOST_TESTS = 60
+"""Greatest number of ways of a turn that are tested for collisions."""
+_MOST_ARCS = 4
+"""Greatest number of arcs between a line and the start of a manoeuvre."""
+_CHANGES_M = tuple(np.arange(2.5, 16.0, 0.5).tolist())
+"""Distances over which a car may change to another line, or between a line and the start of its manoeuvre; metres."""
+_OWN_MARGIN_M = 0.1
+"""Distance kept from the middle by a car that swings out in its own half."""
 _OVER_COST = 3.0
 """Cost of a metre over the middle of a two-way lane, in metres driven."""
-
-_SAME_M = 1e-6
-
-_Walk = tuple[Arc, ...]
-_LastWay = tuple[tuple[Pose, ...], _Walk]
+_QUARTER, _SAME, _DIGITS = math.pi / 2, 1e-9, 9
 
 
 class Stop(NamedTuple):
-    """A pose of the network, by its number along an arc: of the lanes, or through a door."""
+    """A pose on the line of an arc, of the lanes or through a door, at a distance from the line's start."""
 
     arc: Arc
-    number: int
+    run_m: float
+
+
+class _Turn(NamedTuple):
+    """A clear turn from the line of an arc to that of the next, or of arcs in line with them."""
+
+    start: Stop
+    end: Stop
+    pieces: tuple[Piece, ...]
+    cost_m: float
+
+
+class _Shape(NamedTuple):
+    """A turn as seen from a node: distances before and after the node, cost beyond these distances, and pieces."""
+
+    gain_m: float
+    before_m: float
+    after_m: float
+    cost_m: float
+    pieces: tuple[Piece, ...]
+
+
+class _Side(NamedTuple):
+    """A line at a node.
+
+    Attributes
+    ----------
+    own_m, room_m
+        Offset to the right of the lane's middle, and the greatest one to either side.
+    reach_m
+        Reach of the node's ground along it.
+    far_m
+        Length of a door's line.
+    is_door
+        True if it leads through a door.
+    """
+
+    own_m: float
+    room_m: float
+    reach_m: float
+    far_m: float
+    is_door: bool
+
+
+class _LastWay(NamedTuple):
+    """A way between a pose on the line of an arc and the start of a manoeuvre, over some arcs in order of driving."""
+
+    run_m: float
+    pose: Pose
+    walk: tuple[Arc, ...]
 
 
 class _Link(NamedTuple):
-    """A possible way between two stops, or between a stop and the start of a manoeuvre; its order is that of a queue.
+    """A way between two stops, or, with a last way, to the start of a manoeuvre; its order is that of a queue.
 
     Attributes
     ----------
     cost_m
-        Cost up to its end: at least, or exactly if its pieces are known.
+        Cost from the root up to its end: at least, or exactly once it has pieces.
     number
         Sequence number.
-    base_m
-        Cost up to its origin.
     origin, target
-        Its ends, in the order of the search; None before a root and at the start of a manoeuvre.
-    poses
-        Its poses from the origin on.
-    walk
-        Its arcs, in the order of driving; empty for a way along a line.
+        Its ends in the order of the search; None before a root and at the start of a manoeuvre.
     pieces
-        Its pieces in the order of driving, once known.
+        Its pieces in the order of driving.
+    last
+        The last way.
     """
 
     cost_m: float
     number: int
-    base_m: float
     origin: Stop | None
     target: Stop | None
-    poses: tuple[Pose, ...]
-    walk: _Walk
-    pieces: tuple[Piece, ...] | None = None
+    pieces: tuple[Piece, ...] | None
+    last: _LastWay | None = None
 
 
 class Network:
@@ -92,23 +143,24 @@ class Network:
     def __init__(self, roadmap: "Roadmap", portals: Sequence[Portal]) -> None:
         self.roadmap = roadmap
         self._portals = {portal.node: portal for portal in portals}
-        self._stops: dict[Arc, list[Pose]] = {}
         self._trees: dict[tuple[int, ...], _Tree] = {}
+        self._shapes: dict[tuple[float, _Side, _Side, bool], list[_Shape]] = {}
+        self._known: dict[tuple[Arc, Arc], list[_Turn]] = {}
+        self._clear: dict[tuple[Arc, float, float], bool] = {}
 
     def led(self, pose: Pose, portals: Sequence[Portal], *, is_back: bool) -> tuple[Path, Portal] | None:
         """Return the path from a pose in line with a lane to one of some exits, or from one of some entrances to it."""
         lanes = self.roadmap.lanes
         edges = self.roadmap.edges_at(pose, lanes.arriving if is_back else lanes.leaving)
-        wanted: dict[Stop, list[_LastWay]] = {}
+        wanted: dict[Arc, list[_LastWay]] = {}
         for edge in edges:
-            for stop, way in self._last_ways(pose, edge, is_back=is_back):
-                wanted.setdefault(stop, []).append(way)
-        return self._tree(portals, is_forward=is_back).led(wanted)
+            for arc, way in self._last_ways(pose, edge, is_back=is_back):
+                wanted.setdefault(arc, []).append(way)
+        return self._tree(portals, is_forward=is_back).led(wanted, pose)
 
     def through(self, entrance: Portal, exits: Sequence[Portal]) -> tuple[Path, Portal] | None:
         """Return the path from outside an entrance to outside one of some exits."""
-        ends = {self._outside(portal): portal for portal in exits}
-        return self._tree([entrance], is_forward=True).led_to(ends)
+        return self._tree([entrance], is_forward=True).led_to({self._outside(portal): portal for portal in exits})
 
     def _tree(self, portals: Sequence[Portal], *, is_forward: bool) -> "_Tree":
         key = tuple(portal.node for portal in portals)
@@ -118,26 +170,31 @@ class Network:
         return self._trees[key]
 
     def _outside(self, portal: Portal) -> Stop:
-        """Return the stop outside a portal, where drives begin and end."""
+        """Return the stop outside a portal, where drives begin or end."""
         if portal.kind is LaneKind.ENTRANCE:
-            return Stop((_OUTSIDE, portal.node), 0)
+            return Stop((_OUTSIDE, portal.node), 0.0)
         arc = portal.node, _OUTSIDE
-        return Stop(arc, len(self.poses(arc)) - 1)
+        return Stop(arc, self.length_m(arc))
 
-    def poses(self, arc: Arc) -> list[Pose]:
-        """Return the poses of the stops on an arc, in the order of driving."""
-        if arc not in self._stops:
-            if _OUTSIDE in arc:
-                portal = self._portals[max(arc)]
-                inside = [pose for _, pose in self.roadmap.door_spots(portal)]
-                found = [*inside, portal.pose]
-                self._stops[arc] = found[::-1] if portal.kind is LaneKind.ENTRANCE else found
-            else:
-                self._stops[arc] = [self.roadmap.own_side(arc, share * self.roadmap.length_m(arc)) for share in _SHARES]
-        return self._stops[arc]
+    def length_m(self, arc: Arc) -> float:
+        """Return the length of an arc; of a door's, between the node's middle and the pose outside."""
+        if _OUTSIDE not in arc:
+            return self.roadmap.length_m(arc)
+        portal = self._portals[max(arc)]
+        (x, z), pose = self.roadmap.middle_m(portal.node), portal.pose
+        ahead_m = (x - pose.x_m) * elementary.sin(pose.yaw_rad) + (z - pose.z_m) * elementary.cos(pose.yaw_rad)
+        return round(-ahead_m if portal.kind is LaneKind.ENTRANCE else ahead_m, _DIGITS)
+
+    def pose(self, stop: Stop) -> Pose:
+        """Return the pose of a stop."""
+        if _OUTSIDE not in stop.arc:
+            return self.roadmap.own_side(*stop)
+        portal = self._portals[max(stop.arc)]
+        moved_m = stop.run_m - (0.0 if portal.kind is LaneKind.ENTRANCE else self.length_m(stop.arc))
+        return portal.pose.moved(moved_m) if moved_m else portal.pose
 
     @cached_property
-    def _onward(self) -> dict[Arc, list[Arc]]:
+    def onward(self) -> dict[Arc, list[Arc]]:
         """Successors of each arc."""
         lanes = self.roadmap.lanes
         onward = {arc: list(self.roadmap.onward(arc)) for arc in lanes.arcs}
@@ -152,96 +209,259 @@ class Network:
         return onward
 
     @cached_property
-    def _backward(self) -> dict[Arc, list[Arc]]:
+    def backward(self) -> dict[Arc, list[Arc]]:
         """Predecessors of each arc."""
-        backward: dict[Arc, list[Arc]] = {arc: [] for arc in self._onward}
-        for arc, others in self._onward.items():
+        backward: dict[Arc, list[Arc]] = {arc: [] for arc in self.onward}
+        for arc, others in self.onward.items():
             for other in others:
                 backward[other].append(arc)
         return backward
 
-    def _is_smooth(self, arc: Arc, other: Arc) -> bool:
-        """Return True if the line of an arc goes on as that of the next."""
-        return _OUTSIDE not in (*arc, *other) and self.roadmap.is_one_line(arc, other)
+    def _beyond(self, arc: Arc, *, is_forward: bool) -> Arc | None:
+        """Return the arc after, or before, another on whose line that one's line goes on."""
+        others = (self.onward if is_forward else self.backward)[arc]
+        if _OUTSIDE in arc:
+            return None
+        lines = (other for other in others if _OUTSIDE not in other and self.roadmap.is_one_line(arc, other))
+        return next(lines, None)
 
-    @cached_property
-    def _turns(self) -> tuple[dict[Arc, list[_Walk]], dict[Arc, list[_Walk]]]:
-        """Walks over which a car may turn, by their first and by their last arc."""
-        first: dict[Arc, list[_Walk]] = {arc: [] for arc in self._onward}
-        last: dict[Arc, list[_Walk]] = {arc: [] for arc in self._onward}
-        for arc, others in self._onward.items():
-            waiting = [(arc, other) for other in others if not self._is_smooth(arc, other)]
-            for walk in waiting:
-                first[arc].append(walk)
-                last[walk[-1]].append(walk)
-                after_m = sum(self.roadmap.length_m(each) for each in walk[1:] if _OUTSIDE not in each)
-                if after_m < _TURN_M:
-                    waiting += [(*walk, other) for other in self._onward[walk[-1]] if other not in walk]
-        return first, last
+    def _line(self, arc: Arc, *, is_forward: bool) -> Iterator[tuple[Arc, float]]:
+        """Yield an arc and those that its line goes on over, within reach of a turn, and how far off each begins."""
+        away_m, at = 0.0, arc
+        while True:
+            yield at, away_m
+            away_m += self.length_m(at)
+            other = self._beyond(at, is_forward=is_forward)
+            if other is None or away_m >= _BESIDE_NODE_M[-1]:
+                return
+            at = other
 
-    def ways(self, stop: Stop, *, is_forward: bool) -> Iterator[tuple[Stop, tuple[Pose, ...], _Walk]]:
-        """Yield the ways from a stop to the next ones, or backwards: the stop, the poses from the first, the walk."""
-        step = 1 if is_forward else -1
-        own = self.poses(stop.arc)
-        here = own[stop.number]
-        if 0 <= stop.number + step < len(own):
-            yield Stop(stop.arc, stop.number + step), (here, own[stop.number + step]), ()
-        else:
-            for other in (self._onward if is_forward else self._backward)[stop.arc]:
-                if self._is_smooth(*((stop.arc, other) if is_forward else (other, stop.arc))):
-                    yield Stop(other, 0 if is_forward else len(_SHARES) - 1), (here,), ()
-        for walk in self._turns[not is_forward][stop.arc]:
-            other = walk[-1 if is_forward else 0]
-            for number, pose in enumerate(self.poses(other)):
-                ends = (stop, Stop(other, number)) if is_forward else (Stop(other, number), stop)
-                # the same pose as at the end of the line before
-                if ends[1].number or len(walk) == 2 or not self._is_smooth(walk[-2], walk[-1]):  # noqa: PLR2004
-                    yield Stop(other, number), (here, pose), walk
+    def _turns(self, arc: Arc, other: Arc) -> list[_Turn]:
+        """Return the clear turns from the line of an arc to that of the next."""
+        if (arc, other) not in self._known:
+            self._known[arc, other] = [*self._found_turns(arc, other), *self._double_turns(arc, other)]
+        return self._known[arc, other]
 
-    def _last_ways(self, pose: Pose, edge: Arc, *, is_back: bool) -> Iterator[tuple[Stop, _LastWay]]:
-        """Yield the ways from the stops before a pose on a lane edge to it, or from it to those after."""
+    def _found_turns(self, arc: Arc, other: Arc) -> Iterator[_Turn]:
+        before = list(self._line(arc, is_forward=False))
+        after = list(self._line(other, is_forward=True))
+        for is_plain in (True, False):
+            kept: list[_Shape] = []
+            tests = 0
+            for shape in self._shaped(arc, other, is_plain=is_plain):
+                start = self._stop_at(before, shape.before_m, is_forward=False)
+                end = self._stop_at(after, shape.after_m, is_forward=True)
+                is_worse = any(one.before_m <= shape.before_m and one.after_m <= shape.after_m for one in kept)
+                if is_worse or start is None or end is None:
+                    continue
+                tests += 1
+                if self.roadmap.is_clear(Path(self.pose(start), shape.pieces)):
+                    kept.append(shape)
+                    yield _Turn(start, end, shape.pieces, shape.cost_m)
+                if tests >= _MOST_TESTS:
+                    break
+            if kept:
+                return
+
+    def _double_turns(self, arc: Arc, short: Arc) -> Iterator[_Turn]:
+        """Yield clear turns from the line of an arc over the next one, too short for a turn at each end, to another."""
+        if _OUTSIDE in short or self.length_m(short) > _SHORT_M:
+            return
+        before = list(self._line(arc, is_forward=False))
+        for other in self.onward[short]:
+            if other == self._beyond(short, is_forward=True):
+                continue
+            after = list(self._line(other, is_forward=True))
+            found = []
+            for before_m in _DOUBLE_M:
+                for after_m in _DOUBLE_M:
+                    start = self._stop_at(before, before_m, is_forward=False)
+                    end = self._stop_at(after, after_m, is_forward=True)
+                    pieces = start and end and self.roadmap.joined(self.pose(start), self.pose(end))
+                    if start and end and pieces:
+                        path = Path(self.pose(start), pieces)
+                        over_m = self.roadmap.over_middle_m(path, self.roadmap.sides([start.arc, arc, short, other]))
+                        cost_m = path.length_m + _OVER_COST * over_m
+                        found.append(
+                            (cost_m - before_m - after_m, before_m, after_m, _Turn(start, end, pieces, cost_m))
+                        )
+            kept: list[tuple[float, float]] = []
+            for _, before_m, after_m, turn in sorted(found, key=lambda each: each[:3]):
+                if not any(one <= before_m and two <= after_m for one, two in kept):
+                    kept.append((before_m, after_m))
+                    yield turn
+
+    def _stop_at(self, line: Sequence[tuple[Arc, float]], away_m: float, *, is_forward: bool) -> Stop | None:
+        """Return the stop at a distance from a node on a line; None beyond the line's end."""
+        for arc, off_m in line:
+            length_m = self.length_m(arc)
+            if away_m <= off_m + length_m + _SAME:
+                run_m = away_m - off_m
+                return Stop(arc, round(run_m if is_forward else length_m - run_m, _DIGITS))
+        return None
+
+    def _shaped(self, arc: Arc, other: Arc, *, is_plain: bool) -> list[_Shape]:
+        """Return the possible turns from an arc to the next, the best first, whether they are clear or not."""
+        turned = math.remainder(self.pose(Stop(other, 0.0)).yaw_rad - self.pose(Stop(arc, 0.0)).yaw_rad, math.tau)
+        quarters = round(turned / _QUARTER)
+        turned = quarters * _QUARTER if abs(turned - quarters * _QUARTER) < _SAME else round(turned, _DIGITS)
+        is_plain &= abs(turned) > _SLIGHT_RAD
+        key = turned, self._side(arc, arc[1]), self._side(other, other[0]), is_plain
+        if key not in self._shapes:
+            self._shapes[key] = sorted(self._every_shape(*key))
+        return self._shapes[key]
+
+    def _side(self, arc: Arc, node: int) -> _Side:
+        if _OUTSIDE in arc:
+            return _Side(0.0, 0.0, 0.0, self.length_m(arc), is_door=True)
+        return _Side(
+            self.roadmap.own_side_m(arc),
+            self.roadmap.room_m(arc),
+            self.roadmap.turning_m(node, arc),
+            _BESIDE_NODE_M[-1],
+            is_door=False,
+        )
+
+    def _every_shape(self, turned: float, one: _Side, two: _Side, is_plain: bool) -> Iterator[_Shape]:  # noqa: FBT001
+        ways = self._plain_turns if is_plain else self._joined_ways
+        sin, cos = elementary.sin(turned), elementary.cos(turned)
+        halves = [
+            ((0.0, -1.0), (0.0, 0.0), -math.inf, -one.reach_m, one.own_m),
+            ((-sin, -cos), (0.0, 0.0), two.reach_m, math.inf, two.own_m),
+        ]
+        for before_m, after_m, pieces in ways(turned, one, two):
+            path = Path(Pose(one.own_m, before_m, 0.0), pieces)
+            cost_m = path.length_m + _OVER_COST * self.roadmap.over_middle_m(path, halves)
+            yield _Shape(cost_m - before_m - after_m, before_m, after_m, cost_m, pieces)
+
+    def _plain_turns(self, turned: float, one: _Side, two: _Side) -> Iterator[tuple[float, float, tuple[Piece, ...]]]:
+        """Yield turns by one circle, from and to some offset from the lines, with changes to that offset and back."""
+        sin, cos = elementary.sin(turned), elementary.cos(turned)
+        for steering in self.roadmap.steerings:
+            pieces = steering.turn(turned)
+            end = Path(Pose(0.0, 0.0, 0.0), pieces).end
+            after_m = end.x_m / -sin
+            before_m = -end.z_m - after_m * cos
+            for aside_m in self._asides(one, turned):
+                in_m, changed_in = self._change(aside_m - one.own_m, steering)
+                for other_m in self._asides(two, turned):
+                    out_m, changed_out = self._change(two.own_m - other_m, steering)
+                    # where the two lines meet, along each of them from the node
+                    met_after_m = (other_m * cos - aside_m) / sin
+                    met_before_m = other_m * sin + met_after_m * cos
+                    first_m, last_m = before_m - met_before_m, after_m + met_after_m
+                    if first_m >= 0 and last_m >= 0:
+                        yield (
+                            round(first_m + in_m, _DIGITS),
+                            round(last_m + out_m, _DIGITS),
+                            (*changed_in, *pieces, *changed_out),
+                        )
+
+    def _asides(self, side: _Side, turned: float) -> list[float]:
+        """Return the offsets to the right of a lane's middle between which a car may turn, the line's first."""
+        half_m = math.copysign(self.roadmap.half_width_m + _OWN_MARGIN_M, side.own_m)
+        outer_m = math.copysign(side.room_m, turned)
+        asides = [side.own_m, *([half_m] if abs(half_m) < abs(side.own_m) else []), 0.0, outer_m]
+        return [aside for aside in dict.fromkeys(asides) if abs(aside) <= max(side.room_m, abs(side.own_m))]
+
+    def _change(self, right_m: float, steering: Steering) -> tuple[float, tuple[Piece, ...]]:
+        """Return the length along a line and the pieces of the shortest change to another line to the right."""
+        if not right_m:
+            return 0.0, ()
+        for along_m in _CHANGES_M:
+            pieces = next(joining_pieces(Pose(0.0, 0.0, 0.0), Pose(right_m, -along_m, 0.0), steering), None)
+            if pieces is not None:
+                return along_m, pieces
+        return math.inf, ()
+
+    def _joined_ways(self, turned: float, one: _Side, two: _Side) -> Iterator[tuple[float, float, tuple[Piece, ...]]]:
+        """Yield ways of slight bends and changes of line from places before a node to places after it."""
+        is_slight = abs(turned) <= _SLIGHT_RAD
+        sides = [
+            {each for each in (_SLIGHT_M if is_slight and not side.is_door else _BESIDE_NODE_M) if each < side.far_m}
+            | ({side.far_m} if side.is_door else set())
+            for side in (one, two)
+        ]
+        sin, cos = elementary.sin(turned), elementary.cos(turned)
+        for before_m in sorted(sides[0]):
+            start = Pose(one.own_m, before_m, 0.0)
+            for after_m in sorted(sides[1]):
+                end = Pose(two.own_m * cos - after_m * sin, -two.own_m * sin - after_m * cos, turned)
+                for steering in self.roadmap.steerings:
+                    for pieces in joining_pieces(start, end, steering):
+                        if pieces:
+                            yield before_m, after_m, pieces
+
+    def ways(self, stop: Stop, *, is_forward: bool) -> Iterator[tuple[Stop, float, tuple[Piece, ...]]]:
+        """Yield the ways from a stop to the next ones, or back: the stop, the cost, and the pieces as driven."""
+        arc, run_m = stop
+        far_m = self.length_m(arc) if is_forward else 0.0
+        if _OUTSIDE in arc and (arc[1] == _OUTSIDE) == is_forward:
+            straight = self.straight(arc, run_m, far_m)
+            if straight is not None and run_m != far_m:
+                yield Stop(arc, far_m), abs(far_m - run_m), straight
+            return
+        beyond = self._beyond(arc, is_forward=is_forward)
+        straight = None if beyond is None else self.straight(arc, run_m, far_m)
+        if beyond is not None and straight is not None:
+            yield Stop(beyond, 0.0 if is_forward else self.length_m(beyond)), abs(far_m - run_m), straight
+        for near, _ in self._line(arc, is_forward=is_forward):
+            for one, other in self._pairs(near, is_forward=is_forward):
+                for turn in self._turns(one, other):
+                    at, to = (turn.start, turn.end) if is_forward else (turn.end, turn.start)
+                    if at.arc == arc and (at.run_m >= run_m - _SAME if is_forward else at.run_m <= run_m + _SAME):
+                        straight = self.straight(arc, run_m, at.run_m)
+                        if straight is not None:
+                            pieces = (*straight, *turn.pieces) if is_forward else (*turn.pieces, *straight)
+                            yield to, abs(at.run_m - run_m) + turn.cost_m, pieces
+
+    def _pairs(self, arc: Arc, *, is_forward: bool) -> Iterator[tuple[Arc, Arc]]:
+        """Yield the pairs of arcs whose turns may begin on the line of an arc, or end there."""
+        for other in (self.onward if is_forward else self.backward)[arc]:
+            if other != self._beyond(arc, is_forward=is_forward):
+                yield (arc, other) if is_forward else (other, arc)
+                if not is_forward:
+                    yield from ((each, other) for each in self.backward[other])
+
+    def straight(self, arc: Arc, one_m: float, other_m: float) -> tuple[Piece, ...] | None:
+        """Return the straight between two distances along an arc's line; None if it is not clear."""
+        low, high = min(one_m, other_m), max(one_m, other_m)
+        if high - low < _SAME:
+            return ()
+        length_m = self.length_m(arc)
+        if not (
+            (low >= 0 and high <= length_m and self._is_clear(arc, 0.0, length_m)) or self._is_clear(arc, low, high)
+        ):
+            return None
+        return (Piece(Gear.FORWARD, high - low),)
+
+    def _is_clear(self, arc: Arc, low_m: float, high_m: float) -> bool:
+        key = arc, low_m, high_m
+        if key not in self._clear:
+            straight = Path(self.pose(Stop(arc, low_m)), (Piece(Gear.FORWARD, high_m - low_m),))
+            self._clear[key] = self.roadmap.is_clear(straight)
+        return self._clear[key]
+
+    def _last_ways(self, pose: Pose, edge: Arc, *, is_back: bool) -> Iterator[tuple[Arc, _LastWay]]:
+        """Yield the ways from the lines before a pose on a lane edge to it, or from it to those after."""
         sign = -1 if is_back else 1
         run_m = self.roadmap.run_m(edge, pose)
-        waiting: list[tuple[_Walk, float, bool]] = [((edge,), 0.0, True)]
+        waiting: list[tuple[tuple[Arc, ...], float, bool]] = [((edge,), 0.0, True)]
         for walk, offset_m, is_line in waiting:
             far = walk[0 if is_back else -1]
-            poses = self.poses(far)
-            length_m = 0.0 if _OUTSIDE in far else self.roadmap.length_m(far)
+            length_m = self.length_m(far)
             if is_line:
-                for change_m in _CHANGES_M:
-                    at_m = run_m + sign * change_m - offset_m
-                    if 0 <= at_m <= length_m:
-                        share = at_m / length_m * (len(_SHARES) - 1)
-                        stop = Stop(far, math.floor(share) if is_back else math.ceil(share))
-                        yield stop, ((poses[stop.number], self.roadmap.own_side(far, at_m), pose), walk)
+                runs = [run_m + sign * change_m - offset_m for change_m in _CHANGES_M]
             else:
-                for number, place in enumerate(poses):
-                    yield Stop(far, number), ((place, pose), walk)
+                runs = [length_m - each if is_back else each for each in _BESIDE_NODE_M]
+            for at_m in runs:
+                if 0 <= at_m <= length_m:
+                    yield far, _LastWay(at_m, self.pose(Stop(far, at_m)), walk)
             if len(walk) < _MOST_ARCS:
-                for other in (self._backward if is_back else self._onward)[far]:
-                    ends = (other, far) if is_back else (far, other)
-                    is_smooth = is_line and self._is_smooth(*ends)
-                    if is_smooth:
-                        moved_m = offset_m + (-self.roadmap.length_m(other) if is_back else length_m)
-                    else:
-                        moved_m = 0.0
+                for other in (self.backward if is_back else self.onward)[far]:
+                    is_smooth = is_line and other == self._beyond(far, is_forward=not is_back)
+                    moved_m = offset_m + (-self.length_m(other) if is_back else length_m)
                     waiting.append(((other, *walk) if is_back else (*walk, other), moved_m, is_smooth))
-
-    def known(self, link: _Link, *, is_forward: bool) -> _Link | None:
-        """Return a link with its pieces and its cost; None if no clear path is found."""
-        if link.pieces is not None:
-            return link
-        poses = link.poses if is_forward else link.poses[::-1]
-        pieces: list[Piece] = []
-        for start, end in pairwise(poses):
-            is_same = math.hypot(end.x_m - start.x_m, end.z_m - start.z_m) < _SAME_M and start.yaw_rad == end.yaw_rad
-            joining = () if is_same else self.roadmap.joined(start, end)
-            if joining is None:
-                return None
-            pieces += joining
-        path = Path(poses[0], tuple(pieces))
-        over_m = self.roadmap.over_middle_m(path, link.walk) if link.walk and pieces else 0.0
-        return link._replace(cost_m=link.base_m + path.length_m + _OVER_COST * over_m, pieces=path.pieces)
 
 
 class _Tree:
@@ -250,34 +470,50 @@ class _Tree:
     def __init__(self, network: Network, roots: Mapping[Stop, Portal], *, is_forward: bool) -> None:
         self._network, self._roots, self._is_forward = network, roots, is_forward
         self._done: dict[Stop, _Link] = {}
+        self._at: dict[Arc, list[Stop]] = {}
         self._numbers = count()
-        self._waiting: list[_Link] = []
-        for root in roots:
-            pose = network.poses(root.arc)[root.number]
-            heapq.heappush(self._waiting, _Link(0.0, next(self._numbers), 0.0, None, root, (pose,), (), ()))
+        self._waiting = [_Link(0.0, next(self._numbers), None, root, ()) for root in roots]
 
-    def led(self, wanted: Mapping[Stop, Sequence[_LastWay]]) -> tuple[Path, Portal] | None:
-        """Return the path of least cost over the last ways at some stops, to or from a pose."""
+    def led(self, wanted: Mapping[Arc, Sequence[_LastWay]], pose: Pose) -> tuple[Path, Portal] | None:
+        """Return the path of least cost over one of the last ways from some arcs, to or from a pose."""
         queue: list[_Link] = []
 
         def offer(stops: Iterable[Stop]) -> None:
             for stop in stops:
-                for poses, walk in wanted.get(stop, ()):
-                    heapq.heappush(queue, self._link(stop, None, poses, walk))
+                base_m = self._done[stop].cost_m
+                for last in wanted.get(stop.arc, ()):
+                    ahead_m = (last.run_m - stop.run_m) * (1 if self._is_forward else -1)
+                    if ahead_m >= 0:
+                        least_m = ahead_m + math.hypot(last.pose.x_m - pose.x_m, last.pose.z_m - pose.z_m)
+                        heapq.heappush(queue, _Link(base_m + least_m, next(self._numbers), stop, None, None, last))
 
-        offer(stop for stop in wanted if stop in self._done)
+        offer(chain.from_iterable(self._at.get(arc, ()) for arc in wanted))
         while queue or self._waiting:
             if not queue or (self._waiting and self._waiting[0].cost_m < queue[0].cost_m):
                 grown = self._grow()
                 offer([grown] if grown is not None else [])
                 continue
             link = heapq.heappop(queue)
-            known = self._network.known(link, is_forward=self._is_forward)
-            if known is not None and known is not link:
+            if link.pieces is not None:
+                return self._path(link, pose)
+            known = self._known(link, pose)
+            if known is not None:
                 heapq.heappush(queue, known)
-            elif known is not None:
-                return self._path(known)
         return None
+
+    def _known(self, link: _Link, pose: Pose) -> _Link | None:
+        """Return the link of a last way with its pieces and cost; None if it is not clear."""
+        assert link.origin is not None
+        assert link.last is not None
+        roadmap, last, stop = self._network.roadmap, link.last, link.origin
+        ends = (last.pose, pose) if self._is_forward else (pose, last.pose)
+        joining, straight = roadmap.joined(*ends), self._network.straight(stop.arc, stop.run_m, last.run_m)
+        if joining is None or straight is None:
+            return None
+        path = Path(ends[0], joining)
+        over_m = roadmap.over_middle_m(path, roadmap.sides(last.walk))
+        cost_m = self._done[stop].cost_m + abs(last.run_m - stop.run_m) + path.length_m + _OVER_COST * over_m
+        return link._replace(cost_m=cost_m, pieces=(*straight, *joining) if self._is_forward else (*joining, *straight))
 
     def led_to(self, ends: Mapping[Stop, Portal]) -> tuple[Path, Portal] | None:
         """Return the path to the nearest of some stops outside exits, and that exit."""
@@ -285,43 +521,37 @@ class _Tree:
             if self._grow() is None:
                 return None
         end = min((end for end in ends if end in self._done), key=lambda end: self._done[end].cost_m)
-        return self._path(self._done[end])[0], ends[end]
-
-    def _link(self, origin: Stop, target: Stop | None, poses: tuple[Pose, ...], walk: _Walk) -> _Link:
-        base_m = self._done[origin].cost_m
-        least_m = sum(math.hypot(two.x_m - one.x_m, two.z_m - one.z_m) for one, two in pairwise(poses))
-        return _Link(base_m + least_m, next(self._numbers), base_m, origin, target, poses, walk)
+        return self._path(self._done[end], None)[0], ends[end]
 
     def _grow(self) -> Stop | None:
         """Settle the next stop."""
         while self._waiting:
             link = heapq.heappop(self._waiting)
-            assert link.target is not None
-            known = None if link.target in self._done else self._network.known(link, is_forward=self._is_forward)
-            if known is not None and known is not link:
-                heapq.heappush(self._waiting, known)
-            elif known is not None:
-                self._done[link.target] = link
-                for stop, poses, walk in self._network.ways(link.target, is_forward=self._is_forward):
-                    if stop not in self._done:
-                        heapq.heappush(self._waiting, self._link(link.target, stop, poses, walk))
-                return link.target
+            stop = link.target
+            if stop is None or stop in self._done:
+                continue
+            self._done[stop] = link
+            self._at.setdefault(stop.arc, []).append(stop)
+            for to, cost_m, pieces in self._network.ways(stop, is_forward=self._is_forward):
+                if to not in self._done:
+                    heapq.heappush(self._waiting, _Link(link.cost_m + cost_m, next(self._numbers), stop, to, pieces))
+            return stop
         return None
 
-    def _path(self, link: _Link) -> tuple[Path, Portal]:
-        """Return the path between a root and a link's end, and the root's portal."""
+    def _path(self, link: _Link, pose: Pose | None) -> tuple[Path, Portal]:
+        """Return the path between a root and a link's end, where a pose is, and the root's portal."""
         links = [link]
         while (origin := links[-1].origin) is not None:
             links.append(self._done[origin])
         root = links[-1].target
         assert root is not None
         driven = links[::-1] if self._is_forward else links
-        start = links[-1].poses[0] if self._is_forward else links[0].poses[-1]
-        pieces = chain.from_iterable(each.pieces or () for each in driven)
-        return Path(start, pieces_joined(pieces)), self._roots[root]
+        portal = self._roots[root]
+        start = portal.pose if self._is_forward or pose is None else pose
+        return Path(start, _straightened(chain.from_iterable(each.pieces or () for each in driven))), portal
 
 
-def pieces_joined(pieces: Iterable[Piece]) -> tuple[Piece, ...]:
+def _straightened(pieces: Iterable[Piece]) -> tuple[Piece, ...]:
     """Return pieces with consecutive straights made one."""
     joined: list[Piece] = []
     for piece in pieces:

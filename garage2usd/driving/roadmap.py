@@ -36,6 +36,10 @@ _ASIDE_COST_M, _EDGE_COST_M = 2.0, 3.0
 """Cost in metres of a spot off the lane's centre line, and of each further edge, so that paths keep to centre lines."""
 
 
+Half = tuple[Point, Point, float, float, float]
+"""Own half of a lane: direction, start, low and high run from there, and offset of its middle to the right."""
+
+
 class Spot(NamedTuple):
     """A pose of the roadmap: the middle of a lane node, or a point beside it, in line with a lane edge.
 
@@ -104,7 +108,7 @@ class Roadmap:
         self, road: DrivenRoad, standing: Obstacles, car: DesignCar, steerings: Sequence[Steering], margin_m: float
     ) -> None:
         self._lanes, self._keeps_left = road.garage.lanes, road.keeps_left
-        self._standing, self._car, self._steerings, self._margin_m = standing, car, tuple(steerings), margin_m
+        self._standing, self._car, self.steerings, self._margin_m = standing, car, tuple(steerings), margin_m
         self._known: dict[tuple[Pose, Pose], tuple[Piece, ...] | None] = {}
         self.network = Network(self, road.portals)
 
@@ -136,7 +140,7 @@ class Roadmap:
         The room is that of the tightest quarter turn; an edge too short for it has no rectangle. The whole edge counts
         where traffic may continue straight, or arrive straight.
         """
-        tangent_m = float(abs(self._steerings[-1].chords(np.array([math.pi / 2]))[0])) / math.sqrt(2) + _ROOM_TO_TURN_M
+        tangent_m = float(abs(self.steerings[-1].chords(np.array([math.pi / 2]))[0])) / math.sqrt(2) + _ROOM_TO_TURN_M
         used = self._lanes.arriving if is_back else self._lanes.leaving
         poses = []
         for edge in edges:
@@ -213,6 +217,16 @@ class Roadmap:
             return 0.0
         return round((-1 if self._keeps_left else 1) * lane.width_m / 4, _DIGITS)
 
+    @property
+    def half_width_m(self) -> float:
+        """Half of the car's width."""
+        return self._car.width_m / 2
+
+    def room_m(self, arc: Arc) -> float:
+        """Return how far the middle of a car may be from that of a lane arc."""
+        room_m = self._lanes.arcs[arc].width_m / 2 - self._car.width_m / 2 - _ROOM_KEPT_M
+        return round(max(room_m, 0.0), _DIGITS)
+
     def own_side(self, arc: Arc, run_m: float) -> Pose:
         """Return the pose on the line of a lane arc at a distance from the arc's start."""
         return self._placed(Spot(arc[0], self._along[arc][0], self.own_side_m(arc), run_m))[1]
@@ -234,38 +248,46 @@ class Roadmap:
         (x, z), (along_x, along_z) = self._lanes.nodes[arc[0]].position, self._along[arc][0]
         return (pose.x_m - x) * along_x + (pose.z_m - z) * along_z
 
-    def over_middle_m(self, path: Path, walk: Sequence[Arc]) -> float:
-        """Return the length of a path on which a car is over the middle of the two-way lanes of a walk.
+    def sides(self, walk: Sequence[Arc]) -> "list[Half]":
+        """Return the own halves of the two-way lanes of a walk."""
+        halves = []
+        for arc in walk:
+            if arc in self._along and self.own_side_m(arc):
+                along, length_m = self._along[arc]
+                low_m, high_m = self.turning_m(arc[0], arc), length_m - self.turning_m(arc[1], arc)
+                halves.append((along, self._lanes.nodes[arc[0]].position, low_m, high_m, self.own_side_m(arc)))
+        return halves
 
-        Notes
-        -----
-        Sampled about every half metre. The grounds of junctions and bends have no middle.
-        """
+    def over_middle_m(self, path: Path, halves: "Sequence[Half]") -> float:
+        """Return the length of a path on which a car is beyond its own half; sampled about every half metre."""
+        halves = [half for half in halves if half[-1]]
+        if not halves or not path.pieces:
+            return 0.0
         number = max(math.ceil(path.length_m / _SIDE_STEP_M), 1)
         at = path.at((np.arange(number) + 0.5) * path.length_m / number)
         turned = elementary.turned(at.yaw_rad)
         ahead = np.stack([-turned.imag, -turned.real], axis=1)
         middles = np.stack([at.x_m, at.z_m], axis=1) + ahead * (self._car.length_m / 2 - self._car.rear_overhang_m)
         is_over = np.zeros(number, dtype=bool)
-        for arc in walk:
-            own_m = self.own_side_m(arc) if arc in self._along else 0.0
-            if not own_m:
-                continue
-            along, length_m = self._along[arc]
-            low, high = (self._turning_m(node, along) for node in arc)
-            away = middles - self._lanes.nodes[arc[0]].position
+        for along, start, low_m, high_m, own_m in halves:
+            away = middles - start
             run, aside = away @ along, away @ (-along[1], along[0]) * math.copysign(1.0, own_m)
             same = ahead @ along
             half = self._car.width_m / 2 * same + self._car.length_m / 2 * np.sqrt(np.maximum(1 - same**2, 0.0))
-            is_here = (run > low) & (run < length_m - high) & (same > 0) & (np.abs(aside) < 2 * abs(own_m))
+            is_here = (run > low_m) & (run < high_m) & (same > 0) & (np.abs(aside) < 2 * abs(own_m))
             is_over |= is_here & (aside < half)
         return float(np.count_nonzero(is_over) * path.length_m / number)
 
-    def _turning_m(self, node: int, along: Point) -> float:
-        """Return the reach of the ground of a junction or bend, 0 for a node whose lanes are all in line."""
+    def turning_m(self, node: int, arc: Arc) -> float:
+        """Return the reach of the ground of a junction or bend along an arc, which has no middle to keep to; else 0."""
+        along = self._along[arc][0]
         others = (self._along.get((node, other)) or self._along[other, node] for other in self._lanes.beside[node])
         is_straight = all(abs(way[0] * along[0] + way[1] * along[1]) > _SAME_WAY for way, _ in others)
         return 0.0 if is_straight else self._lanes.nodes[node].reach_m(along)
+
+    def is_clear(self, path: Path) -> bool:
+        """Return True if a path keeps the margin from all obstacles."""
+        return path.clearance_m(self._car, self._standing) >= self._margin_m
 
     def door_spots(self, portal: Portal) -> Iterator[tuple[Spot, Pose]]:
         """Yield roadmap poses in line with the pose of cars outside a portal, up to the middle of its square."""
@@ -298,9 +320,9 @@ class Roadmap:
         return self._known[key]
 
     def _clear(self, start: Pose, end: Pose) -> Iterator[tuple[Piece, ...]]:
-        for steering in self._steerings:
+        for steering in self.steerings:
             for pieces in joining_pieces(start, end, steering):
-                if Path(start, pieces).clearance_m(self._car, self._standing) >= self._margin_m:
+                if pieces and self.is_clear(Path(start, pieces)):
                     yield pieces
 
 
