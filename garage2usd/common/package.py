@@ -32,6 +32,8 @@ _BROUGHT = {
     "trimesh": ("sensors", "trimesh"),
     "DracoPy": ("models", "DracoPy"),
     "rosbags": ("sensors", "rosbags"),
+    "osi3": ("traffic", "osi-python"),
+    "mcap": ("traffic", "MCAP"),
     "ezdxf": ("cad", "ezdxf"),
     "ifcopenshell": ("cad", "IfcOpenShell"),
 }
@@ -68,8 +70,8 @@ def is_there(module: str) -> bool:
 
 
 @contextmanager
-def of_extra(purpose: str) -> Iterator[None]:
-    """Context for imports of optional modules.
+def of_extra(purpose: str, extra: str = "") -> Iterator[None]:
+    """Context for imports of optional modules; `extra` names one that brings them, if several do.
 
     Raises
     ------
@@ -82,11 +84,11 @@ def of_extra(purpose: str) -> Iterator[None]:
         module = (error.name or "").partition(".")[0]
         if module not in _BROUGHT:
             raise
-        raise _missing(purpose, [module]) from error
+        raise _missing(purpose, [module], extra=extra) from error
 
 
-def _missing(purpose: str, modules: list[str], without: str = "") -> MissingExtraError:
-    extras = sorted({_BROUGHT[module][0] for module in modules})
+def _missing(purpose: str, modules: list[str], without: str = "", extra: str = "") -> MissingExtraError:
+    extras = [extra] if extra else sorted({_BROUGHT[module][0] for module in modules})
     *others, last = (_BROUGHT[module][1] for module in modules)
     brings = f"{', '.join(others)} and {last}" if others else last
     here = sys.version_info[:2]

@@ -117,7 +117,7 @@ def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> 
     for frame in bends(np.array(here)):
         x, z = here[frame]
         layer.SetTimeSample(moves.path, float(frame), Gf.Vec3f(x, EYE_M, z))
-    for frame in _turns(np.array(yaws_deg)):
+    for frame in knots(np.arange(float(len(yaws_deg))), np.array(yaws_deg), _UNSEEN_DEG).tolist():
         layer.SetTimeSample(turns.path, float(frame), round(yaws_deg[frame], 3))
     return frames
 
@@ -130,12 +130,12 @@ def bends(values: NDArray[np.float64]) -> list[int]:
     return frames
 
 
-def _turns(yaws_deg: NDArray[np.float64]) -> list[int]:
-    """Frames between which the camera turns steadily within `_UNSEEN_DEG`, by Douglas and Peucker (1973)."""
-    # frames are spaced so far apart that the distance from a line equals the difference in yaw
-    frames = np.arange(len(yaws_deg)) * _FRAMES_APART
-    line = shapely.LineString(np.stack([frames, yaws_deg], axis=1)).simplify(_UNSEEN_DEG, preserve_topology=False)
-    kept: list[int] = np.rint(shapely.get_coordinates(line)[:, 0] / _FRAMES_APART).astype(int).tolist()
+def knots(times: NDArray[np.float64], values: NDArray[np.float64], tolerance: float) -> NDArray[np.int64]:
+    """Find samples between which a value is linear in time within a tolerance, by Douglas and Peucker (1973)."""
+    # times are spaced so far apart that the distance from a line equals the difference in value
+    apart = times * _FRAMES_APART
+    line = shapely.LineString(np.stack([apart, values], axis=1)).simplify(tolerance, preserve_topology=False)
+    kept: NDArray[np.int64] = np.searchsorted(apart, shapely.get_coordinates(line)[:, 0])
     return kept
 
 
