@@ -42,7 +42,7 @@ _PYTHON_OF_BLENDER = (3, 11)
 VERSION = version("garage2usd")
 
 
-def require(purpose: str, modules: Iterable[str], *, without: str = "") -> None:
+def require(purpose: str, modules: Iterable[str], *, without: str = "", extra: str = "") -> None:
     """Check that optional modules are installed, without importing them.
 
     Parameters
@@ -53,6 +53,8 @@ def require(purpose: str, modules: Iterable[str], *, without: str = "") -> None:
         Import names of the modules.
     without
         Alternative without the modules, in words; appended to the message if parts of Blender are missing.
+    extra
+        An extra that brings them, if several do.
 
     Raises
     ------
@@ -61,7 +63,7 @@ def require(purpose: str, modules: Iterable[str], *, without: str = "") -> None:
     """
     missing = [module for module in modules if not is_there(module)]
     if missing:
-        raise _missing(purpose, missing, without)
+        raise _missing(purpose, missing, without, extra)
 
 
 def is_there(module: str) -> bool:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from enum import IntEnum, StrEnum
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
@@ -21,6 +22,7 @@ COLUMNS = {
 }
 """Columns of floats of a track, with the decimals to which files have them."""
 _SAME_TIME_S = 1e-9
+_APART = 1000.0
 
 
 class AgentClass(StrEnum):
@@ -202,3 +204,25 @@ class Tracks:
     def __len__(self) -> int:
         """Return the number of tracks."""
         return len(self.tracks)
+
+
+def knots(times: Floats, values: Floats, tolerance: float) -> NDArray[np.int64]:
+    """Find samples between which a value is linear in time within a tolerance, by Douglas and Peucker (1973).
+
+    Parameters
+    ----------
+    times, values
+        Ascending times, and a value at each; shape (n,), of at least two.
+    tolerance
+        Greatest deviation.
+
+    Returns
+    -------
+    ndarray
+        Indices of the samples, with the first and the last.
+    """
+    # times are spaced so far apart that the distance from a line equals the difference in value
+    apart = times * _APART
+    line = shapely.LineString(np.stack([apart, values], axis=1)).simplify(tolerance, preserve_topology=False)
+    kept: NDArray[np.int64] = np.searchsorted(apart, shapely.get_coordinates(line)[:, 0])
+    return kept

@@ -60,7 +60,7 @@ def write_track_csv(path: Path, tracks: Tracks) -> tuple[Path, ...]:
     """Write tracks as CSV, and step, duration, source, facts, log and agents as JSON beside it; return both files."""
     heading = path.with_suffix(".json")
     pa_csv.write_csv(_table(tracks), path, pa_csv.WriteOptions(quoting_style="needed"))
-    heading.write_text(json.dumps(_heading(tracks), indent=1, sort_keys=True) + "\n", encoding="utf-8")
+    heading.write_bytes(f"{json.dumps(_heading(tracks), indent=1, sort_keys=True)}\n".encode())
     return path, heading
 
 

@@ -5,10 +5,10 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 from pxr import Gf, Sdf
 
+from garage2usd.driving.tracks import knots
 from garage2usd.garage import LaneGraph, LaneKind
 from garage2usd.layout import Layout
 from garage2usd.native import elementary
@@ -28,7 +28,6 @@ _STEADY = 1e-9
 """Rounding errors of a constant speed, in metres or degrees per frame."""
 _UNSEEN_DEG = 0.02
 """Angle by which a camera may deviate from its path: half a pixel of an image 2000 pixels wide."""
-_FRAMES_APART = 1000.0
 _LOOK_AHEAD_M = 4.0
 _NEAR_M, _FAR_M = 0.1, 2000.0
 _SHELL = ("wall", "portal", "ramp", "sky")
@@ -128,15 +127,6 @@ def bends(values: NDArray[np.float64]) -> list[int]:
     bends[1:-1] = (np.abs(np.diff(values, 2, axis=0)) > _STEADY).any(axis=1)
     frames: list[int] = np.flatnonzero(bends).tolist()
     return frames
-
-
-def knots(times: NDArray[np.float64], values: NDArray[np.float64], tolerance: float) -> NDArray[np.int64]:
-    """Find samples between which a value is linear in time within a tolerance, by Douglas and Peucker (1973)."""
-    # times are spaced so far apart that the distance from a line equals the difference in value
-    apart = times * _FRAMES_APART
-    line = shapely.LineString(np.stack([apart, values], axis=1)).simplify(tolerance, preserve_topology=False)
-    kept: NDArray[np.int64] = np.searchsorted(apart, shapely.get_coordinates(line)[:, 0])
-    return kept
 
 
 def _rounded(way: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -14,11 +14,11 @@ from pxr import Gf, Kind, Sdf, UsdGeom
 from garage2usd.assets import Asset
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody
-from garage2usd.driving.tracks import Agent, AgentClass, AgentState, Track, Tracks
+from garage2usd.driving.tracks import Agent, AgentClass, AgentState, Track, Tracks, knots
 from garage2usd.objects.car import car_spec
 from garage2usd.objects.person import PEOPLE, PersonSpec
 from garage2usd.stage.authoring import attribute, define, new_layer, operation, order_operations
-from garage2usd.stage.cameras import FRAMES_PER_SECOND, knots, set_frames
+from garage2usd.stage.cameras import FRAMES_PER_SECOND, set_frames
 from garage2usd.stage.moving_car import define_car, define_looks, define_parts, write_textures
 from garage2usd.stage.prototypes import asset_of
 
