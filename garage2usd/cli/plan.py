@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from garage2usd.common.progress import Progress
+    from garage2usd.driving.tracks import Tracks
     from garage2usd.garage_model import Garage, GarageLevel
     from garage2usd.view.drawing import Drawing
     from garage2usd.view.plan_sheet import Mark
@@ -33,6 +34,7 @@ _ROUNDING = 1e-6
     help="Prove the best score that any lanes have on the garage's squares, and print the plan's beside it. For sites "
     "of up to about 9 x 9 squares.",
 )
+@click.option("--tracks", metavar="FILE", type=INPUT_FILE, help="Draw tracks of cars and people: .parquet or .csv.")
 @seed_option
 @click.option(
     "--output",
@@ -49,6 +51,7 @@ def plan(
     number: str | None,
     with_findings: bool,
     with_optimum: bool,
+    tracks: Path | None,
     seed: int | None,
     outputs: tuple[Path, ...],
 ) -> None:
@@ -64,6 +67,7 @@ def plan(
       garage2usd plan garage_report.json --stall B2-07 -o route.png -o route.svg
       garage2usd plan two_levels.usdz --stall U2/B2-07
       garage2usd plan garage.usdz --findings -o findings.png
+      garage2usd plan garage.usdz --tracks run.parquet
       garage2usd plan samples/paper_7x9.toml --optimum
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.common.errors import ConfigError  # noqa: PLC0415 - keeps --help instant
@@ -84,7 +88,12 @@ def plan(
         garage = generated_of(path, seed, progress=progress)
         # before the check of a stage, which limits the processor time of all later work
         told = _beside_optimum(garage, progress) if with_optimum else []
-    drawings = _drawings(garage, number, _marks(path, garage) if with_findings else {})
+    driven = None
+    if tracks is not None:
+        from garage2usd.maps.track_tables import read_tracks  # noqa: PLC0415 - needs an extra
+
+        driven = read_tracks(tracks)
+    drawings = _drawings(garage, number, _marks(path, garage) if with_findings else {}, driven)
     sheets = [
         (output.with_name(f"{output.stem}{name}{output.suffix}"), drawing)
         for output in outputs
@@ -104,13 +113,16 @@ def plan(
     echo_table([*(("picture", str(place)) for place, _ in sheets), *told])
 
 
-def _drawings(garage: "Garage", number: str | None, marks: "Mapping[str, Sequence[Mark]]") -> "dict[str, Drawing]":
-    """Draw the plan of each level with the route to a stall and findings; with several levels, also the section."""
+def _drawings(
+    garage: "Garage", number: str | None, marks: "Mapping[str, Sequence[Mark]]", tracks: "Tracks | None"
+) -> "dict[str, Drawing]":
+    """Draw the plan of each level with the route to a stall, findings and tracks; with several, also the section."""
     from garage2usd.view.plan_picture import (  # noqa: PLC0415
         draw_plan,
         find_stall,
         ways_on_level,
     )
+    from garage2usd.view.plan_tracks import track_lines  # noqa: PLC0415
     from garage2usd.view.section import draw_section  # noqa: PLC0415
 
     chosen = find_stall(garage.stalls, number) if number else None
@@ -119,7 +131,10 @@ def _drawings(garage: "Garage", number: str | None, marks: "Mapping[str, Sequenc
         name = level.place.after("", joint="_")
         on_level = chosen if chosen is not None and chosen.level == index else None
         ways = None if chosen is None else ways_on_level(garage.lanes, chosen, index)
-        drawings[name] = draw_plan(level.layout, stall=on_level, ways=ways, marks=marks.get(level.name, ()))
+        driven = () if tracks is None else track_lines(tracks, index)
+        drawings[name] = draw_plan(
+            level.layout, stall=on_level, ways=ways, marks=marks.get(level.name, ()), driven=driven
+        )
     if garage.building.links:
         drawings["_section"] = draw_section(garage.levels, storey_m=garage.building.storey_m)
     return drawings

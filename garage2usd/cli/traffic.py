@@ -51,16 +51,14 @@ def traffic(
       garage2usd traffic garage.usdz --minutes 25 --seed 7 -o tracks.parquet
       garage2usd traffic garage.usdz --hour 17.5 -o traffic.usdc -o traffic.xosc
     """  # noqa: D301 - click's mark for a block that is not wrapped
-    from garage2usd.common.output import check_file  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.common.settings import validated  # noqa: PLC0415
+    from garage2usd.common.settings import validated  # noqa: PLC0415 - keeps --help instant
     from garage2usd.config.traffic import TrafficConfig  # noqa: PLC0415
     from garage2usd.garage_sources import read_built  # noqa: PLC0415
-    from garage2usd.tracks_files import check_form, write_tracks  # noqa: PLC0415
+    from garage2usd.track_forms import check_tracks_file, write_tracks  # noqa: PLC0415
     from garage2usd.traffic import Operation  # noqa: PLC0415
 
     for output in outputs:
-        check_form(output)
-        check_file(output)
+        check_tracks_file(output)
     given = {"minutes": minutes, "hour": hour, "arrivals_per_hour": arrivals_per_hour, "people": people}
     with Bars(sys.stderr) as progress:
         source = read_built(path, progress=progress)

@@ -155,6 +155,10 @@ class ReportError(UnreadableFileError):
     """A build report that cannot be used."""
 
 
+class TracksError(UnreadableFileError):
+    """A file of tracks that cannot be read."""
+
+
 class MissingExtraError(Garage2UsdError):
     """An optional part of garage2usd that is not installed.
 

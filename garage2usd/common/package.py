@@ -32,6 +32,8 @@ _BROUGHT = {
     "trimesh": ("sensors", "trimesh"),
     "DracoPy": ("models", "DracoPy"),
     "rosbags": ("sensors", "rosbags"),
+    "osi3": ("traffic", "osi-python"),
+    "mcap": ("traffic", "MCAP"),
     "ezdxf": ("cad", "ezdxf"),
     "ifcopenshell": ("cad", "IfcOpenShell"),
 }
@@ -40,7 +42,7 @@ _PYTHON_OF_BLENDER = (3, 11)
 VERSION = version("garage2usd")
 
 
-def require(purpose: str, modules: Iterable[str], *, without: str = "") -> None:
+def require(purpose: str, modules: Iterable[str], *, without: str = "", extra: str = "") -> None:
     """Check that optional modules are installed, without importing them.
 
     Parameters
@@ -51,6 +53,8 @@ def require(purpose: str, modules: Iterable[str], *, without: str = "") -> None:
         Import names of the modules.
     without
         Alternative without the modules, in words; appended to the message if parts of Blender are missing.
+    extra
+        An extra that brings them, if several do.
 
     Raises
     ------
@@ -59,7 +63,7 @@ def require(purpose: str, modules: Iterable[str], *, without: str = "") -> None:
     """
     missing = [module for module in modules if not is_there(module)]
     if missing:
-        raise _missing(purpose, missing, without)
+        raise _missing(purpose, missing, without, extra)
 
 
 def is_there(module: str) -> bool:
@@ -68,8 +72,8 @@ def is_there(module: str) -> bool:
 
 
 @contextmanager
-def of_extra(purpose: str) -> Iterator[None]:
-    """Context for imports of optional modules.
+def of_extra(purpose: str, extra: str = "") -> Iterator[None]:
+    """Context for imports of optional modules; `extra` names one that brings them, if several do.
 
     Raises
     ------
@@ -82,11 +86,11 @@ def of_extra(purpose: str) -> Iterator[None]:
         module = (error.name or "").partition(".")[0]
         if module not in _BROUGHT:
             raise
-        raise _missing(purpose, [module]) from error
+        raise _missing(purpose, [module], extra=extra) from error
 
 
-def _missing(purpose: str, modules: list[str], without: str = "") -> MissingExtraError:
-    extras = sorted({_BROUGHT[module][0] for module in modules})
+def _missing(purpose: str, modules: list[str], without: str = "", extra: str = "") -> MissingExtraError:
+    extras = [extra] if extra else sorted({_BROUGHT[module][0] for module in modules})
     *others, last = (_BROUGHT[module][1] for module in modules)
     brings = f"{', '.join(others)} and {last}" if others else last
     here = sys.version_info[:2]

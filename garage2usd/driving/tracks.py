@@ -1,13 +1,28 @@
 """Tracks: the states of everything that moves in a garage in operation, agent by agent over time."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import IntEnum, StrEnum
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+COLUMNS = {
+    "time_s": 6,
+    "x_m": 4,
+    "y_m": 4,
+    "z_m": 4,
+    "yaw_rad": 5,
+    "pitch_rad": 5,
+    "speed_m_s": 4,
+    "acceleration_m_s2": 4,
+    "steering_rad": 5,
+}
+"""Columns of floats of a track, with the decimals to which files have them."""
+_SAME_TIME_S = 1e-9
+_APART = 1000.0
 
 
 class AgentClass(StrEnum):
@@ -126,6 +141,24 @@ class Track:
             [np.interp(times_s, self.time_s, column, left=np.nan, right=np.nan) for column in columns], axis=1
         )
 
+    def sampled(self, times_s: Floats) -> "Track":
+        """Return the track at those of some ascending times at which the agent is in the garage.
+
+        Numbers are interpolated linearly; states, levels and stalls are those of the sample before.
+        """
+        first, last = self.time_s[0] - _SAME_TIME_S, self.time_s[-1] + _SAME_TIME_S
+        times = times_s[(times_s >= first) & (times_s <= last)]
+        before = np.searchsorted(self.time_s, times + _SAME_TIME_S, side="right") - 1
+        spans = ((*np.searchsorted(before, (start, end)).tolist(), name) for start, end, name in self.stall)
+        columns = {name: np.interp(times, self.time_s, getattr(self, name)) for name in COLUMNS}
+        stall = tuple((start, end, name) for start, end, name in spans if start < end)
+        return Track(self.agent, **columns, state=self.state[before], level=self.level[before], stall=stall)
+
+    def rounded(self) -> "Track":
+        """Return the track with the decimals of `COLUMNS`."""
+        columns = {name: np.round(getattr(self, name), digits) + 0.0 for name, digits in COLUMNS.items()}
+        return Track(self.agent, **columns, state=self.state, level=self.level, stall=self.stall)
+
 
 @dataclass(frozen=True, eq=False)
 class Tracks:
@@ -155,6 +188,15 @@ class Tracks:
     facts: Mapping[str, object] = field(default_factory=dict)
     log: tuple[str, ...] = ()
 
+    def rounded(self) -> "Tracks":
+        """Return the tracks with the decimals of `COLUMNS`, which a table preserves."""
+        return replace(self, tracks=tuple(track.rounded() for track in self.tracks))
+
+    def times(self, step_s: float | None = None) -> Floats:
+        """Return the times of all steps from 0 on, or of those of another step."""
+        step = step_s or self.step_s
+        return np.round(np.arange(int(self.duration_s / step + _SAME_TIME_S) + 1) * step, COLUMNS["time_s"])
+
     def __iter__(self) -> Iterator[Track]:
         """Iterate over the tracks."""
         return iter(self.tracks)
@@ -162,3 +204,25 @@ class Tracks:
     def __len__(self) -> int:
         """Return the number of tracks."""
         return len(self.tracks)
+
+
+def knots(times: Floats, values: Floats, tolerance: float) -> NDArray[np.int64]:
+    """Find samples between which a value is linear in time within a tolerance, by Douglas and Peucker (1973).
+
+    Parameters
+    ----------
+    times, values
+        Ascending times, and a value at each; shape (n,), of at least two.
+    tolerance
+        Greatest deviation.
+
+    Returns
+    -------
+    ndarray
+        Indices of the samples, with the first and the last.
+    """
+    # times are spaced so far apart that the distance from a line equals the difference in value
+    apart = times * _APART
+    line = shapely.LineString(np.stack([apart, values], axis=1)).simplify(tolerance, preserve_topology=False)
+    kept: NDArray[np.int64] = np.searchsorted(apart, shapely.get_coordinates(line)[:, 0])
+    return kept

@@ -53,7 +53,7 @@ class ParkedCar:
     label: str = "car"
 
 
-def parked_cars(garage: BuiltGarage, *, free: Collection[str] = ()) -> list[ParkedCar]:
+def parked_cars(garage: BuiltGarage, *, free: Collection[str] = (), left_out: Collection[str] = ()) -> list[ParkedCar]:
     """Return the parked cars of a garage as boxes around their bodies, level by level in prim order.
 
     Parameters
@@ -62,19 +62,26 @@ def parked_cars(garage: BuiltGarage, *, free: Collection[str] = ()) -> list[Park
         The garage.
     free
         Names of stalls in the whole garage whose cars are ignored.
+    left_out
+        Paths of cars in the whole stage that are ignored.
 
     Notes
     -----
     A car looks to its own -Z, as those of garage2usd's catalogue do; its name in a scenario is ``Car_1`` and so on. The
     box excludes the mirrors, whose width would block passing cars. ASAM OSI also defines vehicle boxes without mirrors.
     """
-    cars = [replace(car, level=number) for number, level in enumerate(garage.levels) for car in _on_level(level, free)]
+    cars = [
+        replace(car, level=number)
+        for number, level in enumerate(garage.levels)
+        for car in _on_level(level, free, left_out)
+    ]
     return [replace(car, name=f"Car_{number}") for number, car in enumerate(cars, 1)]
 
 
-def _on_level(level: BuiltLevel, free: Collection[str]) -> list[ParkedCar]:
+def _on_level(level: BuiltLevel, free: Collection[str], left_out: Collection[str]) -> list[ParkedCar]:
     cars: list[ParkedCar] = []
-    things = [thing for thing in level.things if thing.label in CAR_LABELS and thing.bodies]
+    cars_of_level = (thing for thing in level.things if thing.label in CAR_LABELS and thing.bodies)
+    things = [thing for thing in cars_of_level if level.place.path_in_whole(thing.name) not in left_out]
     bodies = [body for thing in things for body in thing.bodies]
     pieces = placed_pieces(bodies, np.ones(len(bodies), dtype=bool))
     first = np.cumsum([0, *(len(thing.bodies) for thing in things)])

@@ -5,10 +5,10 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 from pxr import Gf, Sdf
 
+from garage2usd.driving.tracks import knots
 from garage2usd.garage import LaneGraph, LaneKind
 from garage2usd.layout import Layout
 from garage2usd.native import elementary
@@ -28,7 +28,6 @@ _STEADY = 1e-9
 """Rounding errors of a constant speed, in metres or degrees per frame."""
 _UNSEEN_DEG = 0.02
 """Angle by which a camera may deviate from its path: half a pixel of an image 2000 pixels wide."""
-_FRAMES_APART = 1000.0
 _LOOK_AHEAD_M = 4.0
 _NEAR_M, _FAR_M = 0.1, 2000.0
 _SHELL = ("wall", "portal", "ramp", "sky")
@@ -117,7 +116,7 @@ def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> 
     for frame in bends(np.array(here)):
         x, z = here[frame]
         layer.SetTimeSample(moves.path, float(frame), Gf.Vec3f(x, EYE_M, z))
-    for frame in _turns(np.array(yaws_deg)):
+    for frame in knots(np.arange(float(len(yaws_deg))), np.array(yaws_deg), _UNSEEN_DEG).tolist():
         layer.SetTimeSample(turns.path, float(frame), round(yaws_deg[frame], 3))
     return frames
 
@@ -128,15 +127,6 @@ def bends(values: NDArray[np.float64]) -> list[int]:
     bends[1:-1] = (np.abs(np.diff(values, 2, axis=0)) > _STEADY).any(axis=1)
     frames: list[int] = np.flatnonzero(bends).tolist()
     return frames
-
-
-def _turns(yaws_deg: NDArray[np.float64]) -> list[int]:
-    """Frames between which the camera turns steadily within `_UNSEEN_DEG`, by Douglas and Peucker (1973)."""
-    # frames are spaced so far apart that the distance from a line equals the difference in yaw
-    frames = np.arange(len(yaws_deg)) * _FRAMES_APART
-    line = shapely.LineString(np.stack([frames, yaws_deg], axis=1)).simplify(_UNSEEN_DEG, preserve_topology=False)
-    kept: list[int] = np.rint(shapely.get_coordinates(line)[:, 0] / _FRAMES_APART).astype(int).tolist()
-    return kept
 
 
 def _rounded(way: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -8,16 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdLux
 
-from garage2usd.assets import Asset, Rgb, finished
+from garage2usd.assets import Asset, Rgb
 from garage2usd.assets.cars import lamps_of, lit
 from garage2usd.assets.light import USUAL_LAMP_RGB
 from garage2usd.common.errors import ConfigError
-from garage2usd.config.vehicles import CarBody
+from garage2usd.config.vehicles import DRIVEN_PAINT, CarBody
 from garage2usd.reading.lights import luminance_of
 from garage2usd.scenes.values import metres_per_unit, metres_y_up
 from garage2usd.stage.authoring import apply_schemas, attribute, define, operation, order_operations, save_file
-from garage2usd.stage.driving_car import CAR_NAME, define_car_looks, driven_asset, write_car_textures
-from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY, define_mesh
+from garage2usd.stage.driving_car import CAR_NAME, driven_asset
+from garage2usd.stage.moving_car import define_looks, define_parts, write_textures
+from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY
 
 _TYPES = Sdf.ValueTypeNames
 _AHEAD_M = 0.03
@@ -134,7 +135,7 @@ def write_stage_with_car(path: Path, stage: Usd.Stage, car: CarBody, *, is_lit: 
                 over.active = False
         _author_car(layer, stage, car, is_lit=is_lit)
     save_file(layer, path)
-    write_car_textures(path.parent, driven_asset(car))
+    write_textures(path.parent, driven_asset(car))
 
 
 def _author_car(layer: Sdf.Layer, stage: Usd.Stage, car: CarBody, *, is_lit: bool) -> None:
@@ -142,12 +143,10 @@ def _author_car(layer: Sdf.Layer, stage: Usd.Stage, car: CarBody, *, is_lit: boo
     operation(root, "transform", Sdf.ValueTypeNames.Matrix4d, Gf.Matrix4d(metres_y_up(stage)).GetInverse())
     order_operations(root, ["transform"])
     asset = lit(driven_asset(car)) if is_lit else driven_asset(car)
-    looks = define_car_looks(layer, root.path, asset)
+    looks = define_looks(layer, root.path, asset, DRIVEN_PAINT)
     body = define(layer, root.path.AppendChild("Body"), "Xform")
     operation(body, "translate", Sdf.ValueTypeNames.Float3, Gf.Vec3f(0, 0, -car.rear_axle_m))
     order_operations(body, ["translate"])
-    for part in asset.parts:
-        finish = finished(part.material, asset.finishes).material
-        define_mesh(layer, body.path.AppendChild(part.name), part, looks, finish=finish)
+    define_parts(layer, body.path, asset.parts, asset, looks)
     if is_lit:
         define_lamp_lights(layer, body.path, asset)

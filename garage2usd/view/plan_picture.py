@@ -3,7 +3,7 @@
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import shapely
@@ -117,7 +117,12 @@ def ways_on_level(lanes: LaneGraph, stall: Stall, level: int = 0) -> Ways:
 
 
 def draw_plan(
-    layout: Layout, *, stall: Stall | None = None, ways: Ways | None = None, marks: Sequence[Mark] = ()
+    layout: Layout,
+    *,
+    stall: Stall | None = None,
+    ways: Ways | None = None,
+    marks: Sequence[Mark] = (),
+    driven: Iterable[Line] = (),
 ) -> Drawing:
     """Draw a layout from above, +X to the right and +Z down, with the corner of the first square at (0, 0).
 
@@ -132,6 +137,8 @@ def draw_plan(
         another level.
     marks
         Findings, drawn as numbers at their places and listed below.
+    driven
+        Lines of tracks on this level (`garage2usd.view.plan_tracks`).
     """
     rows, cols = layout.structure.shape
     if stall is not None and ways is None:
@@ -150,6 +157,7 @@ def draw_plan(
         yield from portals(layout, sheet)
         if ways is not None:
             yield from _route(ways, stall)
+        yield from driven
         yield sheet.title(level_title(layout) + _figures(layout, found))
         yield from sheet.dimensions()
         yield from sheet.legend(layout)

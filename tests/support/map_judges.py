@@ -55,6 +55,16 @@ def asam_issues(path, folder):
     ]
 
 
+def sumo_schema_faults(path, schema, folder):
+    """What a schema of SUMO's finds in an XML file."""
+    code = (
+        "import sys, sumo; from pathlib import Path; from lxml import etree; "
+        "schema = etree.XMLSchema(etree.parse(str(Path(sumo.__file__).parent / 'data/xsd' / sys.argv[1]))); "
+        "schema.validate(etree.parse(sys.argv[2])); print(schema.error_log)"
+    )
+    return _run(JUDGES / "bin/python", "-c", code, schema, path, folder=folder).split("\n")[:-1]
+
+
 def carla_map(path, folder):
     """CARLA's waypoints, every half metre on each lane, and pairs of lanes that follow each other.
 

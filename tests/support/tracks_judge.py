@@ -312,9 +312,8 @@ def _motion(tracks):
 
 
 def main(stage, file):
-    from garage2usd.maps.track_tables import read_tracks
-
     from garage2usd.as_built.garage import garage_of_file
+    from garage2usd.maps.track_tables import read_tracks
 
     verdict = judge(read_tracks(file), garage_of_file(stage))
     for line in (*verdict.overlaps, *verdict.close, *verdict.faults):

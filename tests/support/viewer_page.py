@@ -75,9 +75,9 @@ class Page:
 
 
 @contextmanager
-def viewed(stage, *, size=(1024, 640)):
+def viewed(stage, *, size=(1024, 640), options=()):
     """`garage2usd view` of a stage, and its page."""
-    command = [sys.executable, "-m", "garage2usd", "view", str(stage), "--no-browser"]
+    command = [sys.executable, "-m", "garage2usd", "view", str(stage), "--no-browser", *map(str, options)]
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as server:
         try:

@@ -12,7 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.assets import MATERIALS
+from garage2usd.assets.colours import material_colour
 from garage2usd.assets.light import EXPOSURE_EV
+from garage2usd.driving.tracks import Tracks
 from garage2usd.garage import Stall
 from garage2usd.reading.lanes import GUIDE_LIFT_M, Lanes
 from garage2usd.view.viewer.reading import collider_lines
@@ -22,8 +25,8 @@ _MAGIC = b"G2UV"
 _ALIGNMENT = 4
 
 
-def encode_scene(scene: Scene) -> bytes:
-    """Encode a scene in the format that the page reads (``web/src/scene_file.ts``)."""
+def encode_scene(scene: Scene, tracks: Tracks | None = None) -> bytes:
+    """Encode a scene, and tracks to play in it, in the format that the page reads (``web/src/scene_file.ts``)."""
     buffers = _Buffers()
     shapes = _shapes(scene.shapes, buffers)
     labels = list(scene.counts())
@@ -55,6 +58,7 @@ def encode_scene(scene: Scene) -> bytes:
             "matrix": buffers.add(matrices[:, :, :3].transpose(0, 2, 1).astype(np.float32)),
         },
         "lanes": _lanes(scene.lanes, buffers) if scene.lanes.nodes or scene.lanes.stalls else None,
+        "tracks": None if tracks is None else _tracks(tracks, buffers),
         "arrays": buffers.places,
     }
     text = json.dumps(header, separators=(",", ":"), allow_nan=False).encode()
@@ -85,6 +89,38 @@ class _Buffers:
         self.parts.append(data)
         self._bytes += len(data)
         return len(self.places) - 1
+
+
+def _tracks(tracks: Tracks, buffers: _Buffers) -> dict[str, Any]:
+    """Header of tracks; appends times, poses and levels of all samples."""
+    firsts = np.cumsum([0, *map(len, tracks)]).tolist()
+    columns = ("time_s", "x_m", "y_m", "z_m", "yaw_rad", "pitch_rad")
+    samples = np.concatenate(
+        [
+            np.empty((0, len(columns))),
+            *(np.stack([getattr(track, name) for name in columns], axis=1) for track in tracks),
+        ]
+    ).astype(np.float32)
+    levels = np.concatenate([np.empty(0, np.uint32), *(track.level.astype(np.uint32) for track in tracks)])
+    return {
+        "step": tracks.step_s,
+        "duration": tracks.duration_s,
+        "agents": [
+            {
+                "name": track.agent.name,
+                "kind": track.agent.kind,
+                "size": [track.agent.width_m, track.agent.height_m, track.agent.length_m],
+                "rgb": material_colour(MATERIALS[f"car_paint_{track.agent.paint}"]) if track.agent.paint else None,
+                "prim": track.agent.prim,
+                "first": first,
+                "count": len(track),
+            }
+            for track, first in zip(tracks, firsts[:-1], strict=True)
+        ],
+        "times": buffers.add(samples[:, 0]),
+        "poses": buffers.add(samples[:, 1:]),
+        "levels": buffers.add(levels),
+    }
 
 
 def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:

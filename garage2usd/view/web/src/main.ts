@@ -12,6 +12,7 @@ import { type Hit, Rays } from "./rays";
 import { SceneFile, type Stall } from "./scene_file";
 import { SurfaceMaterials } from "./surface_material";
 import { layersOf } from "./textures";
+import { Traffic } from "./traffic";
 import { EYE_M, Walker } from "./walk";
 import "./style.css";
 
@@ -40,6 +41,7 @@ class Viewer {
   readonly colliders: Colliders;
   readonly frame = new Frame();
   readonly hiddenLabels = new Set<string>();
+  readonly traffic: Traffic | null;
   mode: Mode = "orbit";
   /** The highest level that is shown; while one walks, the one that one is on. */
   level = 0;
@@ -80,6 +82,11 @@ class Viewer {
     this.orbit.zoomToCursor = true;
     this.orbit.addEventListener("change", () => this.touch());
     this.world.add(instances.group, this.colliders.group, this.frame.lines);
+    this.traffic = scene.tracks && new Traffic(scene, scene.tracks, () => this.touch());
+    if (this.traffic) {
+      this.world.add(this.traffic.group);
+      this.traffic.listen();
+    }
     if (scene.lanes) {
       this.lanes = laneGraphOf(scene.lanes, scene.levels);
       this.stalls = stallPlanOf(scene.lanes, floors);
@@ -132,9 +139,11 @@ class Viewer {
   }
 
   private tick(now: number): void {
-    const seconds = Math.min(0.1, (now - this.last) / 1000);
+    const elapsed = (now - this.last) / 1000;
+    const seconds = Math.min(0.1, elapsed);
     this.last = now;
     if (this.mode === "walk" && this.walker.advance(seconds)) this.touch();
+    if (this.traffic?.advance(elapsed)) this.touch();
     if (this.isBusy(now)) return;
     if (this.quality.rests(now)) {
       this.dirty = true;
@@ -187,6 +196,7 @@ class Viewer {
     if (this.mode === "walk") this.setLevel(this.levelAt(this.walker.feet.y));
     this.cutAway(camera.position.y > this.ceilingHeights[this.level]);
     const ratio = this.renderer.getPixelRatio();
+    this.traffic?.place(this.mode === "walk" ? 0 : this.level);
     this.instances.update(camera, element("view").clientHeight * ratio, this.quality.moving ? this.quality.coarse : 1);
     this.renderer.render(this.world, camera);
     this.map.draw(this.eye(), this.selected < 0 ? null : footprint(this.scene, this.boxes, this.selected));
@@ -267,6 +277,7 @@ class Viewer {
       const isCut = level === this.level && this.cut === true && OVERHEAD.has(this.scene.labelOf(object));
       visible[object] = level >= top && !isCut && labels[this.scene.label[object]] ? 1 : 0;
     }
+    for (const object of this.traffic?.replaced ?? []) visible[object] = 0;
     for (const guide of [this.lanes, this.stalls]) guide?.children.forEach((child, level) => (child.visible = level >= top));
     if (this.colliders.group.visible) this.colliders.show(visible);
     this.touch();
@@ -635,6 +646,7 @@ class Viewer {
       KeyG: () => this.setLayer("lanes"),
       KeyU: () => this.setLayer("stalls"),
       KeyK: () => this.setLayer("colliders"),
+      KeyT: () => this.traffic?.setPlaying(!this.traffic.playing),
       PageUp: () => this.chooseLevel(this.level - 1),
       PageDown: () => this.chooseLevel(this.level + 1),
       KeyF: () => this.selected >= 0 && this.approach(this.selected),

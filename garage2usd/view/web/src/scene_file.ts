@@ -96,7 +96,39 @@ interface Header {
     /** Those that cars park in. */
     parkingStalls: number;
   } | null;
+  tracks: {
+    step: number;
+    duration: number;
+    agents: Agent[];
+    times: number;
+    poses: number;
+    levels: number;
+  } | null;
   arrays: { at: number; count: number }[];
+}
+
+/** A car or a person of tracks; its samples follow the first one. */
+export interface Agent {
+  name: string;
+  kind: string;
+  /** Width, height and length. */
+  size: [number, number, number];
+  /** Linear; none of a person. */
+  rgb: [number, number, number] | null;
+  /** Path of the parked car of the stage that it is; empty for others. */
+  prim: string;
+  first: number;
+  count: number;
+}
+
+/** Five numbers a sample: x, y, z, yaw and pitch. */
+export interface TrackFile {
+  step: number;
+  duration: number;
+  agents: Agent[];
+  times: Float32Array;
+  poses: Float32Array;
+  levels: Uint32Array;
 }
 
 export interface Lanes {
@@ -128,6 +160,7 @@ export class SceneFile {
   /** Twelve numbers an object: three rows that multiply (x, y, z, 1). */
   readonly matrix: Float32Array;
   readonly lanes: Lanes | null;
+  readonly tracks: TrackFile | null;
 
   constructor(data: ArrayBuffer) {
     const head = new DataView(data);
@@ -154,6 +187,8 @@ export class SceneFile {
     const roots = this.header.levels.map(({ path }) => `${path}/`);
     this.level = Uint8Array.from(this.paths, (path) => Math.max(0, roots.findIndex((root) => path.startsWith(root))));
     this.lanes = lanes && { ...lanes, nodes: floats(lanes.nodes), edges: words(lanes.edges) };
+    const { tracks } = this.header;
+    this.tracks = tracks && { ...tracks, times: floats(tracks.times), poses: floats(tracks.poses), levels: words(tracks.levels) };
   }
 
   /** How many levels there are, at least one. */
