@@ -3,7 +3,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
 
@@ -31,7 +31,7 @@ from garage2usd.traffic.trips import Stretch, Trip
 _SPEEDS = DriveConfig(lane_speed_m_s=4.2, parking_speed_m_s=1.0, acceleration_m_s2=1.2, lateral_acceleration_m_s2=1.8)
 """Speeds of drivers who know garages: 15 km/h on aisles."""
 _RETRY_S, _PATIENCE_S, _STUCK_S = 1.0, 45.0, 180.0
-_CHOICES = 6
+_CHOICES = 24
 _TRIED, _MOST = 12, 0.7
 _NOISE_M = 15.0
 
@@ -246,44 +246,42 @@ class _Run:
                 self._choose(visit)
                 self.street[self.street.index((visit, since))] = visit, self.now_s
 
-    def _choose(self, visit: _Visit) -> bool:
-        """Choose a free stall near a stair core for an arriving car."""
+    def _choose(
+        self, visit: _Visit, accepts: Callable[[Trip], bool] = lambda _: True, *, most: int = _CHOICES
+    ) -> bool:
+        """Choose a free stall near a stair core for an arriving car, the first whose trip is accepted."""
         free = [stall for stall in self.operation.stalls if stall.name not in self.taken]
         noise = self.draw.exponential(_NOISE_M, len(free))
-        costs = [
-            self.operation.walkers.distance_m(stall) + far for stall, far in zip(free, noise.tolist(), strict=True)
-        ]
-        for index in np.argsort(costs, kind="stable").tolist()[: 4 * _CHOICES]:
-            stall = free[index]
-            if self.operation.trip(stall, Leg.IN) is None or self.operation.trip(stall, Leg.OUT) is None:
+        costs = [self.operation.walkers.distance_m(stall) + far for stall, far in zip(free, noise.tolist(), strict=True)]
+        for index in np.argsort(costs, kind="stable").tolist()[:most]:
+            trip = self.operation.trip(free[index], Leg.IN)
+            if trip is None or self.operation.trip(free[index], Leg.OUT) is None or not accepts(trip):
                 continue
-            visit.stall = stall
-            self.taken.add(stall.name)
+            visit.stall = free[index]
+            self.taken.add(free[index].name)
             return True
         return False
 
     def _reconsider(self) -> None:
         """Let drivers who cannot go on to their stall choose another one that lies on their way."""
         for driver in self.cars.drivers[:]:
-            waited = self.cars.step - driver.waits_since if driver.waits_since >= 0 else 0
             visit = self.of_car[driver.number]
-            if waited * STEP_S < _PATIENCE_S or visit.is_called or visit.stall is None:
+            waited = self.cars.step - driver.waits_since if driver.waits_since >= 0 else 0
+            if waited * STEP_S < _PATIENCE_S or visit.is_called:
                 continue
             driver.waits_since = self.cars.step
-            old = visit.stall
-            if not self._choose(visit):
-                continue
-            trip = self.operation.trip(visit.stall, Leg.IN)
-            assert trip is not None
-            other = self.cars.change_trip(driver, trip)
-            if other is None:
-                self.taken.discard(visit.stall.name)
-                visit.stall = old
-                continue
-            self.taken.discard(old.name)
-            self.counts["changed"] += 1
-            visit.driver = other
-            visit.before.append(driver)
+            old, others = visit.stall, []
+
+            def goes_on(trip: Trip, driver: Driver = driver, others: list[Driver] = others) -> bool:
+                other = self.cars.change_trip(driver, trip)
+                others += [other] if other is not None else []
+                return other is not None
+
+            if old is not None and self._choose(visit, goes_on, most=len(self.operation.stalls)):
+                self.taken.discard(old.name)
+                self.counts["changed"] += 1
+                visit.driver = others[0]
+                visit.before.append(driver)
 
     def _call(self) -> None:
         """Let drivers walk to their cars when their stays end, and cars leave when the drivers are there."""

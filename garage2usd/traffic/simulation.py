@@ -78,6 +78,8 @@ class Simulation:
         self.ground, self._settings = ground, settings
         self.step = 0
         self.drivers: list[Driver] = []
+        self._stands = np.zeros_like(ground.owner)
+        self._standing: dict[int, Cells] = {}
 
     def try_start(self, number: int, trip: Trip) -> Driver | None:
         """Let a car begin a trip if the ground up to the first place to wait is free."""
@@ -99,11 +101,12 @@ class Simulation:
         other = Driver(driver.number, trip, way_m)
         other.held = other.freed = int(way_m / SLICE_M)
         other.next_stop = sum(stop.way_m <= way_m for stop in trip.stops)
-        if not self._extend(other, way_m):
+        if not self._extend(other, way_m + _AHEAD_M):
             cells = driver.trip.cells(self.ground)
             for number in range(driver.kept, driver.held):
                 self.ground.hold(cells[number], driver.number)
             driver.freed = driver.kept
+            self._stand(driver, driver.held - 1)
             return None
         self.drivers[self.drivers.index(driver)] = other
         return other
@@ -139,10 +142,47 @@ class Simulation:
                 if not self.ground.is_free(cells[number], driver.number):
                     trip.hint = number
                     return False
+            if self._closes_circle(driver, last):
+                return False
             for number in slices:
                 self.ground.hold(cells[number], driver.number)
+            self._stand(driver, last)
             driver.held = last + 1
         return True
+
+    def _stand(self, driver: Driver, last: int | None) -> None:
+        """Note the ground on which a car will stand at the end of a slice; nowhere if that is None."""
+        standing = self._standing.pop(driver.number, None)
+        if standing is not None:
+            self._stands[standing] = 0
+        if last is not None and last < driver.trip.slices - 1:
+            cells = driver.trip.cells(self.ground)[last]
+            self._stands[cells] = driver.number
+            self._standing[driver.number] = cells
+
+    def _closes_circle(self, driver: Driver, last: int) -> bool:
+        """Return True if a car that goes on to the end of a slice would close a circle of cars that wait for another.
+
+        This is the detection of cycles in the wait-for graph (Coffman, Elphick and Shoshani 1971), ahead of time.
+        """
+        trip = driver.trip
+        if last >= trip.slices - 1:
+            return False
+        of_number = {other.number: other for other in self.drivers}
+        own = trip.cells(self.ground)[last]
+        waiting, seen = [(trip, last + 1)], {driver.number}
+        is_first = True
+        while waiting:
+            other, begin = waiting.pop()
+            cells = other.cells(self.ground)[begin : other.groups[begin] + 1]
+            if not is_first and any(np.isin(own, each, assume_unique=True).any() for each in cells):
+                return True
+            is_first = False
+            found = {int(number) for each in cells for number in np.unique(self._stands[each])} - seen - {0}
+            seen |= found
+            blocking = (of_number[number] for number in sorted(found) if number in of_number)
+            waiting += [(each.trip, each.held) for each in blocking if each.held < each.trip.slices]
+        return False
 
     def _advance(self, driver: Driver) -> None:
         trip, settings = driver.trip, self._settings
@@ -192,3 +232,4 @@ class Simulation:
         for number in range(driver.freed, driver.held):
             self.ground.release(cells[number])
         driver.kept, driver.freed = driver.freed, driver.held
+        self._stand(driver, None)
