@@ -34,6 +34,8 @@ _BROUGHT = {
     "rosbags": ("sensors", "rosbags"),
     "osi3": ("traffic", "osi-python"),
     "mcap": ("traffic", "MCAP"),
+    "mcap_protobuf": ("traffic", "MCAP's support of protobuf"),
+    "google": ("traffic", "protobuf"),
     "ezdxf": ("cad", "ezdxf"),
     "ifcopenshell": ("cad", "IfcOpenShell"),
 }

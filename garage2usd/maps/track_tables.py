@@ -21,7 +21,7 @@ with of_extra("a table of tracks", "traffic"):
 
 TABLE_SUFFIXES = (".parquet", ".csv")
 """Extensions of tables."""
-_KEY = "garage2usd.tracks"
+_KEY = "garage2usd_tracks"
 """Key of the JSON text in the metadata of a Parquet file's schema."""
 _FORM = 1
 _STATES = [state.name.lower() for state in AgentState]
@@ -36,7 +36,7 @@ def write_track_parquet(path: Path, tracks: Tracks) -> None:
     Notes
     -----
     Rows are ordered by agent and time. The metadata of the schema hold step, duration, source, facts, log and agents as
-    JSON under ``garage2usd.tracks``. Numbers have the decimals of `garage2usd.driving.tracks.COLUMNS`, in single
+    JSON under ``garage2usd_tracks``. Numbers have the decimals of `garage2usd.driving.tracks.COLUMNS`, in single
     precision where that preserves them.
     """
     table = _table(tracks)

@@ -106,7 +106,7 @@ def test_what_is_no_table_of_tracks_is_one_line(tracks, suffix, tmp_path):
 def test_a_table_of_others_is_named(tmp_path):
     table = tmp_path / "a.parquet"
     pq.write_table(pa.table({"a": [1]}), table)
-    with pytest.raises(TracksError, match=r"a\.parquet: is no table of tracks: has no garage2usd\.tracks"):
+    with pytest.raises(TracksError, match=r"a\.parquet: is no table of tracks: has no garage2usd_tracks"):
         read_tracks(table)
     with pytest.raises(TracksError, match=r"ends in \.parquet or \.csv"):
         read_tracks(tmp_path / "a.txt")
