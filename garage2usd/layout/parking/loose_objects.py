@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 
 from garage2usd.assets import pascal_case
-from garage2usd.assets.figures import POSES
+from garage2usd.assets.poses import POSES
 from garage2usd.common.randomness import Step, generator, named_generator
 from garage2usd.config import FittingsConfig, GarageConfig
 from garage2usd.config.site import DOOR_FRAME_M
