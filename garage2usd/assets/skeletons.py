@@ -143,6 +143,23 @@ def turns_of(rotations: Vectors) -> Vectors:
     return np.asarray(turns)
 
 
+def joint_paths() -> list[str]:
+    """Names of the joints with those of the joints above them, as USD and Unity write them: ``hips/spine/head``."""
+    paths: list[str] = []
+    for name, parent in zip(JOINTS, PARENTS, strict=True):
+        paths.append(name if parent < 0 else f"{paths[parent]}/{name}")
+    return paths
+
+
+def strongest(weights: Vectors) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
+    """The four strongest joints of each point, strongest first, and their weights, which add up to 1; shapes (n, 4)."""
+    joints = np.argsort(-weights, axis=1, kind="stable")[:, :4].astype(np.int32)
+    chosen = np.take_along_axis(weights, joints, axis=1)
+    # formats ask for joint 0 where there is no weight
+    joints[chosen == 0] = 0
+    return joints, (chosen / chosen.sum(axis=1, keepdims=True)).astype(np.float32)
+
+
 def along(points: Sequence[Vectors], shares: Sequence[float]) -> list[Vectors]:
     """Points on a chain of two bones: 0 at its first joint, 1 at the second, 2 at the third."""
     first, second, third = points
