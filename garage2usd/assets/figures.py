@@ -166,7 +166,7 @@ def _pieces(figure: Figure) -> dict[str, tuple[str, Collider | None, list[_Piece
     legs = _legs(body, is_bare=is_dress)
     bare_arms = _arms(body, 2, 6, thinner=0.82) if is_shirt else []
     hull = Collider.CONVEX_HULL
-    return {
+    pieces: dict[str, tuple[str, Collider | None, list[_Piece]]] = {
         "Top": (figure.top, hull, [_trunk(body), *_arms(body, 0, 3 if is_shirt else 6)]),
         "Bottom": (figure.bottom, hull, [_skirt(body)] if is_dress else [_pelvis(body), *legs]),
         "Shoes": (figure.shoes, hull, _shoes(body)),
@@ -174,6 +174,15 @@ def _pieces(figure: Figure) -> dict[str, tuple[str, Collider | None, list[_Piece
         "Skin": (figure.skin, None, [*_hands(body), *bare_arms, *(legs if is_dress else [])]),
         "Hair": (figure.hair, None, [(_hair(body), _rigid("head"))]),
     }
+    # a pose bends the ends of lofts, which are polygons
+    return {
+        name: (material, collider, [(_triangles(faces), skin) for faces, skin in covers])
+        for name, (material, collider, covers) in pieces.items()
+    }
+
+
+def _triangles(faces: list[Face]) -> list[Face]:
+    return [face[[0, corner, corner + 1]] for face in faces for corner in range(1, len(face) - 1)]
 
 
 class _Body(NamedTuple):
