@@ -20,7 +20,7 @@ from garage2usd.scenes.prims import Matrix
 from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.surfaces import SurfaceLook
 
-_FLOAT, _SHARE = 5126, 5123
+_FLOAT, _SHARE, _BYTE = 5126, 5123, 5121
 _MOST = 65535
 """16-bit value of 1 for normalized texture coordinates; the error is at most 1/100 pixel of 1000."""
 _VERTICES, _INDICES = 34962, 34963
@@ -29,6 +29,22 @@ _INDEX_TYPES = {5121: "<u1", 5123: "<u2", 5125: "<u4"}
 _ALIGNMENT = 4
 _LIGHTS = "KHR_lights_punctual"
 _GLTF, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
+
+
+class Skin(NamedTuple):
+    """The four joints that move each vertex: their numbers and weights, shapes (vertices, 4)."""
+
+    joints: NDArray[np.uint8]
+    weights: NDArray[np.float32]
+
+
+class Channel(NamedTuple):
+    """Values of a node's translation, rotation (x, y, z, w) or scale over time; shapes (k,) and (k, 3 or 4)."""
+
+    node: int
+    path: str
+    times_s: NDArray[np.float32]
+    values: NDArray[np.float32]
 
 
 class Piece(NamedTuple):
@@ -40,11 +56,14 @@ class Piece(NamedTuple):
         The triangles and their surface.
     is_faceted
         True if all triangles have flat normals.
+    skin
+        Joints that move the vertices; None for none. Smooth pieces only, alone in their mesh.
     """
 
     triangles: Triangles
     surface: SurfaceLook
     is_faceted: bool
+    skin: Skin | None = None
 
 
 class GlbFile:
@@ -71,6 +90,8 @@ class GlbFile:
         self._roots: list[int] = []
         self._lights: list[dict[str, Any]] = []
         self._meshes: list[dict[str, Any]] = []
+        self._skins: list[dict[str, Any]] = []
+        self._animations: list[dict[str, Any]] = []
         self._mesh_of: dict[Hashable, int] = {}
         self._primitive_of: dict[tuple[Triangles, Triangles | None, int], dict[str, Any]] = {}
 
@@ -103,6 +124,9 @@ class GlbFile:
                 attributes = self._primitive(mate, material, piece)["attributes"]
             indices = self._numbers.indices(own.indices)
             attributes = self._attributes(own, within=attributes)
+            if piece.skin is not None:
+                attributes["JOINTS_0"] = self._numbers.joints(piece.skin.joints)
+                attributes["WEIGHTS_0"] = self._numbers.vectors(piece.skin.weights)
             self._primitive_of[key] = {"attributes": attributes, "indices": indices, "material": material}
         return self._primitive_of[key]
 
@@ -128,6 +152,7 @@ class GlbFile:
         matrix: Matrix,
         *,
         mesh: int | None = None,
+        skin: int | None = None,
         above: int | None = None,
         extras: Mapping[str, Any] | None = None,
     ) -> int:
@@ -141,6 +166,8 @@ class GlbFile:
             Transform to the space of the parent node; rigid as defined by `garage2usd.maps.glb_meshes.are_rigid`.
         mesh
             Index of the mesh.
+        skin
+            Index of the skin that moves the mesh.
         above
             Index of the parent node; None for a root node of the scene.
         extras
@@ -152,12 +179,29 @@ class GlbFile:
             Index of the node.
         """
         number = len(self._nodes)
-        drawn = {} if mesh is None else {"mesh": mesh}
+        drawn = {name: index for name, index in (("mesh", mesh), ("skin", skin)) if index is not None}
         self._nodes.append({"name": name, **drawn, **({"extras": dict(extras)} if extras else {})})
         self._matrices.append(matrix)
         siblings = self._roots if above is None else self._nodes[above].setdefault("children", [])
         siblings.append(number)
         return number
+
+    def add_skin(self, name: str, joints: list[int], inverse_binds: NDArray[np.float32]) -> int:
+        """Add a skin of joint nodes and return its index; inverse matrices at rest, (n, 4, 4), are for rows."""
+        number = self._numbers.plain(inverse_binds.reshape(-1, 16), "MAT4")
+        self._skins.append({"name": name, "joints": joints, "skeleton": joints[0], "inverseBindMatrices": number})
+        return len(self._skins) - 1
+
+    def add_animation(self, name: str, channels: Iterable[Channel]) -> None:
+        """Add an animation of nodes."""
+        samplers: list[dict[str, int]] = []
+        targets: list[dict[str, Any]] = []
+        for channel in channels:
+            times = self._numbers.plain(channel.times_s[:, None], "SCALAR")
+            values = self._numbers.plain(channel.values, f"VEC{channel.values.shape[1]}")
+            targets.append({"sampler": len(samplers), "target": {"node": channel.node, "path": channel.path}})
+            samplers.append({"input": times, "output": values})
+        self._animations.append({"name": name, "samplers": samplers, "channels": targets})
 
     def add_light(self, name: str, matrix: Matrix, light: dict[str, Any], *, above: int | None = None) -> None:
         """Add a light node, which shines along -Z.
@@ -193,6 +237,8 @@ class GlbFile:
             "scenes": [{"nodes": self._roots, **({"extras": dict(facts)} if facts else {})}],
             "nodes": [node | place for node, place in zip(self._nodes, places, strict=True)],
             "meshes": self._meshes,
+            "skins": self._skins,
+            "animations": self._animations,
             "materials": materials.materials,
             "textures": materials.textures.textures,
             "samplers": materials.textures.samplers,
@@ -214,10 +260,10 @@ class _Numbers:
     def __init__(self) -> None:
         self.accessors: list[dict[str, Any]] = []
         self._beginnings: dict[tuple[int, int], int] = {}
-        self._known: dict[tuple[bytes, int, str, bool], int] = {}
+        self._known: dict[tuple[bytes, int, str, bool, bool], int] = {}
         self._parts: list[bytearray] = []
         self._headers: list[dict[str, int]] = []
-        self._view_of: dict[tuple[int, str], int] = {}
+        self._view_of: dict[tuple[int, str, bool], int] = {}
 
     def vectors(self, values: NDArray[np.float32], *, with_bounds: bool = False) -> int:
         """Add an accessor of vertex vectors and return its index; float32, shape (vertices, 2 to 4)."""
@@ -225,6 +271,18 @@ class _Numbers:
         header = {"target": _VERTICES, "byteStride": 4 * width}
         bounds = partial(_bounds, values) if with_bounds else None
         return self._accessor(values.astype("<f4").tobytes(), _FLOAT, len(values), f"VEC{width}", header, bounds)
+
+    def joints(self, values: NDArray[np.uint8]) -> int:
+        """Add an accessor of joint numbers, shape (vertices, 4), and return its index."""
+        return self._accessor(
+            values.tobytes(), _BYTE, len(values), "VEC4", {"target": _VERTICES, "byteStride": _ALIGNMENT}, None
+        )
+
+    def plain(self, values: NDArray[np.float32], kind: str) -> int:
+        """Add an accessor of float32 rows that are not of vertices, and return its index."""
+        return self._accessor(
+            values.astype("<f4").tobytes(), _FLOAT, len(values), kind, {}, partial(_bounds, values.astype("<f4"))
+        )
 
     def shares(self, values: NDArray[np.float32]) -> int:
         """Add an accessor of texture coordinates from 0 to 1 as 16-bit numbers, and return its index."""
@@ -264,10 +322,10 @@ class _Numbers:
         header: dict[str, int],
         bounds: Callable[[], dict[str, list[float]]] | None,
     ) -> int:
-        key = hashlib.blake2b(data, digest_size=16).digest(), component, kind, bounds is None
+        key = hashlib.blake2b(data, digest_size=16).digest(), component, kind, bounds is None, bool(header)
         if key in self._known:
             return self._known[key]
-        view = self._view_of.setdefault((component, kind), len(self._parts))
+        view = self._view_of.setdefault((component, kind, bool(header)), len(self._parts))
         if view == len(self._parts):
             self._headers.append(header)
             self._parts.append(bytearray())

@@ -5,8 +5,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from garage2usd.assets.figures import POSES, Figure, Outfit, figure_asset
+from garage2usd.assets.figures import Figure, Outfit, figure_asset
 from garage2usd.assets.mesh import Asset
+from garage2usd.assets.poses import POSES
 from garage2usd.objects.kind import Kind, Polygon, Spec, rectangle
 
 KIND = Kind("person", number=45, label="person", cityscapes="person", group="Clutter")
@@ -54,7 +55,7 @@ class PersonSpec(Spec, kind=KIND):
     number
         Index in `PEOPLE`.
     pose
-        Name of a pose of `garage2usd.assets.figures.POSES`.
+        Name of a pose of `garage2usd.assets.poses.POSES`.
     """
 
     number: int

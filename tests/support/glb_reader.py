@@ -13,7 +13,7 @@ from scipy.spatial import KDTree
 from garage2usd.assets import MATERIALS, pascal_case
 from support.places import MILLIMETRE
 
-WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 TYPES = {5121: np.dtype("<u1"), 5123: np.dtype("<u2"), 5125: np.dtype("<u4"), 5126: np.dtype("<f4")}
 UNIT = 1e-3
 CORNERS = (-1, 1), (1, 1), (1, -1), (-1, -1)

@@ -4,8 +4,8 @@ import string
 from dataclasses import replace
 from functools import cache
 
-from garage2usd.assets.figures import POSES
 from garage2usd.assets.lettering import OWN_FONT
+from garage2usd.assets.poses import POSES
 from garage2usd.config.look import ColumnSection, Dirt, Guard
 from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_BODIES, PAINTS, VehicleClass
 from garage2usd.garage.path_line import PathLine

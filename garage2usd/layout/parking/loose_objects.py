@@ -8,12 +8,13 @@ import numpy as np
 import shapely
 
 from garage2usd.assets import pascal_case
-from garage2usd.assets.figures import POSES
+from garage2usd.assets.poses import POSES
 from garage2usd.common.randomness import Step, generator, named_generator
 from garage2usd.config import FittingsConfig, GarageConfig
 from garage2usd.config.site import DOOR_FRAME_M
 from garage2usd.layout.egress.cores import Core
 from garage2usd.layout.grounds import grounds_of
+from garage2usd.layout.parking.surroundings import ROOM_M, Surroundings
 from garage2usd.layout.placement import PlacedStall, Placement, edge_yaw_rad, of_spec, placed, sum_of_yaws, to_world
 from garage2usd.layout.shell.mounts import carriageway, core_and_landing
 from garage2usd.layout.tiles import Tile, Tiles
@@ -56,11 +57,12 @@ _FROM_CORE_M = SIGN_FOOT_M + 0.1
 
 
 class _ClutterKind(NamedTuple):
-    """Kind of clutter: its setting in `garage2usd.config.ClutterConfig`, a random shape, True for any yaw."""
+    """Kind of clutter: its setting in `garage2usd.config.ClutterConfig`, a random shape, any yaw, a way to look."""
 
     setting: str
     drawn: Callable[[np.random.Generator], Spec]
     has_any_yaw: bool = False
+    looks: bool = False
 
 
 def _random_motorbike(rng: np.random.Generator) -> MotorbikeSpec:
@@ -85,11 +87,7 @@ _CLUTTER_KINDS: tuple[_ClutterKind, ...] = (
     _ClutterKind("bicycles", lambda rng: BicycleSpec(_one_of(rng, BICYCLE_COLOURS))),
     _ClutterKind("trolleys", lambda rng: TrolleySpec((1, 1, 1, 3)[int(rng.integers(4))])),
     _ClutterKind("prams", lambda rng: PramSpec(_one_of(rng, PRAM_COLOURS))),
-    _ClutterKind(
-        "people",
-        _random_person,
-        has_any_yaw=True,
-    ),
+    _ClutterKind("people", _random_person, looks=True),
     _ClutterKind("bags", lambda rng: BagSpec(_one_of(rng, tuple(BagSort))), has_any_yaw=True),
     _ClutterKind("boxes", lambda rng: BoxSpec(*BOX_SIZES_M[int(rng.integers(len(BOX_SIZES_M)))])),
 )
@@ -130,18 +128,32 @@ def clutter(
     counts = {kind.setting: config.clutter.per_hundred(kind.setting) * len(stalls) / 100 for kind in _CLUTTER_KINDS}
     if not any(counts.values()):
         return []
+    cores, standing, hung = tuple(cores), tuple(standing), tuple(hung)
     free = _free_grounds(grid, stalls, cores, standing, hung, kept_clear)
     found: list[Placement] = []
     for kind in _CLUTTER_KINDS:
         rng = named_generator(config.seed, Step.CLUTTER, kind.setting)
         # the fraction of an object is a probability
         wanted = int(counts[kind.setting] + rng.random())
+        around = _surroundings(grid, cores, [*standing, *hung, *found]) if kind.looks and wanted else None
         for number in range(1, wanted + 1):
             spec = kind.drawn(rng)
-            place = _place(spec, free, rng, f"{pascal_case(spec.kind.name)}_{number}", has_any_yaw=kind.has_any_yaw)
+            name = f"{pascal_case(spec.kind.name)}_{number}"
+            place = _place(spec, free, rng, name, has_any_yaw=kind.has_any_yaw, around=around)
             if place is not None:
                 found.append(place)
     return found
+
+
+def _surroundings(grid: Tiles, cores: Iterable[Core], standing: Sequence[Placement]) -> Surroundings:
+    """Return what people have around them before the first of them is placed."""
+    cars, things = (
+        grounds_of([outline for place in standing if (place.kind == "car") == is_car for outline in place.outlines()])
+        for is_car in (True, False)
+    )
+    driven = [carriageway(tile, grid.setback_m) for tile in grid if tile.cell is not Cell.FREE]
+    doors = [core.door_m for core in cores if core.has_door]
+    return Surroundings(grid.ground, np.array(driven, dtype=object), doors, cars, things)
 
 
 def _free_grounds(
@@ -153,7 +165,6 @@ def _free_grounds(
     kept_clear: shapely.Geometry,
 ) -> list[shapely.Polygon]:
     """Return the polygons of free ground, sorted by place."""
-    cores = tuple(cores)
     driven = [carriageway(tile, grid.setback_m) for tile in grid if tile.cell is not Cell.FREE]
     parked = grounds_of([stall.corners_m() for stall in stalls])
     touched = grounds_of([outline for place in standing for outline in place.outlines()])
@@ -177,7 +188,13 @@ def _wide_pieces(ground: shapely.Geometry) -> list[shapely.Polygon]:
 
 
 def _place(
-    spec: Spec, free: list[shapely.Polygon], rng: np.random.Generator, name: str, *, has_any_yaw: bool
+    spec: Spec,
+    free: list[shapely.Polygon],
+    rng: np.random.Generator,
+    name: str,
+    *,
+    has_any_yaw: bool,
+    around: Surroundings | None,
 ) -> Placement | None:
     """Place a shape on one of the free polygons and cut its outline out of them; None if no candidate point fits."""
     areas = np.array([ground.area for ground in free])
@@ -188,14 +205,22 @@ def _place(
     grounds = np.array(free, dtype=object)[chosen]
     bounds = shapely.bounds(grounds)
     points = bounds[:, :2] + draws[:, :2] * (bounds[:, 2:] - bounds[:, :2])
-    for candidate in np.flatnonzero(shapely.contains_xy(grounds, points)).tolist():
+    fitting = shapely.contains_xy(grounds, points)
+    if around is not None:
+        fitting &= around.has_room(points)
+    for candidate in np.flatnonzero(fitting).tolist():
         index, ground, turn = int(chosen[candidate]), grounds[candidate], float(draws[candidate, 2])
-        yaw = turn * 4 * _QUARTER_TURN if has_any_yaw else int(turn * 4) * _QUARTER_TURN
+        yaw: float | None = turn * 4 * _QUARTER_TURN if has_any_yaw else int(turn * 4) * _QUARTER_TURN
         point = float(points[candidate, 0]), float(points[candidate, 1])
+        if around is not None:
+            yaw = around.yaw_rad(point, turn)
+        if yaw is None:
+            continue
         place = placed(name, spec, point, yaw_rad=round(float(np.remainder(yaw + np.pi, 2 * np.pi) - np.pi), 6))
         taken = shapely.union_all(grounds_of(place.outlines()))
         if shapely.contains_properly(ground, taken):
-            free[index : index + 1] = _wide_pieces(ground.difference(taken.buffer(_CLEARANCE_M)))
+            kept = taken if around is None else taken.union(shapely.Point(point).buffer(ROOM_M))
+            free[index : index + 1] = _wide_pieces(ground.difference(kept.buffer(_CLEARANCE_M)))
             return place
     return None
 

@@ -116,6 +116,56 @@ def test_over_many_garages_clutter_stands_on_ground_that_is_nobodys():
     assert min(found.values()) > 3, found
 
 
+ROOM_M, SIGHT_M = 0.4, 1.5
+STREWN = MANY | {"people": 40.0}
+
+
+def cramped(layout):
+    """People who have too little room, or have a wall or a thing before them and no car or door behind which it is."""
+    inside = ground_inside(layout.structure)
+    # wheel stops are as low as kerbs, and zone plates a centimetre thick on their columns
+    objects = ((shape, name) for shape, name, _ in clutter_judge.objects(layout))
+    solid = [(shape, name) for shape, name in objects if not name.startswith(("WheelStop", "ZonePlates"))]
+    clutter = [(hull(place), place.name) for place in clutter_of(layout)]
+    # people who talk to each other, and things that were put down before them, are no walls
+    looked_at = {place.name for kind in ("car", "person", "bag", "cardboard_box") for place in layout.of_kind(kind)}
+    for place in layout.of_kind("person"):
+        x, _, z = place.position_m
+        middle = shapely.Point(x, z)
+        things = [(shape, name) for shape, name in [*solid, *clutter] if name != place.name]
+        near = [name for shape, name in things if shape.distance(middle) < ROOM_M - 1e-6]
+        if near or inside.exterior.distance(middle) < ROOM_M - 1e-6:
+            yield place.name, near
+        nose = np.array((math.sin(place.yaw_rad), math.cos(place.yaw_rad)))
+        sight = shapely.LineString([(x, z), (x, z) + SIGHT_M * nose])
+        seen = [(shape.intersection(sight).distance(middle), name) for shape, name in things if shape.intersects(sight)]
+        doors = [shapely.Point(core.door_m) for core in layout.cores if core.has_door]
+        at_door = any(door.distance(sight) < 0.1 for door in doors)
+        if seen and min(seen)[1] not in looked_at and not at_door:
+            yield place.name, min(seen)
+
+
+@pytest.mark.parametrize("seed", soak_but([3], range(6)))
+def test_people_have_room_around_them_and_look_at_an_aisle_a_door_or_a_car(seed):
+    layout = garage(seed, STREWN).layout
+    assert sum(1 for _ in layout.of_kind("person")) > 3
+    assert not list(cramped(layout))
+
+
+def test_the_measure_of_room_sees_who_faces_a_wall_or_stands_in_a_gap():
+    layout = garage(3, STREWN).layout
+    person = next(iter(layout.of_kind("person")))
+    (x, _, z), wall = person.position_m, next(iter(layout.of_kind("column")))
+    (wx, _, wz), others = wall.position_m, [place for place in layout.placements if place != person]
+    away = np.array((x - wx, z - wz)) / math.dist((x, z), (wx, wz))
+    for gap in (0.3, 0.9):
+        at = np.array((wx, wz)) + away * (wall.spec.asset().parts[0].points[:, 0].max() + gap)
+        yaw = math.atan2(*-away)
+        moved = placed(person.name, person.spec, (float(at[0]), float(at[1])), yaw_rad=yaw)
+        faults = dict(cramped(replace(layout, placements=ObjectTable([[*others, moved]]))))
+        assert person.name in faults, gap
+
+
 @pytest.mark.parametrize("seed", soak_but([0, 7], [0, 5, 7, 14, 23, 62]))
 def test_a_judge_that_shares_no_code_finds_nothing_in_the_way(seed):
     _, stalls, found, faults = clutter_judge.judged(seed)
