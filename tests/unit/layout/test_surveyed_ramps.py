@@ -13,6 +13,7 @@ from support.bend_judge import overlaps
 from support.level_judge import LevelJudge
 from support.levels_osm import ramp_file
 
+from garage2usd.assets.materials import MATERIALS
 from garage2usd.assets.mesh import Part
 from garage2usd.checks.levels import findings_of_whole
 from garage2usd.config import GarageConfig, config_from_mapping
@@ -169,6 +170,21 @@ def test_the_walls_of_a_ramp_face_outwards(below):
         floor = parts["Floor"]
         assert floor.points[:, 1].max() == pytest.approx(3.6)
         assert floor.points[:, 1].min() == 0.0
+
+
+def test_textures_are_hardly_stretched_on_a_ramp_that_bends(bent):
+    for place in (place for place in bent.garage.levels[1].layout.of_kind("ramp") if "way" in place.name):
+        for part in place.spec.asset().parts:
+            look, first = MATERIALS[part.material], 0
+            repeats_m = look.repeat_m, look.repeat_up_m or look.repeat_m
+            for count in part.face_counts.tolist():
+                at = slice(first, first + count)
+                first += count
+                steps = np.diff(part.points[part.face_indices[at]].astype(float), axis=0)[:2]
+                drawn = np.diff(part.st[part.st_indices[at]] * repeats_m, axis=0)[:2]
+                if np.linalg.norm(np.cross(*steps)) > 0.01:
+                    lengths = np.linalg.norm(steps, axis=1)
+                    assert np.linalg.norm(drawn, axis=1) == pytest.approx(lengths, rel=0.09), part.name
 
 
 def test_a_line_keeps_its_distance_and_rounds_its_corners():
