@@ -204,25 +204,41 @@ def bent_floors(things: Iterable[Thing]) -> tuple[BentFloor, ...]:
     for thing in things:
         sloping = _sloping(thing) if thing.label == _RAMP else []
         if sloping and is_bent(*_rises(sloping)):
-            corners = (corners for _, corners in sloping)
-            fans = [np.stack([face[0], *pair]) for face in corners for pair in pairwise(face[1:])]
-            found.append(BentFloor(np.array(fans)))
+            found.append(_triangulated(sloping))
     return tuple(found)
+
+
+def _triangulated(faces: Iterable[Face]) -> BentFloor:
+    """Return the floor of some convex faces."""
+    return BentFloor(np.array([np.stack([face[0], *pair]) for _, face in faces for pair in pairwise(face[1:])]))
 
 
 def _sloping(thing: Thing) -> list[Face]:
     """Return the faces of a ramp that cars can drive over and that are not level."""
-    return [
-        face
-        for face in thing.faces()
-        if face.normal[1] > _UPRIGHT
-        and _LEVEL_SLOPE < math.hypot(face.normal[0], face.normal[2]) / face.normal[1] < _STEEPEST_SLOPE
-    ]
+    return [face for face in thing.faces() if _is_floor(face) and _slope(face) > _LEVEL_SLOPE]
+
+
+def _is_floor(face: Face) -> bool:
+    return bool(face.normal[1] > _UPRIGHT) and _slope(face) < _STEEPEST_SLOPE
+
+
+def _slope(face: Face) -> float:
+    return math.hypot(face.normal[0], face.normal[2]) / float(face.normal[1])
 
 
 def _rises(sloping: Sequence[Face]) -> tuple[Array, Array]:
     """Return the directions downhill (x, z) of faces, as long as they are steep, and how high each reaches."""
     return np.array([normal[[0, 2]] for normal, _ in sloping]), np.array([np.ptp(face[:, 1]) for _, face in sloping])
+
+
+def ramp_sides(things: Iterable[Thing], height_m: float = CAR_HEIGHT_M) -> Obstacles:
+    """Return the obstacles to a car that drives over ramps among objects: their walls and the ends of their slabs."""
+    ramps = [thing for thing in things if thing.label == _RAMP]
+    floors = [(thing, [face for face in thing.faces() if _is_floor(face)]) for thing in ramps]
+    return Obstacles.of(
+        (thing.name, shapely.MultiLineString([*_sides(thing, [_triangulated(floor)], height_m)]))
+        for thing, floor in floors
+    )
 
 
 def floors_of_ramps(things: Iterable[Thing]) -> tuple[RampFloor, ...]:
@@ -274,7 +290,7 @@ def _floor(thing: Thing) -> RampFloor | None:
     )
 
 
-def _sides(thing: Thing, ramps: Sequence[RampFloor], height_m: float) -> Iterator[Array]:
+def _sides(thing: Thing, ramps: Sequence[SlopedFloor], height_m: float) -> Iterator[Array]:
     """Yield the ends (x, z) of each upright face that is an obstacle to a car on the floor or a ramp."""
     for normal, corners in thing.faces():
         if abs(normal[1]) > _UPRIGHT or np.ptp(corners[:, 1]) < _LEAST_FACE_M:

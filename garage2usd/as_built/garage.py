@@ -205,7 +205,7 @@ def _way_beyond_m(built: BuiltGarage) -> list[dict[str, float]]:
     """Return how far the way leads on beyond the edges of landings before a route ends, by name on each level."""
     found: list[dict[str, float]] = [{} for _ in built.levels]
     for line in built.ramp_lines:
-        if line.bend is None:
+        if line.is_straight:
             head = built.lanes.nodes[line.nodes[0 if line.is_down else -1]]
             found[head.level][head.name.rpartition("/")[2]] = _ONTO_RAMP_M
             continue

@@ -15,8 +15,8 @@ _SHEET_M = 0.1
 """Greatest thickness in metres of a door leaf or a sign, which does not narrow the opening."""
 _LEVEL_SLOPE, _STEEPEST_SLOPE, _EQUAL_SLOPES = 0.005, 0.6, 5e-4
 _STEP_M = 0.05
-_STRAIGHT = 0.9
-"""Least length of the mean direction downhill of a straight ramp's faces."""
+_STRAIGHT = 0.99999
+"""Least length of the mean direction downhill of a straight ramp's faces: its halves differ by half a degree."""
 
 
 class Stretch(NamedTuple):

@@ -6,9 +6,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.as_built.openings import is_bent
 from garage2usd.garage import Point
+from garage2usd.garage.path_line import PathLine
 
-_STRAIGHT_SIN = 0.02
+_STRAIGHT_SIN, _LEAST_M2 = 0.02, 1e-9
 _ROUND = 0.02
 _LEAST_PLACES = 6
 
@@ -73,9 +75,18 @@ class RampLine(NamedTuple):
 
     @property
     def is_straight(self) -> bool:
-        """True if its ends lie in one line."""
+        """True if its ends lie in one line, and its slopes point in one direction."""
         (in_x, in_z), (out_x, out_z) = self._ways
-        return abs(out_x * in_z - out_z * in_x) < _STRAIGHT_SIN and in_x * out_x + in_z * out_z > 0
+        steps = np.diff(self.slope, axis=0)
+        flat, rises = steps[:, [0, 2]], np.abs(steps[:, 1])
+        slopes = flat * (rises / np.maximum((flat**2).sum(axis=1), _LEAST_M2))[:, None]
+        is_in_line = abs(out_x * in_z - out_z * in_x) < _STRAIGHT_SIN and in_x * out_x + in_z * out_z > 0
+        return is_in_line and not is_bent(slopes, rises)
+
+    @property
+    def line(self) -> PathLine:
+        """Its middle line through (x, z) in the direction of driving."""
+        return PathLine.through([(x, z) for x, _, z in self.places.tolist()], self.width_m)
 
     @property
     def bend(self) -> Bend | None:

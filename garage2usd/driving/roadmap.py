@@ -21,8 +21,8 @@ from garage2usd.driving.turns import Steering, joining_pieces
 from garage2usd.garage import Arc, LaneGraph, Point
 from garage2usd.native import elementary
 
-_MOST_EDGES = 4
-"""Greatest number of lane edges that a path with two turns may span."""
+_MOST_EDGES, _MOST_SHORT_EDGES, _TURN_M = 4, 12, 15.0
+"""Greatest number of lane edges that a path with two turns may span, and of short ones, up to the length of a turn."""
 _SAME_WAY = 0.999
 _ROOM_KEPT_M = 0.2
 _ROOM_TO_TURN_M = 0.1
@@ -193,7 +193,8 @@ class Roadmap:
         while waiting:
             walk = waiting.pop()
             yield walk
-            if len(walk) < _MOST_EDGES:
+            is_short = len(walk) < _MOST_SHORT_EDGES and sum(self._along[edge][1] for edge in walk) < _TURN_M
+            if len(walk) < _MOST_EDGES or is_short:
                 waiting += [[*walk, following] for following in self._joins[is_back][walk[-1]]]
 
     def is_straight(self, walk: Sequence[Arc]) -> bool:

@@ -17,6 +17,8 @@ Point = tuple[float, float]
 _STEP_RAD = math.pi / 36
 _STRAIGHT_RAD = math.radians(1.0)
 _LEAST_STEP_M = 0.05
+_LEAD_M = 4.0
+"""Length in metres of the straights at the ends of a line that corners leave."""
 _DIGITS = 4
 
 
@@ -38,7 +40,9 @@ class PathLine:
     @classmethod
     def rounded(cls, corners: Sequence[Point], width_m: float, radius_m: float) -> "PathLine":
         """Return the line through corners that are rounded, by a smaller radius where the straights are short."""
-        lengths = [math.dist(one, other) for one, other in pairwise(corners)]
+        room_m = [math.dist(one, other) / 2 for one, other in pairwise(corners)]
+        for end in (0, -1):  # the straights at the ends belong to one corner each
+            room_m[end] = max(room_m[end], 2 * room_m[end] - _LEAD_M)
         points = [corners[0]]
         for number, corner in enumerate(corners[1:-1], 1):
             before, after = corners[number - 1], corners[number + 1]
@@ -48,7 +52,7 @@ class PathLine:
                 points.append(corner)
                 continue
             half = math.tan(abs(turn) / 2)
-            reach_m = min(radius_m * half, lengths[number - 1] / 2, lengths[number] / 2)
+            reach_m = min(radius_m * half, room_m[number - 1], room_m[number])
             radius, steps = reach_m / half, max(2, math.ceil(abs(turn) / _STEP_RAD))
             start = corner[0] - reach_m * math.cos(heading), corner[1] - reach_m * math.sin(heading)
             side = math.copysign(math.pi / 2, turn)
@@ -97,6 +101,14 @@ class PathLine:
         """True if it does not turn."""
         (u, v), (end_u, end_v) = self._ways[0], self._ways[-1]
         return bool(np.all(self._ways @ np.array([u, v]) > math.cos(_STRAIGHT_RAD)) and u * end_u + v * end_v > 0)
+
+    @property
+    def straight_m(self) -> float:
+        """Length of the straight at its beginning."""
+        steps = np.diff(np.array(self.points), axis=0)
+        across = (steps[:, 0] * steps[0, 1] - steps[:, 1] * steps[0, 0]) / np.hypot(*steps.T) / np.hypot(*steps[0])
+        turned = np.flatnonzero(np.abs(across) > math.sin(_STRAIGHT_RAD))
+        return float(self._runs[turned[0]]) if len(turned) else self.length_m
 
     def at(self, run_m: ArrayLike) -> CoilPlaces:
         """Return the places at distances along the line, shape (n,)."""

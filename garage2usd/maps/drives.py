@@ -8,13 +8,14 @@ from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
-from garage2usd.as_built.driven_road import BEYOND_TOP_M, bent_floors, portal_mouths
+from garage2usd.as_built.driven_road import BEYOND_TOP_M, bent_floors, portal_mouths, ramp_sides
 from garage2usd.as_built.garage import BuiltGarage
-from garage2usd.as_built.ramp_line import Bend
+from garage2usd.as_built.ramp_line import Bend, RampLine
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.spelling import find_named, spans_in_words
 from garage2usd.config.outputs import DriveConfig, Leg
 from garage2usd.driving import BentFloor, DesignCar, Portal, Pose, RampFloor, StallProof
+from garage2usd.driving.line_fit import pieces_along
 from garage2usd.driving.manoeuvre import Gear
 from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.road import FloorSpan
@@ -31,6 +32,8 @@ _EASING_M = 8.0
 about as much as its front runs outside."""
 _TURN_RAD = 1.5 * math.pi
 _HALVINGS = 60
+_ASIDE_M = 1e-3
+"""Distance from the line straight ahead within which the landing at the other end of a ramp is driven to straight."""
 
 _Street = Mapping[LaneKind, tuple[Portal, ...]]
 """Entrances and exits to the street that a drive may use."""
@@ -160,7 +163,8 @@ class DrivePlanner:
     Notes
     -----
     Each level is driven between its portals and landings (`garage2usd.maps.level_routes`), among the obstacles of this
-    level only. Straight ramps are driven along the line through their landings, helices on clothoids and a circle.
+    level only. Straight ramps are driven along the line through their landings, helices on clothoids and a circle, and
+    other ramps on clothoids that are fitted to their line.
     """
 
     def __init__(
@@ -437,21 +441,31 @@ class DrivePlanner:
     def _over_ramp(self, upper: int, one: Pose, other: Pose, landings: tuple[str, str]) -> RoutePart:
         """Return the path over the ramp below a level, between poses on its landings."""
         nodes = self._garage.lanes.nodes
+        run_m = math.hypot(other.x_m - one.x_m, other.z_m - one.z_m)
+        ahead = (Piece(Gear.FORWARD, run_m),)
         for line in self._garage.ramp_lines:
             ends = [nodes[number] for number in (line.nodes[0], line.nodes[-1])]
             names = tuple(end.name.rpartition("/")[2] for end in ends)
             if {end.level for end in ends} == {upper, upper + 1} and names == landings:
-                bend = line.bend
+                bend, end = line.bend, Path(one, ahead).end
                 if bend is not None:
                     return RoutePart(_round(bend, one, other), upper, is_ramp=True, is_bent=True)
-                if not line.is_straight:
-                    wanted = "a garage whose ramps between levels are straight or three quarters of a circle"
-                    raise ConfigError("stall", landings[0], wanted)
-        run_m = math.hypot(other.x_m - one.x_m, other.z_m - one.z_m)
-        return RoutePart((Piece(Gear.FORWARD, run_m),), upper, is_ramp=True)
+                if not line.is_straight or math.hypot(end.x_m - other.x_m, end.z_m - other.z_m) > _ASIDE_M:
+                    pieces = self._along(line, one, other, upper)
+                    return RoutePart(pieces, upper, is_ramp=True, is_bent=not line.is_straight)
+        return RoutePart(ahead, upper, is_ramp=True)
+
+    def _along(self, line: RampLine, one: Pose, other: Pose, upper: int) -> tuple[Piece, ...]:
+        """Return the pieces of the way over a ramp of any line, clear of its walls."""
+        pieces = pieces_along(line.line, one, other, self._car)
+        sides = ramp_sides(self._garage.levels[upper + 1].things)
+        if pieces is None or Path(one, pieces).clearance_m(self._car, sides) <= 0:
+            wanted = "a garage whose ramps bend so widely that the car gets round between their walls"
+            raise ConfigError("stall", self._garage.lanes.nodes[line.nodes[0]].name, wanted)
+        return pieces
 
     def _bent_floors(self, lower: int) -> tuple[BentFloor, ...]:
-        """Return the floors of the helices down to a level, at their heights in the garage."""
+        """Return the floors of the ramps that bend down to a level, at their heights in the garage."""
         if lower not in self._bent:
             level = self._garage.levels[lower]
             floors = bent_floors(level.things)

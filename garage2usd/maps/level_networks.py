@@ -10,6 +10,7 @@ from garage2usd.as_built import BuiltGarage, BuiltLevel
 from garage2usd.as_built.ramp_line import Bend, RampLine
 from garage2usd.common.errors import StageError
 from garage2usd.garage import Stall
+from garage2usd.maps.arc_line import line_of_arcs
 from garage2usd.maps.frame import map_point
 from garage2usd.maps.network import Lanes, Neighbour, Network, Road
 from garage2usd.maps.road_builder import MOST_PORTAL_LANE_M, elevation, network_of
@@ -79,13 +80,9 @@ def level_networks(garage: BuiltGarage) -> tuple[LevelNetwork, ...]:
                 raise StageError(garage.source, f"the ramp at {top.place} leads to no landing of the level above")
             _join(top, near, rise_m)
     for line in garage.ramp_lines:
-        bend = line.bend
-        if bend is not None:
+        if not line.is_straight:
             first += 1
-            _add_bent(garage, found, line, bend, first)
-        elif not line.is_straight:
-            place = garage.lanes.nodes[line.nodes[0]].name
-            raise StageError(garage.source, f"the ramp at {place} is neither straight nor three quarters of a circle")
+            _add_bent(garage, found, line, first)
     return tuple(found)
 
 
@@ -98,23 +95,35 @@ def _with_names_in_whole(level: BuiltLevel, stalls: Sequence[Stall]) -> BuiltLev
     return replace(level, stalls=tuple(own))
 
 
-def _add_bent(garage: BuiltGarage, found: list[LevelNetwork], line: RampLine, bend: Bend, number: int) -> None:
-    """Add the road of a helix to the network of the level at its foot, from landing to landing."""
+def _add_bent(garage: BuiltGarage, found: list[LevelNetwork], line: RampLine, number: int) -> None:
+    """Add the road of a ramp that bends to the network of the level at its foot, from landing to landing."""
     start, end = (garage.lanes.nodes[node] for node in (line.nodes[0], line.nodes[-1]))
     lower = max(start.level, end.level)
     floor_m = found[lower].level.place.floor_m
+    width_m = min(line.width_m, MOST_PORTAL_LANE_M)
+    lanes = Lanes(width_m / 2, 0.0, width_m)
     ends = []
     for node, border in ((start, 1), (end, -2)):
         place = map_point((float(line.places[border, 0]), float(line.places[border, 2])))
         landings = [each for each in _open_ends(found[node.level].network) if abs(each.height_m) < _LEVEL_M]
         near = min(landings, key=lambda each: math.dist(each.place, place), default=None)
         if near is None or math.dist(near.place, place) > _GAP_M:
-            raise StageError(garage.source, f"the helix at {node.name} leads to no landing")
+            raise StageError(garage.source, f"the ramp at {node.name} leads to no landing")
         ends.append(near)
-    reference = _round(bend, ends[0].place, ends[1].place)
-    width_m = min(line.width_m, MOST_PORTAL_LANE_M)
-    lanes = Lanes(width_m / 2, 0.0, width_m)
-    profile = _heights(line, bend, reference, floor_m)
+        # the lane of the landing is as wide there as that of the ramp
+        if near.at_start:
+            near.road.start = lanes
+        else:
+            near.road.end = lanes
+    if line.bend is not None:
+        reference = _round(line.bend, ends[0].place, ends[1].place)
+        profile = _heights(line, line.bend, reference, floor_m)
+    else:
+        inner = line.places[2:-2]
+        between = [map_point((float(x), float(z))) for x, _, z in inner]
+        reference, runs = line_of_arcs([ends[0].place, *between, ends[1].place])
+        heights = [height - floor_m for height in (inner[0, 1], *inner[:, 1], inner[-1, 1])]
+        profile = elevation([*zip(runs, map(float, heights), strict=True)])
     road = Road(number, reference, lanes, lanes, (), profile, floor_m=floor_m)
     for own, other in ((_End(road, at_start=True), ends[0]), (_End(road, at_start=False), ends[1])):
         _meet(own, other)

@@ -96,6 +96,10 @@ class CoilSpec(Spec, kind=RampSpec.kind):
         u, v = self._places.beside(inwards_m).T
         return np.stack([self.turn * v, self._heights + over_m, u], axis=1)
 
+    def _foot(self, corners: Floats) -> tuple[Floats, Floats]:
+        """Return the distances along the line of corners of faces, and their distances inwards."""
+        return self.line.foot(corners[:, 2], self.turn * corners[:, 0])
+
     def _lengths_m(self, inwards_m: float, runs_m: Floats) -> Floats:
         """Return the lengths along a parallel of the middle line, up to the stations of the middle line."""
         steps = np.diff(self._places.beside(inwards_m), axis=0)
@@ -140,12 +144,15 @@ class CoilSpec(Spec, kind=RampSpec.kind):
         faces += self._band(face, back, (tops, tops), _UP)
 
         def along(corners: Floats, normals: Floats) -> Floats:
-            runs, inwards = self.line.foot(corners[:, 2], self.turn * corners[:, 0])
+            runs, inwards = self._foot(corners)
             is_back = (np.abs(inwards) > np.abs(face + back) / 2) & (np.abs(normals[:, 1]) < 1 / 2)
             right = side * self.turn * np.where(is_back, -1.0, 1.0)
             lengths = np.where(is_back, self._lengths_m(back, runs), self._lengths_m(face, runs))
-            is_top = np.abs(normals[:, 1]) > 1 / 2
-            return np.stack([right * lengths, corners[:, 1] + is_top * (np.abs(inwards) - abs(face))], axis=1)
+            is_top, places = np.abs(normals[:, 1]) > 1 / 2, self.line.at(runs)
+            # of a step in the height of the wall
+            is_across = np.abs(self.turn * normals[:, 0] * places.along_v + normals[:, 2] * places.along_u) > 1 / 2
+            lengths = np.where(is_across, np.abs(inwards), right * lengths)
+            return np.stack([lengths, corners[:, 1] + is_top * (np.abs(inwards) - abs(face))], axis=1)
 
         return make_part(name, faces, "wall_concrete", collider=Collider.MESH, project=along)
 
@@ -163,7 +170,7 @@ class CoilSpec(Spec, kind=RampSpec.kind):
             faces.append(self._facing_out(np.array(corners), end))
 
         def from_edge(corners: Floats, normals: Floats) -> Floats:
-            runs, inwards = self.line.foot(corners[:, 2], self.turn * corners[:, 0])
+            runs, inwards = self._foot(corners)
             outwards = side * (inwards - inner)
             down = heights_along(self.profile, runs) + _KERB_HEIGHT_M - corners[:, 1]
             is_end = np.zeros(len(corners), dtype=bool)

@@ -6,13 +6,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
+from garage2usd.assets.mesh import Asset, Collider, Face, Part, along_main_axis, make_part
 from garage2usd.garage.path_line import PathLine
 from garage2usd.objects.coil import CoilSpec
 from garage2usd.objects.ramp import RampSpec
 
 _UP, _DOWN = (0.0, 1.0, 0.0), (0.0, -1.0, 0.0)
 _STEP_M = 1e-3
+_UPRIGHT = 0.5
 Floats = NDArray[np.float64]
 
 
@@ -46,7 +47,7 @@ class PathRampSpec(CoilSpec, kind=RampSpec.kind):
         under = self._band(-right, left, (-self.slab_m, -self.slab_m), _DOWN)
         parts = [
             make_part("Floor", self._floor(), "floor_concrete", collider=Collider.MESH),
-            make_part("Slab", [*under, *self._ends()], "ceiling_concrete", collider=Collider.MESH),
+            make_part("Slab", [*under, *self._ends()], "ceiling_concrete", collider=Collider.MESH, project=_unrolled),
         ]
         for name, side, has_wall in (("Left", 1.0, self.walls[0]), ("Right", -1.0, self.walls[1])):
             if has_wall:
@@ -73,6 +74,16 @@ class PathRampSpec(CoilSpec, kind=RampSpec.kind):
         right, left = self._points(-half, 0.0), self._points(half, 0.0)
         return [np.array([right[at], right[at + 1], left[at + 1], left[at]]) for at in range(len(right) - 1)]
 
+    def _foot(self, corners: Floats) -> tuple[Floats, Floats]:
+        """Return the distances of corners, which lie across a station each: the nearest point of a bend is another."""
+        places = self._places
+        away_u, away_v = corners[:, 2, None] - places.u_m, self.turn * corners[:, 0, None] - places.v_m
+        inwards = away_v * places.along_u - away_u * places.along_v
+        off = np.abs(away_u * places.along_u + away_v * places.along_v)
+        beyond = np.maximum(np.abs(inwards) - self.line.width_m / 2 - self.wall_m, 0.0)
+        station = (off + beyond).argmin(axis=1)
+        return self._runs[station], np.take_along_axis(inwards, station[:, None], axis=1)[:, 0]
+
     def _tops(self) -> Floats:
         """Height of the walls over the floor at each station: up to the ceiling there."""
         found: Floats = np.where(self._runs > self.open_m, self.top_m, self.ceiling_m) - self._heights
@@ -90,10 +101,10 @@ class PathRampSpec(CoilSpec, kind=RampSpec.kind):
         if self.has_head_wall and head_m > self.wall_m:
             end = self.line.length_m
             faces = self._box(end - self.wall_m, end, right_m, left_m, 0.0, head_m)
-            parts.append(make_part("HeadWall", faces, "wall_concrete", collider=Collider.MESH))
+            parts.append(make_part("HeadWall", faces, "wall_concrete", collider=Collider.MESH, project=_unrolled))
         if self.top_m - self.ceiling_m > self.wall_m:
             faces = self._box(self.open_m, self.open_m + self.wall_m, right_m, left_m, self.ceiling_m, self.top_m)
-            parts.append(make_part("FootWall", faces, "wall_concrete", collider=Collider.MESH))
+            parts.append(make_part("FootWall", faces, "wall_concrete", collider=Collider.MESH, project=_unrolled))
         return parts
 
     def _box(
@@ -108,6 +119,17 @@ class PathRampSpec(CoilSpec, kind=RampSpec.kind):
         faces = [*sides, low, high[::-1]]
         middle = np.concatenate([low, high]).mean(axis=0)
         return [face if _faces_away(face, middle) else face[::-1] for face in faces]
+
+
+def _unrolled(corners: Floats, normals: Floats) -> Floats:
+    """Return texture coordinates of upright faces by their own horizontal axis, of any direction, and the height."""
+    found = along_main_axis(corners, normals)
+    is_upright = np.abs(normals[:, 1]) < _UPRIGHT
+    size = np.hypot(normals[is_upright, 0], normals[is_upright, 2])
+    across_x, across_z = normals[is_upright, 2] / size, -normals[is_upright, 0] / size
+    lengths = corners[is_upright, 0] * across_x + corners[is_upright, 2] * across_z
+    found[is_upright] = np.stack([lengths, corners[is_upright, 1]], axis=1)
+    return found
 
 
 def _faces_away(face: Face, middle: Floats) -> bool:

@@ -35,6 +35,8 @@ _KINDS = {
     PortalKind.EXIT: (LaneKind.EXIT,),
     PortalKind.BOTH: (LaneKind.ENTRANCE, LaneKind.EXIT),
 }
+_SAME_M = 1.0
+"""Distance between two doors of one kind up to which they are one."""
 _DIGITS = 6
 
 
@@ -129,8 +131,11 @@ def gates_of(
             raise ConfigError("outline", f"sides of at most {longest_m:.2f} m", f"a side of {needed_m} m for a portal")
         side = min(able, key=lambda each: round(each.distance_m(portal.position), _DIGITS))
         doors = [gate for gate in (*others, *gates) if side.distance_m(gate.foot) < LEAST_WALL_M]
-        low, high = _free_run_m(side, side.run_m(portal.position), taken, doors, needed_m)
         at_m = side.run_m(portal.position)
+        here = {each.kind for each in doors if math.dist(each.door or each.foot, side.at(at_m)) < _SAME_M}
+        if here.issuperset(kinds):
+            continue  # a door and the end of its road outside, say
+        low, high = _free_run_m(side, at_m, taken, doors, needed_m)
         # doors are rather narrower than beside the place of their portal
         centred_m = max(2 * min(at_m - low, high - at_m), len(kinds) * _DOOR_WALL_M)
         wall_m = round(min(most_m, min(centred_m, high - low) - 2 * LEAST_WALL_M), _DIGITS)

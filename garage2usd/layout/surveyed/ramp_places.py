@@ -26,6 +26,8 @@ _RADIUS_M = 8.0
 _STEEPEST = 0.25
 _TURN_M = 3.5
 """Greatest length of the level ground between a lane and a ramp."""
+_STRAIGHT_M = 2.0
+"""Length of the straight at the end of a ramp before its first bend, as far as the survey has one."""
 _FAR_M, _STEP_M = 1.5, 0.1
 """Distance beyond the side of a lane up to which a ramp ends on it, and that of places where this is tried."""
 _AROUND_M = 0.3
@@ -80,8 +82,6 @@ def placed_ramps(
             remarks.append(f"{named} is not built: {made}")
             continue
         found += made
-        if not all(each.line.is_straight for each in made):
-            remarks.append(f"{named} bends: routes lead over it, but drives and road maps need straight ramps")
     of_levels = [
         LevelRamps(
             tuple(ramp for ramp in found if ramp.upper == number - 1),
@@ -122,7 +122,11 @@ def _carriageways(
     # level ground to turn on before the ramp, as far as that makes it no steeper than asked
     usual_m = storey.rise_m / (config.building.ramp_slope_percent / 100) + fixed_m
     turn_m = min(max((run_m - usual_m) / 2, 0.0), _TURN_M)
-    line = line.between(ends_m[0] + turn_m, line.length_m - ends_m[1] - turn_m)
+    for end, towards in enumerate((line, line.turned())):
+        # a ramp does not begin in a bend where its line has a straight before that
+        straight_m = towards.straight_m - ends_m[end]
+        ends_m[end] += min(turn_m, max(straight_m - _STRAIGHT_M, 0.0)) if straight_m > 0 else turn_m
+    line = line.between(ends_m[0], line.length_m - ends_m[1])
     standing = shapely.union_all(
         [part for survey in surveys for part in (*survey.stall_polygons(), *survey.column_polygons())]
     )

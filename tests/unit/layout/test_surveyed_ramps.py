@@ -1,5 +1,7 @@
 """Ramps of surveyed buildings: their lines, meshes, openings, lanes and drives."""
 
+import dataclasses
+import itertools
 import json
 import math
 from dataclasses import replace
@@ -7,16 +9,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
+from support.bend_judge import overlaps
+from support.level_judge import LevelJudge
 from support.levels_osm import ramp_file
 
+from garage2usd.assets.materials import MATERIALS
 from garage2usd.assets.mesh import Part
 from garage2usd.checks.levels import findings_of_whole
 from garage2usd.config import GarageConfig, config_from_mapping
+from garage2usd.driving import DesignCar, Pose
+from garage2usd.driving.line_fit import pieces_along
+from garage2usd.driving.path import Path
 from garage2usd.garage.levels import unreached_stalls
 from garage2usd.garage.path_line import PathLine
 from garage2usd.garage_sources import drive, read_built
 from garage2usd.imports import import_layout
 from garage2usd.layout.surveyed.ramp_places import placed_ramps
+from garage2usd.maps.arc_line import line_of_arcs
 from garage2usd.objects.ceiling import OpenCeilingSpec
 from garage2usd.survey.reader import read_building
 from garage2usd.survey.surveyed_building import aligned_building
@@ -45,7 +54,14 @@ def bent(tmp_path_factory):
     return imported(tmp_path_factory, "0", "-1", line=BENT)
 
 
-@pytest.mark.parametrize("name", ["below", "stacked", "bent"])
+@pytest.fixture(scope="module")
+def swung(tmp_path_factory):
+    """A ramp that swings aside and back, so that its ends lie in one line."""
+    line = [(-6.0, -10.0), (4.0, -10.0), (14.0, -15.0), (22.0, -15.0), (32.0, -10.0), (40.0, -10.0)]
+    return imported(tmp_path_factory, "0", "-1", line=line)
+
+
+@pytest.mark.parametrize("name", ["below", "stacked", "bent", "swung"])
 def test_cars_reach_every_stall_over_the_ramp(name, request):
     made = request.getfixturevalue(name)
     assert unreached_stalls(made.garage.joined, may_turn_back=True) == []
@@ -60,12 +76,28 @@ def test_cars_reach_every_stall_over_the_ramp(name, request):
         assert line.width_m == pytest.approx(3.35, abs=0.1)
 
 
-def test_a_bend_is_named_as_no_drive_leads_over_it(below, bent):
-    told = [
-        [remark.partition(":")[0] for remark in made.remarks if "doors are added" not in remark]
-        for made in (below, bent)
+@pytest.mark.parametrize(("name", "turned_deg"), [("bent", 180.0), ("swung", 0.0)])
+def test_a_drive_keeps_on_the_floor_and_between_the_walls_of_a_ramp_that_bends(name, turned_deg, request):
+    made = request.getfixturevalue(name)
+    assert not [remark for remark in made.remarks if "ramp" in remark]
+    judge, states = LevelJudge(made.stage), drive(made.stage, "U2/3").trajectory
+    places = np.stack([states.x_m, states.y_m, states.z_m], axis=1)
+    on_ramp = (states.y_m < -0.01) & (states.y_m > -3.59)
+    heights, _ = judge.ground().nearest(places[states.y_m < 0.0])
+    assert np.abs(heights - places[states.y_m < 0.0, 1]).max() < 1e-3
+    assert states.y_m.min() == pytest.approx(-3.6, abs=1e-4)
+    down = on_ramp & (states.arc_m < states.arc_m[on_ramp].mean())
+    assert abs(math.degrees(np.ptp(states.yaw_rad[down][[0, -1]]))) == pytest.approx(turned_deg, abs=25.0)
+    assert np.abs(states.speed_m_s[on_ramp]).min() > 0.5
+    standing = [
+        (f"{level}/{label}", part)
+        for (level, label), parts in judge.triangles.items()
+        if label not in {"car", "number_plate", "barrier"}
+        for part in parts
     ]
-    assert told == [[], ["ramp way 32 between levels 0 and -1 bends"]]
+    assert overlaps(states, standing) == set()
+    walls = [each for each in standing if each[0].endswith("/ramp")]
+    assert overlaps(states, walls, wider_m=0.8)  # those of the ramp are found
 
 
 @pytest.mark.parametrize(
@@ -140,6 +172,21 @@ def test_the_walls_of_a_ramp_face_outwards(below):
         assert floor.points[:, 1].min() == 0.0
 
 
+def test_textures_are_hardly_stretched_on_a_ramp_that_bends(bent):
+    for place in (place for place in bent.garage.levels[1].layout.of_kind("ramp") if "way" in place.name):
+        for part in place.spec.asset().parts:
+            look, first = MATERIALS[part.material], 0
+            repeats_m = look.repeat_m, look.repeat_up_m or look.repeat_m
+            for count in part.face_counts.tolist():
+                at = slice(first, first + count)
+                first += count
+                steps = np.diff(part.points[part.face_indices[at]].astype(float), axis=0)[:2]
+                drawn = np.diff(part.st[part.st_indices[at]] * repeats_m, axis=0)[:2]
+                if np.linalg.norm(np.cross(*steps)) > 0.01:
+                    lengths = np.linalg.norm(steps, axis=1)
+                    assert np.linalg.norm(drawn, axis=1) == pytest.approx(lengths, rel=0.09), part.name
+
+
 def test_a_line_keeps_its_distance_and_rounds_its_corners():
     line = PathLine.rounded([(0.0, 0.0), (20.0, 0.0), (20.0, 30.0)], 4.0, 8.0)
     assert line.length_m == pytest.approx(50 - 16 + 4 * math.pi, abs=0.01)
@@ -184,3 +231,28 @@ def test_a_ramp_past_a_level_is_named(building):
     _, remarks = placed_ramps(replace(building, levels=levels), [0.0, -3.6, -7.2], [GarageConfig()] * 3)
     assert remarks == ["ramp way 32 between levels 0 and -1 is not built: it does not join levels next to one another"]
     assert ramp.levels == ("0", "-1")
+
+
+def test_a_line_of_arcs_is_smooth_and_passes_its_places():
+    places = PathLine.rounded([(0.0, 0.0), (20.0, 0.0), (20.0, 30.0), (60.0, 40.0), (30.0, 60.0)], 4.0, 8.0).points
+    line, runs = line_of_arcs(places)
+    assert max(math.dist(line.at(run)[:2], place) for run, place in zip(runs, places, strict=True)) < 1e-3
+    for one, other in itertools.pairwise(line.arcs):
+        x, y, heading = one.at(one.length_m)
+        assert math.dist((x, y), other.start) < 1e-9
+        assert heading == pytest.approx(other.heading_rad, abs=1e-9)
+    assert len(line.arcs) < len(places) / 4
+    bent = [arc.curvature_per_m for arc in line.arcs if abs(arc.curvature_per_m) > 1e-3]
+    assert np.abs(bent) == pytest.approx(1 / 8, rel=1e-3)
+
+
+def test_a_path_keeps_both_axles_along_a_line_and_a_bend_that_is_too_tight_has_none():
+    line = PathLine.rounded([(0.0, 10.0), (0.0, -20.0), (30.0, -20.0)], 3.5, 8.0)
+    start, end = Pose(0.0, 8.0, 0.0), Pose(26.0, -20.0, -math.pi / 2)
+    path = Path(start, pieces_along(line, start, end, DesignCar()))
+    assert dataclasses.astuple(path.end) == pytest.approx(dataclasses.astuple(end), abs=1e-5)
+    at = path.at(np.linspace(0.0, path.length_m, 200))
+    assert np.abs(line.foot(at.x_m, at.z_m)[1]).max() == pytest.approx(0.225, abs=0.04)  # half of 8 - sqrt(8^2 - 2.7^2)
+    assert [piece.start_per_m for piece in path.pieces[1:]] == [piece.end_per_m for piece in path.pieces[:-1]]
+    tight = PathLine.rounded([(0.0, 10.0), (0.0, 0.0), (2.0, 0.0), (2.0, 10.0)], 3.5, 1.0)
+    assert pieces_along(tight, start, Pose(2.0, 8.0, math.pi), DesignCar()) is None
