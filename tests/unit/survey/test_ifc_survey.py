@@ -243,6 +243,16 @@ def test_a_damaged_model_is_read_or_refused(tmp_path):
             assert len(survey.stalls) <= 2
 
 
+def test_shapes_that_are_written_many_times_are_read_once(tmp_path):
+    model = Model()
+    model.row(2)
+    text = model.save(tmp_path).read_text()
+    lines = "".join(line for line in text.splitlines(keepends=True) if "IFCPRODUCTDEFINITIONSHAPE" in line)
+    path = tmp_path / "repeated.ifc"
+    path.write_text(text.replace(lines[:40], lines * 50 + lines[:40], 1))
+    assert len(read_survey(path).stalls) == 2
+
+
 def test_models_without_stalls_are_refused(tmp_path):
     model = Model()
     model.walls(10, 10)
