@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import cast
 
 import networkx as nx
-import shapely
 
 from garage2usd.as_built.garage import garage_as_made
 from garage2usd.as_built.proofs import prove_built
@@ -26,7 +25,7 @@ from garage2usd.driving import StallProof, prove_stalls
 from garage2usd.garage.levels import LevelPlace, level_places, places_at
 from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.layout.surveyed import FloorAbove, LevelPart, SurveyedFloor, lay_out_survey
-from garage2usd.layout.surveyed.ramp_places import lanes_to_landings, placed_ramps, widened_outline
+from garage2usd.layout.surveyed.ramp_places import lanes_to_landings, placed_ramps, with_ramps_inside
 from garage2usd.layout.surveyed.ramps import LevelRamps
 from garage2usd.pipeline import Build, Judged, checked_output, with_things, written
 from garage2usd.profiles import DEFAULT_PROFILE
@@ -34,8 +33,7 @@ from garage2usd.profiles.countries import profile_at
 from garage2usd.reading.report import SurveyFigures
 from garage2usd.report import make_report
 from garage2usd.structure.building import Building
-from garage2usd.survey.clear_ground import with_medial_lanes
-from garage2usd.survey.enclosure import enclosed
+from garage2usd.survey.lots import in_lots
 from garage2usd.survey.reader import read_building
 from garage2usd.survey.survey import Alignment, Survey, SurveyedStall, Unplaced
 from garage2usd.survey.surveyed_building import SurveyedBuilding, SurveyedLevel, aligned_building
@@ -162,8 +160,7 @@ def _laid_out(
     ramps, unbuilt = placed_ramps(building, floors_m, configs)
     surveys = [
         replace(
-            level.survey,
-            outline=widened_outline(level.survey, own),
+            with_ramps_inside(level.survey, own),
             lanes=lanes_to_landings(level.survey.lanes, own.gates) if own.gates else level.survey.lanes,
             stalls=_numbered(level.survey.stalls, place) if len(levels) > 1 else level.survey.stalls,
         )
@@ -174,8 +171,7 @@ def _laid_out(
     for number, (level, place) in enumerate(zip(levels, places_at(floors_m), strict=True)):
         above = None
         if number:
-            ground = shapely.Polygon(surveys[number - 1].outline)
-            above = FloorAbove(storeys_m[number], ground, ramps[number - 1].openings)
+            above = FloorAbove(storeys_m[number], surveys[number - 1].ground, ramps[number - 1].openings)
         part = LevelPart(above, ramps[number], has_street=has_street[number])
         layout = lay_out_survey(surveys[number], configs[number], part=part)
         layout = with_things(layout, configs[number], progress=progress)
@@ -196,7 +192,7 @@ def _with_lanes(building: SurveyedBuilding) -> tuple[SurveyedBuilding, list[str]
     """Return the levels that have stalls and lanes, those without lanes with derived ones; name the others."""
     if len(building.levels) == 1:
         (level,) = building.levels
-        survey = with_medial_lanes(enclosed(level.survey))
+        survey = in_lots(level.survey)
         return replace(building, levels=(replace(level, survey=survey),)), []
     levels, remarks = [], []
     for level in building.in_order:
@@ -204,7 +200,7 @@ def _with_lanes(building: SurveyedBuilding) -> tuple[SurveyedBuilding, list[str]
             remarks.append(f"level {level.name} is left out: it has no stall")
             continue
         try:
-            levels.append(replace(level, survey=with_medial_lanes(enclosed(level.survey))))
+            levels.append(replace(level, survey=in_lots(level.survey)))
         except ConfigError as error:
             remarks.append(f"level {level.name} is left out: {error}")
     if not levels:

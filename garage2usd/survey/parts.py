@@ -160,7 +160,7 @@ class SurveyParts:
         self.portals.append(SurveyedPortal(_point(position), kind))
 
     def add_outline(self, name: str, ring: Iterable[Sequence[float]]) -> None:
-        """Add an outline. If there are several, the survey has the one with the most stalls."""
+        """Add an outline. Of several over each other, the survey has the one with the most stalls."""
         points = _without_repeats(ring)
         polygon = _polygon(points)
         if polygon is not None and not polygon.is_valid:
@@ -184,21 +184,24 @@ class SurveyParts:
         """Return the ground of each stall so far."""
         return [shapely.Polygon(stall.corners) for stall in self.stalls]
 
-    def outline(self) -> tuple[Point, ...] | None:
-        """Return the outline that contains the middles of the most stalls, or else None; note all others."""
-        if not self._outlines:
-            return None
+    def outlines(self) -> list[tuple[Point, ...]]:
+        """Return the outlines with stalls that lie apart, the one with the most first; note all others."""
         middles = shapely.centroid(self.stall_polygons())
-        held = [int(shapely.contains(shapely.Polygon(ring), middles).sum()) for _, ring in self._outlines]
-        best = held.index(max(held))
-        chosen = self._outlines[best] if held[best] else None
-        for name, ring in self._outlines:
-            if chosen is None:
+        grounds = [shapely.Polygon(ring) for _, ring in self._outlines]
+        held = [int(shapely.contains(ground, middles).sum()) for ground in grounds]
+        kept: list[int] = []
+        for number in sorted(range(len(held)), key=lambda number: -held[number]):
+            name, _ = self._outlines[number]
+            over = next((other for other in kept if grounds[number].intersects(grounds[other])), None)
+            if not held[number]:
                 self.unread.append(Unplaced(name, "an outline that contains no stall"))
-            elif ring is not chosen[1]:
-                self.unread.append(Unplaced(name, f"an outline beside {chosen[0]}, which contains more stalls"))
-        self._outlines = [chosen] if chosen else []
-        return chosen[1] if chosen else None
+            elif over is not None:
+                told = f"an outline over {self._outlines[over][0]}, which contains as many stalls or more"
+                self.unread.append(Unplaced(name, told))
+            else:
+                kept.append(number)
+        self._outlines = [self._outlines[number] for number in kept]
+        return [ring for _, ring in self._outlines]
 
     def _narrowed(self, lane: SurveyedLane) -> SurveyedLane:
         """Narrow a lane to the ground between the stalls beside it, as maps may count stalls as part of a lane."""
@@ -211,17 +214,18 @@ class SurveyParts:
 
     def survey(self, *, origin_deg: tuple[float, float] | None = None) -> Survey:
         """Return the survey of all parts."""
-        outline = self.outline()
+        outlines = self.outlines()
         return Survey(
             tuple(self.stalls),
             tuple(self._narrowed(lane) for lane in self.lanes),
             tuple(_single(self.columns)),
             tuple(self.portals),
-            outline,
+            next(iter(outlines), None),
             tuple(self.unread),
             origin_deg,
             tuple(self.solids),
             tuple(self.remarks),
+            other_outlines=tuple(outlines[1:]),
         )
 
 
