@@ -94,7 +94,7 @@ def _survey(level: OsmLevel, portals: Sequence[SurveyedPortal] = ()) -> Survey:
         elif tags.get("indoor") == "room" or (tags.get("type") == "building" and tags.get("subtype") == "core"):
             parts.add_solid(name, points)
         elif tags.get("amenity") == "parking" or tags.get("building") == "parking":
-            parts.add_outline(name, points)
+            parts.add_outline(name, points, maxheight=tags.get("maxheight"))
     ground = shapely.MultiPolygon(list(map(shapely.Polygon, parts.outlines())))
     _add_ways(parts, level, ground)
     _add_portals(parts, level, ground)
@@ -233,6 +233,7 @@ def _add_portals(parts: SurveyParts, level: OsmLevel, ground: shapely.MultiPolyg
         is_gate = node.tags.get("barrier") in _GATES and ground.boundary.dwithin(shapely.Point(node.position), _AT_M)
         if (is_gate or node.tags.get("amenity") == "parking_entrance") and level.holds_portal(number):
             parts.add_portal(node.position, portal_kind_of(node.tags.get("entrance", "")) or PortalKind.BOTH)
+            parts.add_clear_height(node.tags.get("maxheight"))
     for way in level.osm.ways.values():
         told = portal_kind_of(way.tags.get("subtype", "")) if way.tags.get("type") == "gate" else None
         if told is not None and len(way.nodes) > 1 and level.holds(way.tags, way.nodes):

@@ -22,7 +22,7 @@ from garage2usd.survey.survey import (
     SurveyedStall,
     Unplaced,
 )
-from garage2usd.survey.text import refuse
+from garage2usd.survey.text import length_of, refuse
 
 Floats = NDArray[np.float64]
 
@@ -51,6 +51,8 @@ class SurveyParts:
     ----------
     stalls, lanes, columns, portals, solids, unread, remarks
         As in `Survey`.
+    clear_heights_m, ceiling_heights_m
+        Heights that parts of the source tell, of which the least counts.
     """
 
     def __init__(self) -> None:
@@ -61,7 +63,10 @@ class SurveyParts:
         self.solids: list[tuple[Point, ...]] = []
         self.unread: list[Unplaced] = []
         self.remarks: list[str] = []
+        self.clear_heights_m: list[float] = []
+        self.ceiling_heights_m: list[float] = []
         self._outlines: list[tuple[str, tuple[Point, ...]]] = []
+        self._clear_heights: dict[str, object] = {}
         self._named: Counter[str] = Counter()
 
     def add_stall(
@@ -155,12 +160,18 @@ class SurveyParts:
         """Add a column by its middle (x, z) and its side."""
         self.columns.append(SurveyedColumn(_point(centre), size_m))
 
+    def add_clear_height(self, told: object) -> None:
+        """Add a height that signs or drawings give for cars, as people write it; words such as ``default`` are none."""
+        height_m = length_of(told)
+        if height_m is not None:
+            self.clear_heights_m.append(height_m)
+
     def add_portal(self, position: Sequence[float], kind: PortalKind = PortalKind.BOTH) -> None:
         """Add a place where cars enter or leave."""
         self.portals.append(SurveyedPortal(_point(position), kind))
 
-    def add_outline(self, name: str, ring: Iterable[Sequence[float]]) -> None:
-        """Add an outline. Of several over each other, the survey has the one with the most stalls."""
+    def add_outline(self, name: str, ring: Iterable[Sequence[float]], *, maxheight: object = None) -> None:
+        """Add an outline with its clear height. Of several over each other, that with the most stalls counts."""
         points = _without_repeats(ring)
         polygon = _polygon(points)
         if polygon is not None and not polygon.is_valid:
@@ -172,6 +183,7 @@ class SurveyParts:
             self.unread.append(Unplaced(name, "an outline without area, or one that crosses itself"))
         else:
             self._outlines.append((name, points))
+            self._clear_heights[name] = maxheight
 
     def _readable(self, name: str, number: str) -> str:
         """Return a stall number without control characters, truncated to a readable length."""
@@ -215,6 +227,8 @@ class SurveyParts:
     def survey(self, *, origin_deg: tuple[float, float] | None = None) -> Survey:
         """Return the survey of all parts."""
         outlines = self.outlines()
+        for name, _ in self._outlines:
+            self.add_clear_height(self._clear_heights.pop(name, None))
         return Survey(
             tuple(self.stalls),
             tuple(self._narrowed(lane) for lane in self.lanes),
@@ -226,6 +240,8 @@ class SurveyParts:
             tuple(self.solids),
             tuple(self.remarks),
             other_outlines=tuple(outlines[1:]),
+            clear_height_m=min(self.clear_heights_m, default=None),
+            ceiling_height_m=min(self.ceiling_heights_m, default=None),
         )
 
 

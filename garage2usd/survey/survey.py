@@ -128,6 +128,8 @@ class Survey:
         Latitude and longitude of (0, 0) if the source has geographic coordinates.
     solids
         Corners (x, z) of each block on the floor, as of stairs, lifts and rooms.
+    clear_height_m, ceiling_height_m
+        Height below which nothing hangs, and that of the ceiling's underside; None if unknown.
     remarks
         What was mended or added to parts of the source, each with the name of the part.
     """
@@ -142,6 +144,8 @@ class Survey:
     origin_deg: tuple[float, float] | None = None
     solids: tuple[tuple[Point, ...], ...] = ()
     remarks: tuple[str, ...] = ()
+    clear_height_m: float | None = None
+    ceiling_height_m: float | None = None
 
     def moved(self, turn_rad: float, shift_m: Point) -> "Survey":
         """Return the survey turned about (0, 0), from x towards z, and then shifted."""

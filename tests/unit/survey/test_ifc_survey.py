@@ -140,6 +140,7 @@ def test_a_storey_with_all_parts(tmp_path, milli, schema):
     assert kind is PortalKind.BOTH
     assert survey.unread == ()
     assert survey.origin_deg is None
+    assert survey.ceiling_height_m == pytest.approx(2.8)  # under the slab
 
 
 def test_spaces_by_type_and_properties(tmp_path):
