@@ -215,23 +215,23 @@ class SurveyParts:
         self._outlines = [self._outlines[number] for number in kept]
         return [ring for _, ring in self._outlines]
 
-    def _narrowed(self, lane: SurveyedLane) -> SurveyedLane:
+    def _narrowed(self, lane: SurveyedLane, stalls: Sequence[shapely.Polygon]) -> SurveyedLane:
         """Narrow a lane to the ground between the stalls beside it, as maps may count stalls as part of a lane."""
-        if lane.width_m is None or not self.stalls:
+        if lane.width_m is None or not stalls:
             return lane
-        nearest_m = float(shapely.distance(shapely.LineString(lane.points), self.stall_polygons()).min())
+        nearest_m = float(shapely.distance(shapely.LineString(lane.points), stalls).min())
         if not _LEAST_HALF_M <= nearest_m < lane.width_m / 2:
             return lane
         return replace(lane, width_m=round(2 * nearest_m, _DIGITS))
 
     def survey(self, *, origin_deg: tuple[float, float] | None = None) -> Survey:
         """Return the survey of all parts."""
-        outlines = self.outlines()
+        outlines, stalls = self.outlines(), self.stall_polygons()
         for name, _ in self._outlines:
             self.add_clear_height(self._clear_heights.pop(name, None))
         return Survey(
             tuple(self.stalls),
-            tuple(self._narrowed(lane) for lane in self.lanes),
+            tuple(self._narrowed(lane, stalls) for lane in self.lanes),
             tuple(_single(self.columns)),
             tuple(self.portals),
             next(iter(outlines), None),

@@ -242,11 +242,15 @@ def _best_door(
 ) -> tuple[float, int, float, Point, Point]:
     """Return how good the best straight way from some nodes to the outline is, the least being best, and its ends."""
     found = []
+    shapely.prepare(outline)
+    parts = shapely.STRtree(shapely.get_parts(taken))
     for node in nodes:
         for order, foot in _feet(outline, network, node):
             here = network.nodes[node].position
             way = shapely.LineString([here, foot])
-            over_m2 = way.buffer(_APPROACH_HALF_M, cap_style="flat").intersection(taken).area if way.length else 0.0
+            strip = way.buffer(_APPROACH_HALF_M, cap_style="flat") if way.length else shapely.Polygon()
+            near = parts.geometries[parts.query(strip, predicate="intersects")]
+            over_m2 = shapely.area(shapely.intersection(near, strip)).sum()
             length_m = way.length + (_OTHERWISE_M if order else 0.0)
             found.append((round(float(over_m2), 1), order, round(float(length_m), 2), here, foot))
     return min(found)
