@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import cast
 
 import networkx as nx
-import shapely
 
 from garage2usd.as_built.garage import garage_as_made
 from garage2usd.as_built.proofs import prove_built
@@ -19,14 +18,14 @@ from garage2usd.checks import judged_layout
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.processes import without_collector
 from garage2usd.common.progress import Progress, silent
-from garage2usd.common.randomness import Step, derived_seed
 from garage2usd.config import GarageConfig
 from garage2usd.config.fittings import CEILING_ROOM_M
 from garage2usd.driving import StallProof, prove_stalls
 from garage2usd.garage.levels import LevelPlace, level_places, places_at
 from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.layout.surveyed import FloorAbove, LevelPart, SurveyedFloor, lay_out_survey
-from garage2usd.layout.surveyed.ramp_places import lanes_to_landings, placed_ramps, widened_outline
+from garage2usd.layout.surveyed.heights import LEAST_SLAB_M, level_config
+from garage2usd.layout.surveyed.ramp_places import lanes_to_landings, placed_ramps, with_ramps_inside
 from garage2usd.layout.surveyed.ramps import LevelRamps
 from garage2usd.pipeline import Build, Judged, checked_output, with_things, written
 from garage2usd.profiles import DEFAULT_PROFILE
@@ -34,15 +33,12 @@ from garage2usd.profiles.countries import profile_at
 from garage2usd.reading.report import SurveyFigures
 from garage2usd.report import make_report
 from garage2usd.structure.building import Building
-from garage2usd.survey.clear_ground import with_medial_lanes
-from garage2usd.survey.enclosure import enclosed
+from garage2usd.survey.lots import in_lots
 from garage2usd.survey.reader import read_building
 from garage2usd.survey.survey import Alignment, Survey, SurveyedStall, Unplaced
 from garage2usd.survey.surveyed_building import SurveyedBuilding, SurveyedLevel, aligned_building
 from garage2usd.view.thumbnails import draw_pictures
 
-_LEAST_SLAB_M = 0.25
-"""Least distance of a ceiling's underside from the floor above."""
 _ROUNDING_M = 1e-6
 
 
@@ -158,12 +154,15 @@ def _laid_out(
     levels = building.levels
     floors_m, told = _floors_m(levels, config)
     storeys_m = [0.0, *(round(upper - lower, 6) for upper, lower in pairwise(floors_m))]
-    configs = [_config_of(config, number, storey_m) for number, storey_m in enumerate(storeys_m)]
+    heights = [
+        level_config(config, number, storey_m, level.survey)
+        for number, (level, storey_m) in enumerate(zip(levels, storeys_m, strict=True))
+    ]
+    configs = [settings for settings, _ in heights]
     ramps, unbuilt = placed_ramps(building, floors_m, configs)
     surveys = [
         replace(
-            level.survey,
-            outline=widened_outline(level.survey, own),
+            with_ramps_inside(level.survey, own),
             lanes=lanes_to_landings(level.survey.lanes, own.gates) if own.gates else level.survey.lanes,
             stalls=_numbered(level.survey.stalls, place) if len(levels) > 1 else level.survey.stalls,
         )
@@ -174,8 +173,7 @@ def _laid_out(
     for number, (level, place) in enumerate(zip(levels, places_at(floors_m), strict=True)):
         above = None
         if number:
-            ground = shapely.Polygon(surveys[number - 1].outline)
-            above = FloorAbove(storeys_m[number], ground, ramps[number - 1].openings)
+            above = FloorAbove(storeys_m[number], surveys[number - 1].ground, ramps[number - 1].openings)
         part = LevelPart(above, ramps[number], has_street=has_street[number])
         layout = lay_out_survey(surveys[number], configs[number], part=part)
         layout = with_things(layout, configs[number], progress=progress)
@@ -183,11 +181,11 @@ def _laid_out(
     structures = tuple(level.layout.structure for level in found)
     whole = Building(structures, None, config.building.storey_m, tuple(floors_m) if len(found) > 1 else None)
     frame = alignment.frame(levels[0].survey.origin_deg)
-    garage = Garage(config, whole, tuple(found), {**origin, **frame})
+    garage = Garage(configs[0], whole, tuple(found), {**origin, **frame})
     of_levels = [
         remark if len(found) == 1 else f"level {level.source_name}: {remark}"
-        for level, floor in zip(found, surveyed_floors(garage), strict=True)
-        for remark in floor.survey.remarks
+        for level, floor, (_, of_heights) in zip(found, surveyed_floors(garage), heights, strict=True)
+        for remark in (*floor.survey.remarks, *of_heights)
     ]
     return garage, alignment, (*remarks, *told, *of_levels, *unbuilt, *_unjoined(garage))
 
@@ -196,7 +194,7 @@ def _with_lanes(building: SurveyedBuilding) -> tuple[SurveyedBuilding, list[str]
     """Return the levels that have stalls and lanes, those without lanes with derived ones; name the others."""
     if len(building.levels) == 1:
         (level,) = building.levels
-        survey = with_medial_lanes(enclosed(level.survey))
+        survey = in_lots(level.survey)
         return replace(building, levels=(replace(level, survey=survey),)), []
     levels, remarks = [], []
     for level in building.in_order:
@@ -204,7 +202,7 @@ def _with_lanes(building: SurveyedBuilding) -> tuple[SurveyedBuilding, list[str]
             remarks.append(f"level {level.name} is left out: it has no stall")
             continue
         try:
-            levels.append(replace(level, survey=with_medial_lanes(enclosed(level.survey))))
+            levels.append(replace(level, survey=in_lots(level.survey)))
         except ConfigError as error:
             remarks.append(f"level {level.name} is left out: {error}")
     if not levels:
@@ -218,7 +216,7 @@ def _floors_m(levels: Sequence[SurveyedLevel], config: GarageConfig) -> tuple[li
     """Return the height of the floor of each level below the top one, as surveyed where that leaves room for cars."""
     heights_m = [level.height_m for level in levels]
     known = [height_m for height_m in heights_m if height_m is not None]
-    least_m = config.fittings.clear_height_m + CEILING_ROOM_M + _LEAST_SLAB_M
+    least_m = config.fittings.clear_height_m + CEILING_ROOM_M + LEAST_SLAB_M
     remarks = []
     if len(known) == len(levels) > 1:
         storeys_m = [upper - lower for upper, lower in pairwise(known)]
@@ -228,16 +226,6 @@ def _floors_m(levels: Sequence[SurveyedLevel], config: GarageConfig) -> tuple[li
         needed = f"{least_m:.2f} m or more leave room for cars"
         remarks = [f"floors that are {near_m:.2f} m apart in the source are placed {placed_m:g} m apart: {needed}"]
     return [place.floor_m for place in level_places(len(levels), config.building.storey_m)], remarks
-
-
-def _config_of(config: GarageConfig, number: int, storey_m: float) -> GarageConfig:
-    """Return the settings of a level: below the top one a seed of its own, and a ceiling under the floor above."""
-    if not number:
-        return config
-    seed = derived_seed(config.seed, Step.LEVELS, number)
-    ceiling_m = round(min(config.fittings.ceiling_height_m, storey_m - _LEAST_SLAB_M), 6)
-    fittings = config.fittings.model_copy(update={"ceiling_height_m": ceiling_m})
-    return config.model_copy(update={"seed": seed, "fittings": fittings})
 
 
 def _numbered(stalls: Sequence[SurveyedStall], place: LevelPlace) -> tuple[SurveyedStall, ...]:

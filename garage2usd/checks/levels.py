@@ -23,6 +23,14 @@ _EYE_M, _AXLE_M = 0.05, 0.6
 """Heights over the ramp's floor of the rays upwards and sideways."""
 _LEAST_RUN_M = 1e-6
 _SLOPE_ROUNDING = 0.15
+_IN_SURVEYS = {
+    "level-height": Severity.INFO,
+    "ramp-bend": Severity.INFO,
+    "portal-count": Severity.WARNING,
+    "ramp-headroom": Severity.WARNING,
+    "ramp-width": Severity.WARNING,
+}
+"""Greatest severity in surveyed garages, as `Rule.in_surveys`; routes are errors there too."""
 _FAR_M = 4.0
 """Distance around the box of a ramp in which triangles are cast at; more clearance than this is enough anywhere."""
 
@@ -39,13 +47,22 @@ def findings_of_whole(garage: BuiltGarage, profile: Profile) -> list[Finding]:
     """
     if garage.levels[0].place.is_only:
         return []
-    return [
+    found = [
         *(Finding(fault.rule, Severity.ERROR, fault.place, fault.message, fault.position) for fault in garage.faults),
         *_floors(garage, profile),
         *_routes(garage),
         *_portals(garage, profile),
         *_ramp_clearances(garage, profile),
         *_ramp_bends(garage, profile),
+    ]
+    if not garage.levels[0].is_surveyed:
+        return found
+    least_m = {"level-height": CAR_HEIGHT_M, "ramp-headroom": CAR_HEIGHT_M, "ramp-width": profile.car_width_m}
+    return [
+        each
+        if each.measured is not None and each.measured < least_m.get(each.rule, 0.0)  # no car gets there
+        else each.in_survey(_IN_SURVEYS.get(each.rule, Severity.ERROR))
+        for each in found
     ]
 
 

@@ -3,7 +3,7 @@
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any, NamedTuple
 
 from garage2usd.as_built.level import BuiltLevel
@@ -56,6 +56,11 @@ class Finding:
     unit: str = ""
     source: str = "garage2usd"
     clause: str = ""
+
+    def in_survey(self, greatest: Severity) -> "Finding":
+        """Return the finding in a surveyed garage: of a greatest severity, and with who answers for it."""
+        severity = max(self.severity, greatest, key=_ORDER.__getitem__)
+        return replace(self, severity=severity, message=self.message + _OF_SURVEYS.get(greatest, ""))
 
     def sort_key(self) -> tuple[int, str, str]:
         """Key that sorts errors first, then findings by rule and place."""
@@ -194,13 +199,12 @@ class Rule:
         if not self.applies(profile):
             return
         name, clause = next(iter(self.asked_by(profile).items()), ("", None))
-        told = _OF_SURVEYS.get(self.in_surveys, "") if level.is_surveyed else ""
         for miss in self.find(level, profile):
-            yield Finding(
+            found = Finding(
                 rule=self.name,
-                severity=self.severity_in(profile, level),
+                severity=self.severity if clause is None else clause.severity,
                 place=miss.place,
-                message=miss.message + told,
+                message=miss.message,
                 position_m=miss.position,
                 measured=None if miss.measured is None else round(miss.measured, 4),
                 required=None if miss.required is None else round(miss.required, 4),
@@ -208,6 +212,7 @@ class Rule:
                 source=f"{clause.source} ({clause.confidence})" if clause else "garage2usd",
                 clause=name,
             )
+            yield found.in_survey(self.in_surveys) if level.is_surveyed else found
 
 
 class RuleBook:

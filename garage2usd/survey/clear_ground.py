@@ -170,15 +170,15 @@ def _ground(survey: Survey, is_open: float = _OPEN) -> shapely.Geometry:
     """Return the ground between stalls, columns and blocks."""
     stalls = shapely.union_all([ground.buffer(_STALL_MARGIN_M) for ground in survey.stall_polygons()])
     if survey.outline is not None:
-        inside = shapely.Polygon(survey.outline)
+        inside = survey.ground
     else:
         inside = stalls.buffer(_CLOSED_M, join_style="mitre").buffer(-_CLOSED_M, join_style="mitre")
-        inside = shapely.union_all([inside, *_fronts(survey, inside, stalls, is_open)])
+        inside = shapely.union_all([inside, *fronts(survey, inside, stalls, is_open)])
     return shapely.difference(inside, shapely.union_all([stalls, *survey.column_polygons(), *survey.solid_polygons()]))
 
 
-def _fronts(
-    survey: Survey, inside: shapely.Geometry, stalls: shapely.Geometry, is_open: float
+def fronts(
+    survey: Survey, inside: shapely.Geometry, stalls: shapely.Geometry, is_open: float = _OPEN
 ) -> Iterator[shapely.Geometry]:
     """Yield the ground of a lane before each stall that opens onto no ground between stalls, of a share that is open.
 

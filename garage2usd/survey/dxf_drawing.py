@@ -39,7 +39,7 @@ _APART = {"MLINE", "ACAD_PROXY_ENTITY", "LEADER", "MULTILEADER"}
 _SILENT = {"DIMENSION", "ARC_DIMENSION", "LARGE_RADIAL_DIMENSION", "VIEWPORT", "IMAGE", "ATTDEF", "LEADER", "OLE2FRAME",
            "MULTILEADER", "WIPEOUT", "RAY", "XLINE", "TOLERANCE", "SUN", "LIGHT"}  # fmt: skip
 _FAULTS = (DXFError, OSError, ValueError, LookupError, AttributeError, TypeError, ArithmeticError, RecursionError,
-           AssertionError)  # fmt: skip
+           AssertionError, StopIteration)  # fmt: skip
 """Errors of ezdxf on damaged files."""
 
 

@@ -151,10 +151,10 @@ def _survey(
     walls = [shapely.LineString(line) for line in shapes.of(PartKind.WALL, plan) if len(line) > 1]
     doors = [shapely.LineString(line) for line in shapes.of(PartKind.DOOR, plan) if len(line) == 2]  # noqa: PLR2004
     wide = [door for door in doors if door.length >= _LEAST_DOOR_M]
-    outline = parts.outline()
-    ground = ground_within([*walls, *wide], stalls) if outline is None else shapely.Polygon(outline)
+    outlines = parts.outlines()
+    ground = shapely.Polygon(outlines[0]) if outlines else ground_within([*walls, *wide], stalls)
     if ground is not None:
-        if outline is None:
+        if not outlines:
             parts.add_outline("walls", ground.exterior.coords)
         for number, solid in enumerate(solids_within(walls, ground, stalls)):
             parts.add_solid(f"wall {number + 1}", ring_of(solid))

@@ -9,11 +9,11 @@ import shapely
 import shapely.ops
 
 from garage2usd.garage import Point
-from garage2usd.survey.survey import PortalKind, Survey, SurveyedLane, SurveyedPortal, Unplaced
+from garage2usd.survey.survey import PortalKind, Survey, SurveyedLane, SurveyedPortal
 
-_NEAR_M = 12.0
+NEAR_M = 12.0
 """Greatest distance in metres from the outline of stalls that it is drawn around: those beyond a lane beside it."""
-_BEYOND_M = 0.05
+BEYOND_M = 0.05
 """Distance in metres up to which stalls and lanes lie on the outline."""
 _SLOT_M = 0.5
 """Half the width in metres of slots between the outline and stalls beyond it that become ground."""
@@ -22,7 +22,7 @@ _LEAST_LANE_M = 1.0
 _PORTAL_M = 6.0
 """Distance in metres up to which a portal is that of a road which crosses the outline."""
 _LANE_M = 6.0
-_REACH_M = 9.0
+REACH_M = 9.0
 """Greatest distance in metres of a lane beyond the outline that serves a stall."""
 _DIGITS = 6
 
@@ -32,16 +32,16 @@ def enclosed(survey: Survey) -> Survey:
 
     Notes
     -----
-    The outline is drawn around stalls that lie on it or near it, and around lanes if it has none inside. Stalls far
-    outside are unread. A road that crosses the outline ends there, at a portal; a portal of the survey near that place
-    is the same one. A one-way road makes an entrance or an exit.
+    The outline is drawn around stalls that lie on it or near it, and around lanes if it has none inside. A road that
+    crosses the outline ends there, at a portal; a portal of the survey near that place is the same one. A one-way road
+    makes an entrance or an exit.
     """
     if survey.outline is None:
         return survey
     survey = _around_stalls(survey)
     assert survey.outline is not None
     ground = shapely.Polygon(survey.outline)
-    wide = ground.buffer(_BEYOND_M, join_style="mitre")
+    wide = ground.buffer(BEYOND_M, join_style="mitre")
     lines = [shapely.LineString(lane.points) for lane in survey.lanes]
     if lines and all(line.intersection(wide).length < _LEAST_LANE_M for line in lines):
         return _around_lanes(survey)
@@ -53,10 +53,10 @@ def enclosed(survey: Survey) -> Survey:
             lanes.append(lane)
             continue
         outside_m += line.difference(wide).length
-        for points in _inside(line, ground):
+        for points in parts_inside(line, ground):
             lanes.append(replace(lane, points=points))
             for at, end, kind in ((0, 0, PortalKind.ENTRANCE), (-1, -1, PortalKind.EXIT)):
-                if math.dist(points[at], line.coords[end]) > _BEYOND_M or line.is_ring:
+                if math.dist(points[at], line.coords[end]) > BEYOND_M or line.is_ring:
                     crossings.append(SurveyedPortal(points[at], kind if lane.one_way else PortalKind.BOTH))
     if not outside_m:
         return survey
@@ -66,46 +66,34 @@ def enclosed(survey: Survey) -> Survey:
 
 
 def _around_stalls(survey: Survey) -> Survey:
-    """Draw the outline around stalls that lie on it or near it, and leave out those far outside."""
+    """Draw the outline around stalls that lie on it or near it."""
     ground = shapely.Polygon(survey.outline)
     shapes = survey.stall_polygons()
-    held = ground.buffer(_BEYOND_M, join_style="mitre")
-    beyond = [number for number, shape in enumerate(shapes) if not held.covers(shape)]
-    near: list[int] = []
-    wider: shapely.Geometry = ground
-    while found := [at for at in beyond if at not in near and wider.dwithin(shapes[at], _NEAR_M)]:
-        near += found
-        wider = shapely.union_all([wider, *(shapes[number] for number in found)])
-    unread = [
-        Unplaced(survey.stalls[number].name, f"a stall {ground.distance(shapes[number]):.0f} m outside the outline")
-        for number in beyond
-        if number not in near
-    ]
-    if len(unread) == len(shapes):
-        return survey
+    held = ground.buffer(BEYOND_M, join_style="mitre")
+    near = [number for number, shape in enumerate(shapes) if not held.covers(shape)]
     if near:
-        slot_m = _SLOT_M if all(ground.dwithin(shapes[number], _BEYOND_M) for number in near) else _NEAR_M / 2
+        wider = shapely.union_all([ground, *(shapes[number] for number in near)])
+        slot_m = _SLOT_M if all(ground.dwithin(shapes[number], BEYOND_M) for number in near) else NEAR_M / 2
         closed = wider.buffer(slot_m, join_style="mitre").buffer(-slot_m, join_style="mitre")
-        around = shapely.union_all([shapes[number] for number in near]).buffer(slot_m + _NEAR_M / 2, join_style="mitre")
+        around = shapely.union_all([shapes[number] for number in near]).buffer(slot_m + NEAR_M / 2, join_style="mitre")
         named = survey.stalls[near[0]].name + (f" and {len(near) - 1} more stalls" if len(near) > 1 else "")
-        outline = _corners(shapely.union_all([wider, closed.intersection(around)]))
+        outline = corners_around(shapely.union_all([wider, closed.intersection(around)]))
         told = f"the outline leaves out ground of {named}; it is drawn around it"
         survey = replace(survey, outline=outline, remarks=(*survey.remarks, told))
-    kept = tuple(stall for number, stall in enumerate(survey.stalls) if number not in beyond or number in near)
-    return replace(survey, stalls=kept, unread=(*survey.unread, *unread))
+    return survey
 
 
 def _around_lanes(survey: Survey) -> Survey:
     """Draw the outline around the lanes that serve its stalls, as it has none inside."""
     stalls = shapely.union_all(survey.stall_polygons())
-    near = stalls.buffer(_REACH_M)
+    near = stalls.buffer(REACH_M)
     served = [
         replace(lane, points=points)
         for lane in survey.lanes
-        for points in _inside(shapely.LineString(lane.points), near)
+        for points in parts_inside(shapely.LineString(lane.points), near)
     ]
     if not served:
-        told = f"its lanes are more than {_REACH_M:g} m away from all stalls; others are laid on its free ground"
+        told = f"its lanes are more than {REACH_M:g} m away from all stalls; others are laid on its free ground"
         return replace(survey, lanes=(), remarks=(*survey.remarks, told))
     strips = [
         shapely.LineString(lane.points).buffer((lane.width_m or _LANE_M) / 2, cap_style="flat", join_style="mitre")
@@ -116,10 +104,10 @@ def _around_lanes(survey: Survey) -> Survey:
     if wider.geom_type != "Polygon":
         return survey
     told = "the outline has no lanes inside; it is drawn around those beside it"
-    return replace(survey, outline=_corners(wider), lanes=tuple(served), remarks=(*survey.remarks, told))
+    return replace(survey, outline=corners_around(wider), lanes=tuple(served), remarks=(*survey.remarks, told))
 
 
-def _inside(line: shapely.LineString, ground: shapely.Geometry) -> Iterator[tuple[Point, ...]]:
+def parts_inside(line: shapely.LineString, ground: shapely.Geometry) -> Iterator[tuple[Point, ...]]:
     """Yield the parts of a line inside a ground, in its direction; parts with a short gap between are one."""
     cuts = line.intersection(shapely.boundary(ground))
     runs = sorted({0.0, line.length, *(line.project(shapely.Point(place)) for place in shapely.get_coordinates(cuts))})
@@ -165,7 +153,7 @@ def _merged(portals: Sequence[SurveyedPortal], crossings: Sequence[SurveyedPorta
             yield crossing._replace(kind=kinds.pop()) if len(kinds) == 1 else crossing
 
 
-def _corners(ground: shapely.Geometry) -> tuple[Point, ...]:
+def corners_around(ground: shapely.Geometry) -> tuple[Point, ...]:
     """Return the corners of the largest part of a ground."""
     largest = max(shapely.get_parts(ground), key=lambda part: part.area)
     places = shapely.get_coordinates(shapely.Polygon(largest.exterior).simplify(1e-3).exterior)[:-1]

@@ -285,7 +285,9 @@ def _add(parts: SurveyParts, shape: _Shape, points: Sequence[Point]) -> None:
         width_m, way = _lane(shape, parts.unread)
         parts.add_lane(shape.name, points[::-1] if way < 0 else points, width_m, one_way=way != 0)
     elif shape.kind == "outline":
-        parts.add_outline(shape.name, points)
+        parts.add_outline(shape.name, points, maxheight=shape.properties.get("maxheight"))
+        if ceiling_m := length_of(shape.properties.get("ceiling_height")):
+            parts.ceiling_heights_m.append(ceiling_m)
     elif shape.kind == "block":
         parts.add_solid(shape.name, points[:-1] if points[0] == points[-1] else points)
     elif shape.kind == "portal":

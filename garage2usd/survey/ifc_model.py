@@ -39,6 +39,7 @@ _KINDS = {
 _NAMED = ("IfcSpace", "IfcBuildingElementProxy", "IfcFurnishingElement", "IfcGeographicElement", "IfcVirtualElement")
 """Classes whose names tell what they are."""
 _FLAT, _STRAIGHT_M = 1e-6, 0.005
+_MOST_REPEATS = 1000
 _FAULTS = (
     ifcopenshell.Error,
     OSError,
@@ -177,14 +178,15 @@ def _parts(
     cos, sin = math.cos(turn_rad), math.sin(turn_rad)
     found: dict[int, tuple[Floats, shapely.Geometry]] = {}
     if iterator.initialize():
-        while True:
+        # of lines that are written many times, shapes come many times
+        for _ in range(_MOST_REPEATS + 4 * len(elements)):
             shape: Any = iterator.get()  # type: ignore[no-untyped-call]
-            places = np.array(shape.geometry.verts, np.float64).reshape(-1, 3)
+            places = np.array([] if shape.id in found else shape.geometry.verts, np.float64).reshape(-1, 3)
             if len(places) and (np.abs(places) <= MOST_M).all():
                 x, y = places[:, 0] - shift[0], places[:, 1] - shift[1]
                 points = np.stack([x * cos - y * sin, -(x * sin + y * cos), places[:, 2]], axis=-1)
                 found[shape.id] = points, _footprint(points, shape.geometry)
-            if not iterator.next():
+            if len(found) == len(elements) or not iterator.next():
                 break
     for element in elements:
         if element.id() in found:

@@ -1,7 +1,7 @@
 """Surveys as IFC: building models whose spaces or elements are named as stalls, storey by storey."""
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -112,7 +112,17 @@ def _survey(model: Model, stalls: Sequence[ModelPart], floor_m: float) -> Survey
                 add_column(parts, part.name, area)
             elif part.kind is PartKind.SOLID:
                 parts.add_solid(part.name, ring_of(area))
+    parts.ceiling_heights_m += _ceilings_m(model, grounds, floor_m)
     return parts.survey(origin_deg=model.origin_deg)
+
+
+def _ceilings_m(model: Model, stalls: Sequence[shapely.Polygon], floor_m: float) -> Iterator[float]:
+    """Yield the heights over the floor of the slabs above the stalls."""
+    middles = shapely.multipoints(shapely.get_coordinates(shapely.centroid(stalls)))
+    for part in model.parts:
+        is_above = part.kind is PartKind.OUTLINE and part.base_m - floor_m > _LEAST_STOREY_M
+        if is_above and part.ground.intersects(middles):
+            yield round(part.base_m - floor_m, 3)
 
 
 def _add_slabs(parts: SurveyParts, model: Model, floor_m: float) -> None:

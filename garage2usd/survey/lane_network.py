@@ -46,9 +46,12 @@ class CentreLine(NamedTuple):
 
 
 def joined_lines(
-    lines: Sequence[CentreLine], grounds: shapely.STRtree, walls: shapely.Geometry | None = None
+    lines: Sequence[CentreLine],
+    grounds: shapely.STRtree,
+    walls: shapely.Geometry | None = None,
+    inside: shapely.Geometry | None = None,
 ) -> list[CentreLine]:
-    """Extend the ends of centre lines that stop short of another one, over no stall and through no wall."""
+    """Extend the ends of centre lines that stop short of another one, over no stall, through no wall, and inside."""
     walls = shapely.MultiLineString() if walls is None else walls
     joined = []
     for number, each in enumerate(lines):
@@ -64,7 +67,9 @@ def joined_lines(
                 foot = other.line.interpolate(other.line.project(end)).coords[0]
             else:
                 foot = _ahead(_ends(each.line)[place], others, grounds)
-            if foot is not None and not walls.crosses(shapely.LineString([end, foot])):
+            if foot is None or (inside is not None and not inside.dwithin(shapely.Point(foot), _GAP_M)):
+                continue
+            if not walls.crosses(shapely.LineString([end, foot])):
                 points.insert(0 if place == 0 else len(points), foot)
         joined.append(each._replace(line=shapely.LineString(points)))
     return joined
@@ -149,6 +154,7 @@ def lane_network(
     gates: Sequence[Gate],
     grounds: Sequence[shapely.Polygon] = (),
     walls: shapely.Geometry | None = None,
+    inside: shapely.Geometry | None = None,
 ) -> LaneGraph:
     """Build the lane graph of centre lines and doors.
 
@@ -162,6 +168,8 @@ def lane_network(
         Grounds of stalls, which no lane leads over.
     walls
         Lines of walls and of blocks, through which no lane is joined to another one or to a door.
+    inside
+        The ground inside the outlines, beyond which no lanes are joined; None for all ground.
 
     Notes
     -----
@@ -169,7 +177,7 @@ def lane_network(
     others remain in the graph: no stall is reached there.
     """
     stalls = shapely.STRtree(list(grounds))
-    lines = joined_lines([_line(lane) for lane in lanes], stalls, walls)
+    lines = joined_lines([_line(lane) for lane in lanes], stalls, walls, inside)
     free_m = [_free_m(gate, stalls) for gate in gates]
     ends = shapely.STRtree([line.line for line in lines])
     lines = [_short_of(line, gates, free_m, ends) for line in lines]

@@ -32,6 +32,7 @@ _USE_TAGS = {
     "charging": "ev",
 }
 _BESIDE_M = 6.0
+_AT_M = 1.0
 _SPACE_M = 0.05
 """Distance from a stall's outline up to which the ends of Autoware's line for the same stall lie on it."""
 
@@ -46,7 +47,7 @@ def read_osm_survey(path: Path) -> Survey | SurveyedBuilding:
         ``parking``, ``parking_spot`` and ``parking_space``, and Autoware's ways ``type=parking_space`` of two points
         with a ``width``, or as far apart as they lie side by side. With a ``capacity`` above 1, an area is a row of as
         many stalls. Lanes are lanelets for vehicles, and ways ``service=parking_aisle``, and within the outline any
-        ``highway=service``; areas of these are ground. The outline is the one of ``amenity=parking`` with the most
+        ``highway=service``; areas of these are ground. Outlines are the areas ``amenity=parking`` with
         stalls. Columns are areas of the subtype ``Columns`` or ``indoor=column``, blocks ``indoor=room``. Entrances are
         nodes ``amenity=parking_entrance`` or gates, and service roads that cross the outline. Stalls on several levels
         (`OsmLevels`) make a building, with the ramps of `garage2usd.survey.osm_ramps`.
@@ -93,10 +94,10 @@ def _survey(level: OsmLevel, portals: Sequence[SurveyedPortal] = ()) -> Survey:
         elif tags.get("indoor") == "room" or (tags.get("type") == "building" and tags.get("subtype") == "core"):
             parts.add_solid(name, points)
         elif tags.get("amenity") == "parking" or tags.get("building") == "parking":
-            parts.add_outline(name, points)
-    outline = parts.outline()
-    _add_ways(parts, level, outline)
-    _add_portals(parts, level, outline)
+            parts.add_outline(name, points, maxheight=tags.get("maxheight"))
+    ground = shapely.MultiPolygon(list(map(shapely.Polygon, parts.outlines())))
+    _add_ways(parts, level, ground)
+    _add_portals(parts, level, ground)
     return parts.survey(origin_deg=osm.origin_deg)
 
 
@@ -226,12 +227,13 @@ def _add_lanelets(parts: SurveyParts, level: OsmLevel) -> None:
                 parts.unread.append(Unplaced(lane.name, reason))
 
 
-def _add_portals(parts: SurveyParts, level: OsmLevel, outline: tuple[Point, ...] | None) -> None:
-    """Add the nodes that are entrances, and gates on the outline."""
+def _add_portals(parts: SurveyParts, level: OsmLevel, ground: shapely.MultiPolygon) -> None:
+    """Add the nodes that are entrances, and gates on an outline."""
     for number, node in level.osm.nodes.items():
-        is_gate = node.tags.get("barrier") in _GATES and _is_near(node.position, outline)
+        is_gate = node.tags.get("barrier") in _GATES and ground.boundary.dwithin(shapely.Point(node.position), _AT_M)
         if (is_gate or node.tags.get("amenity") == "parking_entrance") and level.holds_portal(number):
             parts.add_portal(node.position, portal_kind_of(node.tags.get("entrance", "")) or PortalKind.BOTH)
+            parts.add_clear_height(node.tags.get("maxheight"))
     for way in level.osm.ways.values():
         told = portal_kind_of(way.tags.get("subtype", "")) if way.tags.get("type") == "gate" else None
         if told is not None and len(way.nodes) > 1 and level.holds(way.tags, way.nodes):
@@ -239,10 +241,9 @@ def _add_portals(parts: SurveyParts, level: OsmLevel, outline: tuple[Point, ...]
             parts.add_portal(((x + end_x) / 2, (z + end_z) / 2), told)
 
 
-def _add_ways(parts: SurveyParts, level: OsmLevel, outline: tuple[Point, ...] | None) -> None:
+def _add_ways(parts: SurveyParts, level: OsmLevel, ground: shapely.MultiPolygon) -> None:
     """Add parking aisles, and other service roads that lie within the outline or cross it."""
     osm = level.osm
-    ground = None if outline is None else shapely.Polygon(outline)
     for way in osm.ways.values():
         if way.tags.get("highway") != "service" or way.name in level.on_ramps:
             continue
@@ -254,7 +255,7 @@ def _add_ways(parts: SurveyParts, level: OsmLevel, outline: tuple[Point, ...] | 
         direction = one_way_of(way.tags)
         line = osm.line(way.nodes)[:: -1 if direction < 0 else 1]
         is_aisle = way.tags.get("service") == "parking_aisle"
-        if is_aisle or (ground is not None and shapely.LineString(line).intersection(ground).length > _SPACE_M):
+        if is_aisle or shapely.LineString(line).intersection(ground).length > _SPACE_M:
             parts.add_lane(way.name, line, width_m, one_way=direction != 0)
         else:
             parts.unread.append(Unplaced(way.name, "a service road that is no parking aisle within the outline"))
@@ -266,12 +267,6 @@ def _reason_against_lane(way: OsmWay, level: OsmLevel) -> str | None:
     if reason is None and way.tags.get("area") == "yes":
         return "a service area, which is ground and no lane"
     return "a lane without length" if reason is None and len(way.nodes) < 2 else reason  # noqa: PLR2004 - a line
-
-
-def _is_near(position: Point, outline: tuple[Point, ...] | None) -> bool:
-    if outline is None:
-        return False
-    return bool(shapely.Polygon(outline).exterior.distance(shapely.Point(position)) < 1.0)
 
 
 def _width(parts: SurveyParts, name: str, tags: Mapping[str, str]) -> float | None:

@@ -22,7 +22,7 @@ from garage2usd.survey.survey import (
     SurveyedStall,
     Unplaced,
 )
-from garage2usd.survey.text import refuse
+from garage2usd.survey.text import length_of, refuse
 
 Floats = NDArray[np.float64]
 
@@ -51,6 +51,8 @@ class SurveyParts:
     ----------
     stalls, lanes, columns, portals, solids, unread, remarks
         As in `Survey`.
+    clear_heights_m, ceiling_heights_m
+        Heights that parts of the source tell, of which the least counts.
     """
 
     def __init__(self) -> None:
@@ -61,7 +63,10 @@ class SurveyParts:
         self.solids: list[tuple[Point, ...]] = []
         self.unread: list[Unplaced] = []
         self.remarks: list[str] = []
+        self.clear_heights_m: list[float] = []
+        self.ceiling_heights_m: list[float] = []
         self._outlines: list[tuple[str, tuple[Point, ...]]] = []
+        self._clear_heights: dict[str, object] = {}
         self._named: Counter[str] = Counter()
 
     def add_stall(
@@ -155,12 +160,18 @@ class SurveyParts:
         """Add a column by its middle (x, z) and its side."""
         self.columns.append(SurveyedColumn(_point(centre), size_m))
 
+    def add_clear_height(self, told: object) -> None:
+        """Add a height that signs or drawings give for cars, as people write it; words such as ``default`` are none."""
+        height_m = length_of(told)
+        if height_m is not None:
+            self.clear_heights_m.append(height_m)
+
     def add_portal(self, position: Sequence[float], kind: PortalKind = PortalKind.BOTH) -> None:
         """Add a place where cars enter or leave."""
         self.portals.append(SurveyedPortal(_point(position), kind))
 
-    def add_outline(self, name: str, ring: Iterable[Sequence[float]]) -> None:
-        """Add an outline. If there are several, the survey has the one with the most stalls."""
+    def add_outline(self, name: str, ring: Iterable[Sequence[float]], *, maxheight: object = None) -> None:
+        """Add an outline with its clear height. Of several over each other, that with the most stalls counts."""
         points = _without_repeats(ring)
         polygon = _polygon(points)
         if polygon is not None and not polygon.is_valid:
@@ -172,6 +183,7 @@ class SurveyParts:
             self.unread.append(Unplaced(name, "an outline without area, or one that crosses itself"))
         else:
             self._outlines.append((name, points))
+            self._clear_heights[name] = maxheight
 
     def _readable(self, name: str, number: str) -> str:
         """Return a stall number without control characters, truncated to a readable length."""
@@ -184,44 +196,52 @@ class SurveyParts:
         """Return the ground of each stall so far."""
         return [shapely.Polygon(stall.corners) for stall in self.stalls]
 
-    def outline(self) -> tuple[Point, ...] | None:
-        """Return the outline that contains the middles of the most stalls, or else None; note all others."""
-        if not self._outlines:
-            return None
+    def outlines(self) -> list[tuple[Point, ...]]:
+        """Return the outlines with stalls that lie apart, the one with the most first; note all others."""
         middles = shapely.centroid(self.stall_polygons())
-        held = [int(shapely.contains(shapely.Polygon(ring), middles).sum()) for _, ring in self._outlines]
-        best = held.index(max(held))
-        chosen = self._outlines[best] if held[best] else None
-        for name, ring in self._outlines:
-            if chosen is None:
+        grounds = [shapely.Polygon(ring) for _, ring in self._outlines]
+        held = [int(shapely.contains(ground, middles).sum()) for ground in grounds]
+        kept: list[int] = []
+        for number in sorted(range(len(held)), key=lambda number: -held[number]):
+            name, _ = self._outlines[number]
+            over = next((other for other in kept if grounds[number].intersects(grounds[other])), None)
+            if not held[number]:
                 self.unread.append(Unplaced(name, "an outline that contains no stall"))
-            elif ring is not chosen[1]:
-                self.unread.append(Unplaced(name, f"an outline beside {chosen[0]}, which contains more stalls"))
-        self._outlines = [chosen] if chosen else []
-        return chosen[1] if chosen else None
+            elif over is not None:
+                told = f"an outline over {self._outlines[over][0]}, which contains as many stalls or more"
+                self.unread.append(Unplaced(name, told))
+            else:
+                kept.append(number)
+        self._outlines = [self._outlines[number] for number in kept]
+        return [ring for _, ring in self._outlines]
 
-    def _narrowed(self, lane: SurveyedLane) -> SurveyedLane:
+    def _narrowed(self, lane: SurveyedLane, stalls: Sequence[shapely.Polygon]) -> SurveyedLane:
         """Narrow a lane to the ground between the stalls beside it, as maps may count stalls as part of a lane."""
-        if lane.width_m is None or not self.stalls:
+        if lane.width_m is None or not stalls:
             return lane
-        nearest_m = float(shapely.distance(shapely.LineString(lane.points), self.stall_polygons()).min())
+        nearest_m = float(shapely.distance(shapely.LineString(lane.points), stalls).min())
         if not _LEAST_HALF_M <= nearest_m < lane.width_m / 2:
             return lane
         return replace(lane, width_m=round(2 * nearest_m, _DIGITS))
 
     def survey(self, *, origin_deg: tuple[float, float] | None = None) -> Survey:
         """Return the survey of all parts."""
-        outline = self.outline()
+        outlines, stalls = self.outlines(), self.stall_polygons()
+        for name, _ in self._outlines:
+            self.add_clear_height(self._clear_heights.pop(name, None))
         return Survey(
             tuple(self.stalls),
-            tuple(self._narrowed(lane) for lane in self.lanes),
+            tuple(self._narrowed(lane, stalls) for lane in self.lanes),
             tuple(_single(self.columns)),
             tuple(self.portals),
-            outline,
+            next(iter(outlines), None),
             tuple(self.unread),
             origin_deg,
             tuple(self.solids),
             tuple(self.remarks),
+            other_outlines=tuple(outlines[1:]),
+            clear_height_m=min(self.clear_heights_m, default=None),
+            ceiling_height_m=min(self.ceiling_heights_m, default=None),
         )
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import shapely
@@ -16,6 +16,8 @@ from garage2usd.garage import Point, StallUse
 
 Corners = tuple[Point, Point, Point, Point]
 """(x, z) of the corners of a stall in order."""
+Ground: TypeAlias = shapely.Polygon | shapely.MultiPolygon
+"""The ground inside the outline of a garage, or inside those of several lots."""
 FRAME_KEY = "surveyFrame"
 """Name of the custom data of a stage with the frame of its survey on the earth."""
 _QUARTER = math.pi / 2
@@ -118,12 +120,16 @@ class Survey:
         Its parts. Without lanes, these are derived from the ground between the stalls.
     outline
         Inner faces of the outer walls, (x, z); None for a rectangle around all parts.
+    other_outlines
+        Those of further lots, apart from the first one and from each other.
     unread
         Parts of the source that are not in the survey.
     origin_deg
         Latitude and longitude of (0, 0) if the source has geographic coordinates.
     solids
         Corners (x, z) of each block on the floor, as of stairs, lifts and rooms.
+    clear_height_m, ceiling_height_m
+        Height below which nothing hangs, and that of the ceiling's underside; None if unknown.
     remarks
         What was mended or added to parts of the source, each with the name of the part.
     """
@@ -133,10 +139,13 @@ class Survey:
     columns: tuple[SurveyedColumn, ...] = ()
     portals: tuple[SurveyedPortal, ...] = ()
     outline: tuple[Point, ...] | None = None
+    other_outlines: tuple[tuple[Point, ...], ...] = field(default=(), kw_only=True)
     unread: tuple[Unplaced, ...] = field(default=(), repr=False)
     origin_deg: tuple[float, float] | None = None
     solids: tuple[tuple[Point, ...], ...] = ()
     remarks: tuple[str, ...] = ()
+    clear_height_m: float | None = None
+    ceiling_height_m: float | None = None
 
     def moved(self, turn_rad: float, shift_m: Point) -> "Survey":
         """Return the survey turned about (0, 0), from x towards z, and then shifted."""
@@ -156,8 +165,15 @@ class Survey:
             columns=tuple(column._replace(centre=place(column.centre)) for column in self.columns),
             portals=tuple(portal._replace(position=place(portal.position)) for portal in self.portals),
             outline=None if self.outline is None else places(self.outline),
+            other_outlines=tuple(map(places, self.other_outlines)),
             solids=tuple(map(places, self.solids)),
         )
+
+    @property
+    def ground(self) -> Ground:
+        """The ground inside its outlines, of which there is one or more."""
+        first, *others = map(shapely.Polygon, (self.outline, *self.other_outlines))
+        return shapely.MultiPolygon([first, *others]) if others else first
 
     def stall_polygons(self) -> list[shapely.Polygon]:
         """Return the ground of each stall."""
@@ -215,9 +231,16 @@ def aligned_together(surveys: Sequence[Survey]) -> tuple[list[Survey], Alignment
     turned = [
         replace(survey, outline=_outline_around(survey)) if survey.outline is None else survey for survey in turned
     ]
-    left, top, _, _ = shapely.total_bounds([shapely.Polygon(survey.outline) for survey in turned]).tolist()
+    left, top, _, _ = shapely.total_bounds([survey.ground for survey in turned]).tolist()
     shift_m = round(-left, _DIGITS), round(-top, _DIGITS)
     return [survey.moved(0.0, shift_m) for survey in turned], Alignment(turn_rad, shift_m)
+
+
+def outlined(survey: Survey) -> Survey:
+    """Return a survey with an outline around its stalls and lanes, along its stalls."""
+    turn_rad = _main_direction_rad(survey.stalls)
+    corners = _outline_around(replace(survey.moved(-turn_rad, (0.0, 0.0)), columns=()))
+    return replace(survey, outline=tuple(map(mover(turn_rad, (0.0, 0.0)), corners)))
 
 
 def _main_direction_rad(stalls: Iterable[SurveyedStall]) -> float:

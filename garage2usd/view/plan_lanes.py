@@ -95,7 +95,7 @@ def squares(layout: Layout, found: MeasuredCirculation) -> Iterator[Region | Lin
 def ribbons(layout: Layout) -> Iterator[Region]:
     """Return the floor of a garage without a grid, and its lanes as ribbons of their own width, up to the walls."""
     assert isinstance(layout.source, SurveyedFloor)
-    inside = shapely.Polygon(layout.source.survey.outline)
+    inside = layout.source.survey.ground
     for floor in layout.of_kind("floor"):
         (x, _, z), spec = floor.position_m, floor.spec
         assert isinstance(spec, FloorSpec)
@@ -108,7 +108,7 @@ def ribbons(layout: Layout) -> Iterator[Region]:
         yield from _within(inside, ground, LANE_COLOUR[LaneKind.STRAIGHT], "lane")
 
 
-def _within(inside: shapely.Polygon, ground: shapely.Polygon, colour: Colour, name: str) -> Iterator[Region]:
+def _within(inside: shapely.Geometry, ground: shapely.Polygon, colour: Colour, name: str) -> Iterator[Region]:
     for part in shapely.get_parts(shapely.normalize(ground.intersection(inside))):
         if part.area > _LEAST_M2:
             yield Region(list(part.exterior.coords)[:-1], colour, name)

@@ -39,7 +39,7 @@ from garage2usd.structure.lane_graph import Square, StallType
 from garage2usd.survey.clear_ground import with_clear_widths, with_lanes_to
 from garage2usd.survey.fitted_stalls import FittedStall, Fitting, fitted_stalls
 from garage2usd.survey.lane_network import Gate, lane_network
-from garage2usd.survey.survey import Survey, SurveyedPortal, Unplaced
+from garage2usd.survey.survey import Ground, Survey, SurveyedPortal, Unplaced
 
 __all__ = ["FloorAbove", "LevelPart", "SurveyedFloor", "lay_out_survey"]
 _EQUIPMENT_M = 0.25
@@ -120,7 +120,7 @@ class SurveyedFloor(FloorSource):
     @property
     def area(self) -> FloorArea:
         """Area of the ground inside the outline, without blocks and with them."""
-        ground = shapely.Polygon(self.survey.outline)
+        ground = self.survey.ground
         solids = shapely.union_all(self.survey.solid_polygons())
         return FloorArea(float(ground.difference(solids).area), float(ground.area))
 
@@ -178,7 +178,7 @@ def lay_out_survey(
     """
     assert survey.outline is not None
     fittings, look = config.fittings, drawn_look(config.look, config.seed)
-    ground = SurveyedGround(survey.outline, survey.columns)
+    ground = SurveyedGround([survey.outline, *survey.other_outlines], survey.columns)
     if not survey.lanes:
         raise ConfigError("lanes", [], "a lane or more")
     ramps = part.ramps
@@ -244,7 +244,7 @@ def lay_out_survey(
 
 
 def _joined(
-    survey: Survey, outline: shapely.Polygon, config: GarageConfig, part: LevelPart
+    survey: Survey, outline: Ground, config: GarageConfig, part: LevelPart
 ) -> tuple[list[Gate], LaneGraph, Fitting, tuple[str, ...]]:
     """Return the doors of a survey, its lane graph, its stalls beside lanes, and remarks on doors that it lacks."""
     keeps_left = config.standard.drives_on_left
@@ -262,7 +262,7 @@ def _joined(
         # ramps to other levels do not stand in for the doors to the street
         has_landings = bool(gates) or not part.has_street or rounds > 1
         landings = part.ramps.gates if has_landings else ()
-        network = with_clear_widths(lane_network(survey.lanes, [*gates, *landings], stalls, walls), standing)
+        network = with_clear_widths(lane_network(survey.lanes, [*gates, *landings], stalls, walls, outline), standing)
         fitting = fitted_stalls(survey, network, keeps_left=keeps_left, walls=walls)
         found = lacking_portals(outline, network, taken, fitting.cut_off, is_near=rounds > 1)
         lacking = {lane: portal for lane, portal in found.items() if (lane, portal) not in added}

@@ -14,7 +14,7 @@ from garage2usd.config.site import DOOR_JAMB_M
 from garage2usd.garage import LaneGraph, LaneKind
 from garage2usd.objects.kind import Point
 from garage2usd.survey.lane_network import Gate
-from garage2usd.survey.survey import PortalKind, SurveyedPortal
+from garage2usd.survey.survey import Ground, PortalKind, SurveyedPortal
 
 LEAST_WALL_M = 0.02
 _LEAST_DOOR_WALL_M = 2.3
@@ -78,7 +78,12 @@ class Side(NamedTuple):
         return float(shapely.LineString([self.start, self.end]).distance(shapely.Point(point)))
 
 
-def sides_of(outline: shapely.Polygon) -> list[Side]:
+def sides_of(outline: Ground) -> list[Side]:
+    """Return the sides of all outlines, each as `sides_of_lot` does."""
+    return [side for lot in shapely.get_parts(outline) for side in sides_of_lot(lot)]
+
+
+def sides_of_lot(outline: shapely.Polygon) -> list[Side]:
     """Return the sides of an outline in order, the inside on the right of each, seen from above with z downwards."""
     corners = np.array(outline.exterior.coords)[:, :2]
     # seen with z downwards, a positive area in x and z runs clockwise
@@ -89,7 +94,7 @@ def sides_of(outline: shapely.Polygon) -> list[Side]:
 
 
 def gates_of(
-    outline: shapely.Polygon,
+    outline: Ground,
     portals: Iterable[SurveyedPortal],
     taken: shapely.Geometry,
     *,
@@ -97,12 +102,12 @@ def gates_of(
     keeps_left: bool,
     others: Sequence[Gate] = (),
 ) -> list[Gate]:
-    """Place doors on an outline.
+    """Place doors on outlines.
 
     Parameters
     ----------
     outline
-        The outline.
+        The ground inside the outlines.
     portals
         Places of the doors; each door is on the nearest side that is long enough.
     taken
@@ -182,7 +187,7 @@ def _free_run_m(
 
 
 def lacking_portals(
-    outline: shapely.Polygon, network: LaneGraph, taken: shapely.Geometry, asked: Collection[int], *, is_near: bool
+    outline: Ground, network: LaneGraph, taken: shapely.Geometry, asked: Collection[int], *, is_near: bool
 ) -> dict[Point, SurveyedPortal]:
     """Return portals for lanes that cars do not reach from an entrance, or from which they reach no exit.
 
@@ -191,7 +196,7 @@ def lacking_portals(
     Parameters
     ----------
     outline
-        The outline.
+        The ground inside the outlines.
     network
         The lane graph, with the doors that are there.
     taken
@@ -238,21 +243,25 @@ def lacking_portals(
 
 
 def _best_door(
-    outline: shapely.Polygon, network: LaneGraph, taken: shapely.Geometry, nodes: Iterable[int]
+    outline: Ground, network: LaneGraph, taken: shapely.Geometry, nodes: Iterable[int]
 ) -> tuple[float, int, float, Point, Point]:
     """Return how good the best straight way from some nodes to the outline is, the least being best, and its ends."""
     found = []
+    shapely.prepare(outline)
+    parts = shapely.STRtree(shapely.get_parts(taken))
     for node in nodes:
         for order, foot in _feet(outline, network, node):
             here = network.nodes[node].position
             way = shapely.LineString([here, foot])
-            over_m2 = way.buffer(_APPROACH_HALF_M, cap_style="flat").intersection(taken).area if way.length else 0.0
+            strip = way.buffer(_APPROACH_HALF_M, cap_style="flat") if way.length else shapely.Polygon()
+            near = parts.geometries[parts.query(strip, predicate="intersects")]
+            over_m2 = shapely.area(shapely.intersection(near, strip)).sum()
             length_m = way.length + (_OTHERWISE_M if order else 0.0)
             found.append((round(float(over_m2), 1), order, round(float(length_m), 2), here, foot))
     return min(found)
 
 
-def _feet(outline: shapely.Polygon, network: LaneGraph, node: int) -> Iterator[tuple[int, Point]]:
+def _feet(outline: Ground, network: LaneGraph, node: int) -> Iterator[tuple[int, Point]]:
     """Yield places on the outline with their order of preference: 0 ahead of the tip of a lane, 1 beside the lane."""
     (x, z), beside = network.nodes[node].position, network.beside[node]
     here = shapely.Point(x, z)
@@ -260,10 +269,10 @@ def _feet(outline: shapely.Polygon, network: LaneGraph, node: int) -> Iterator[t
         before_x, before_z = network.nodes[beside[0]].position
         scale = _REACH_M / math.dist((x, z), (before_x, before_z))
         ray = shapely.LineString([(x, z), (x + (x - before_x) * scale, z + (z - before_z) * scale)])
-        met = outline.exterior.intersection(ray)
+        met = outline.boundary.intersection(ray)
         if not met.is_empty:
             yield 0, _point(shapely.shortest_line(here, met).coords[-1])
-    yield 1, _point(outline.exterior.interpolate(outline.exterior.project(here)).coords[0])
+    yield 1, _point(shapely.shortest_line(here, outline.boundary).coords[-1])
     for side in sides_of(outline):
         run_m = side.run_m((x, z))
         if 0.0 < run_m < side.length_m and outline.covers(shapely.LineString([(x, z), side.at(run_m, LEAST_WALL_M)])):

@@ -17,7 +17,7 @@ from garage2usd.layout.placement import Placement
 from garage2usd.objects.kind import Point, Polygon
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import Square
-from garage2usd.survey.survey import SurveyedColumn
+from garage2usd.survey.survey import Ground, SurveyedColumn
 
 PIECE_M = 8.1
 """Usual side of a piece of floor."""
@@ -78,7 +78,7 @@ class StructuralLines(NamedTuple):
         return [*cuts, length_m]
 
 
-def structural_lines(outline: shapely.Polygon, columns: Sequence[SurveyedColumn]) -> StructuralLines:
+def structural_lines(outline: Ground, columns: Sequence[SurveyedColumn]) -> StructuralLines:
     """Find the lines of walls along the axes, and of rows of two columns or more.
 
     Parameters
@@ -88,16 +88,17 @@ def structural_lines(outline: shapely.Polygon, columns: Sequence[SurveyedColumn]
     columns
         The columns.
     """
-    corners = shapely.get_coordinates(outline.exterior)
+    rings = [shapely.get_coordinates(part.exterior) for part in shapely.get_parts(outline)]
+    sides = np.concatenate([np.stack([ring[:-1], ring[1:]]) for ring in rings], axis=1)
     feet = np.array([column.centre for column in columns]).reshape(-1, 2)
-    return StructuralLines(*(_lines_m(feet[:, axis], corners, axis) for axis in (0, 1)))
+    return StructuralLines(*(_lines_m(feet[:, axis], sides, axis) for axis in (0, 1)))
 
 
-def _lines_m(feet_m: NDArray[np.float64], corners: NDArray[np.float64], axis: int) -> tuple[float, ...]:
-    starts, ends = corners[:-1], corners[1:]
+def _lines_m(feet_m: NDArray[np.float64], sides: NDArray[np.float64], axis: int) -> tuple[float, ...]:
+    starts, ends = sides
     is_across = np.abs(ends[:, axis] - starts[:, axis]) < _AXIS_M
     is_long = np.linalg.norm(ends - starts, axis=1) >= _LEAST_WALL_M
-    last = math.ceil(round(float(corners[:, axis].max()) * 1000, 3)) / 1000
+    last = math.ceil(round(float(starts[:, axis].max()) * 1000, 3)) / 1000
     walls = sorted(starts[is_across & is_long, axis].round(3).tolist())
     ordered = np.sort(feet_m)
     rows = np.split(ordered, np.flatnonzero(np.diff(ordered) > OFF_LINE_M) + 1) if len(ordered) else []
@@ -135,25 +136,27 @@ class GroundTile(NamedTuple):
 
 
 class SurveyedGround:
-    """The ground inside the outline of a surveyed garage.
+    """The ground inside the outlines of a surveyed garage.
 
     Parameters
     ----------
-    outline
-        Inner faces of the outer walls, (x, z) in metres; its least x and z are 0.
+    outlines
+        Inner faces of the outer walls of each lot, (x, z) in metres; their least x and z are 0.
     columns
         The columns, by whose rows the floor is cut into tiles.
 
     Raises
     ------
     ConfigError
-        If the outline crosses itself or is too large.
+        If an outline crosses itself, or all together are too large.
     """
 
-    def __init__(self, outline: tuple[Point, ...], columns: Sequence[SurveyedColumn] = ()) -> None:
-        polygon = shapely.Polygon(outline)
-        if len(outline) < 3 or not polygon.is_valid or polygon.area < 1.0:  # noqa: PLR2004 - a triangle
-            raise ConfigError("outline", list(outline), "three corners or more around an area, without crossings")
+    def __init__(self, outlines: Sequence[tuple[Point, ...]], columns: Sequence[SurveyedColumn] = ()) -> None:
+        lots = [shapely.Polygon(outline) for outline in outlines]
+        for outline, lot in zip(outlines, lots, strict=True):
+            if len(outline) < 3 or not lot.is_valid or lot.area < 1.0:  # noqa: PLR2004 - a triangle
+                raise ConfigError("outline", list(outline), "three corners or more around an area, without crossings")
+        polygon = shapely.MultiPolygon(lots) if len(lots) > 1 else lots[0]
         _, _, width_m, depth_m = polygon.bounds
         if max(width_m, depth_m) > _MOST_SIDE_M:
             raise ConfigError("outline", f"{width_m:.1f} by {depth_m:.1f} m", f"at most {_MOST_SIDE_M:g} m a side")

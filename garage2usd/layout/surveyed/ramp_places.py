@@ -204,13 +204,19 @@ def lanes_to_landings(lanes: Sequence[SurveyedLane], gates: Sequence[Gate]) -> t
     return tuple(found)
 
 
-def widened_outline(survey: Survey, ramps: LevelRamps) -> tuple[Point, ...]:
-    """Return the outline of a level, widened around the ramps that leave it."""
+def with_ramps_inside(survey: Survey, ramps: LevelRamps) -> Survey:
+    """Return the survey of a level with its outlines widened around the ramps that leave them."""
     assert survey.outline is not None
-    outline = shapely.Polygon(survey.outline)
     grounds = [ramp.ground for ramp in (*ramps.up, *ramps.down)]
-    if all(outline.covers(ground) for ground in grounds):
-        return survey.outline
-    around = [ground.buffer(_AROUND_M, join_style="mitre") for ground in grounds if not outline.covers(ground)]
+    outline, *others = (_widened(ring, grounds) for ring in (survey.outline, *survey.other_outlines))
+    return replace(survey, outline=outline, other_outlines=tuple(others))
+
+
+def _widened(ring: tuple[Point, ...], grounds: Sequence[shapely.Polygon]) -> tuple[Point, ...]:
+    outline = shapely.Polygon(ring)
+    leaving = [ground for ground in grounds if outline.intersects(ground) and not outline.covers(ground)]
+    if not leaving:
+        return ring
+    around = [ground.buffer(_AROUND_M, join_style="mitre") for ground in leaving]
     whole = shapely.Polygon(shapely.union_all([outline, *around]).exterior).simplify(_TOUCH_M)
     return tuple((round(float(x), 3), round(float(z), 3)) for x, z in shapely.get_coordinates(whole)[:-1])

@@ -4,12 +4,14 @@ import math
 from collections.abc import Iterable
 from itertools import pairwise
 
+import shapely
+
 from garage2usd.config import FittingsConfig
 from garage2usd.config.look import WallsLook
 from garage2usd.config.site import DOOR_FRAME_M
 from garage2usd.garage import LaneKind
 from garage2usd.layout.placement import Placement, placed
-from garage2usd.layout.surveyed.gates import LEAST_WALL_M, Side, door_width_m, sides_of
+from garage2usd.layout.surveyed.gates import LEAST_WALL_M, Side, door_width_m, sides_of_lot
 from garage2usd.layout.surveyed.ground import SurveyedGround
 from garage2usd.objects.kind import Point
 from garage2usd.objects.portal import PortalSpec
@@ -24,15 +26,14 @@ _TURN_TOLERANCE = 1e-6
 def surveyed_walls(
     ground: SurveyedGround, gates: Iterable[Gate], fittings: FittingsConfig, look: WallsLook
 ) -> list[Placement]:
-    """Place walls outside every side of the outline, and a vehicle door at each gate.
+    """Place walls outside every side of the outlines, and a vehicle door at each gate.
 
     Walls are cut at the lines of columns. Posts stand in convex right-angled corners. At others the last wall of a side
     is longer by the thickness of the next side's in a convex corner, and shorter in a reflex one.
     """
     walls: list[Placement] = []
-    gates, sides = list(gates), sides_of(ground.polygon)
-    for number, side in enumerate(sides):
-        following = sides[(number + 1) % len(sides)]
+    gates, rings = list(gates), map(sides_of_lot, shapely.get_parts(ground.polygon))
+    for number, (side, following) in enumerate(pair for ring in rings for pair in pairwise([*ring, ring[0]])):
         turn = side.along[0] * following.along[1] - side.along[1] * following.along[0]
         is_square = turn > 1 - _TURN_TOLERANCE
         corner_m = 0.0 if is_square else fittings.wall_thickness_m * turn

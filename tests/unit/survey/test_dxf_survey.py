@@ -364,7 +364,15 @@ def test_blocks_within_themselves_end(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "data", [b"", b"AC1032\0\0 a drawing", b"\x89PNG\r\n", b"0\nSECTION\n2\nENTITIES\n", "Stellplätze".encode("utf-16")]
+    "data",
+    [
+        b"",
+        b"AC1032\0\0 a drawing",
+        b"\x89PNG\r\n",
+        b"0\nSECTION\n2\nENTITIES\n",
+        b"0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1027\n9\n$DIMBL",
+        "Stellplätze".encode("utf-16"),
+    ],
 )
 def test_other_files_are_refused_in_one_line(tmp_path, data):
     path = tmp_path / "plan.dxf"

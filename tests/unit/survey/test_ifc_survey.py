@@ -140,6 +140,7 @@ def test_a_storey_with_all_parts(tmp_path, milli, schema):
     assert kind is PortalKind.BOTH
     assert survey.unread == ()
     assert survey.origin_deg is None
+    assert survey.ceiling_height_m == pytest.approx(2.8)  # under the slab
 
 
 def test_spaces_by_type_and_properties(tmp_path):
@@ -241,6 +242,16 @@ def test_a_damaged_model_is_read_or_refused(tmp_path):
             except Garage2UsdError:
                 continue
             assert len(survey.stalls) <= 2
+
+
+def test_shapes_that_are_written_many_times_are_read_once(tmp_path):
+    model = Model()
+    model.row(2)
+    text = model.save(tmp_path).read_text()
+    lines = "".join(line for line in text.splitlines(keepends=True) if "IFCPRODUCTDEFINITIONSHAPE" in line)
+    path = tmp_path / "repeated.ifc"
+    path.write_text(text.replace(lines[:40], lines * 50 + lines[:40], 1))
+    assert len(read_survey(path).stalls) == 2
 
 
 def test_models_without_stalls_are_refused(tmp_path):

@@ -9,8 +9,7 @@ from garage2usd.config import GarageConfig
 from garage2usd.driving import prove_stalls
 from garage2usd.garage import LaneKind
 from garage2usd.layout.surveyed import lay_out_survey
-from garage2usd.survey.clear_ground import with_medial_lanes
-from garage2usd.survey.enclosure import enclosed
+from garage2usd.survey.lots import in_lots
 from garage2usd.survey.survey import (
     PortalKind,
     Survey,
@@ -59,7 +58,7 @@ def one_way(points, width_m=5.0):
 
 
 def laid_out(found):
-    return lay_out_survey(aligned(with_medial_lanes(enclosed(found)))[0], GarageConfig())
+    return lay_out_survey(aligned(in_lots(found))[0], GarageConfig())
 
 
 def doors(layout):
@@ -252,9 +251,40 @@ def test_lanes_and_stalls_on_both_sides_of_a_wall_stay_apart():
 
 
 def test_stalls_with_a_true_hindrance_are_named_by_it():
-    far = box(60, 0, 62.5, 5)
+    far = box(600, 0, 602.5, 5)
     behind = box(0, -5.2, 2.5, -0.2)
     found = laid_out(survey([*two_rows(8), far, behind], [[(0, 8), (20, 8)]], box(0, -5.3, 20, 16)))
     reasons = {part.name: part.reason for part in found.source.unplaced}
-    assert reasons["s16"] == "a stall 40 m outside the outline"
+    assert reasons["s16"] == "a stall 580 m outside the outline, more than 500"
     assert reasons["s17"].startswith("stall s0 lies between it and its lane") or "free sides" in reasons["s17"]
+
+
+@pytest.mark.parametrize("is_outlined", [True, False])
+def test_lots_apart_have_walls_and_doors_of_their_own(is_outlined):
+    """The second lot is 60 m away, at another angle, and a road of the file leads from one to the other."""
+
+    def turned(points):
+        return tuple(shapely.affinity.rotate(shapely.LineString(points), 30, (90, 28)).coords)
+
+    stalls = [*two_rows(8), *map(turned, two_rows(8, 80, 20))]
+    road = [(0, 8), (20, 8), *turned([(80, 28), (100, 28)])]
+    others = (turned(box(80, 20, 100, 36)),) if is_outlined else ()
+    between = box(40, 0, 50, 10)
+    found = laid_out(survey(stalls, [road], box(0, 0, 20, 16), other_outlines=others, solids=(between,)))
+    assert found.source.unplaced == ()
+    assert len(found.source.fitted) == 32
+    lots = shapely.get_parts(found.source.survey.ground)
+    assert len(lots) == 2
+    graph = found.source.network
+    of = [[lot.dwithin(shapely.Point(node.position), 1.5) for lot in lots].index(True) for node in graph.nodes]
+    assert all(of[edge.start] == of[edge.end] for edge in graph.edges)
+    kinds = {(place, node.kind) for node, place in zip(graph.nodes, of, strict=True) if node.is_portal}
+    assert kinds == {(lot, kind) for lot in (0, 1) for kind in ("entrance", "exit")}
+    standing = [ring for kind in ("wall", "portal") for wall in found.of_kind(kind) for ring in wall.outlines()]
+    walls = shapely.union_all([shapely.Polygon(ring).buffer(0.05) for ring in standing])
+    doors_m = sum(portal.spec.length_m for portal in found.of_kind("portal"))
+    edge = shapely.union_all([lot.exterior for lot in lots])
+    assert edge.difference(walls).length < doors_m
+    assert not any(True for _ in found.of_kind("obstacle"))
+    assert any("2 lots lie apart" in remark for remark in found.source.survey.remarks)
+    assert [proof.stall for proof in prove_stalls(found) if not proof.is_proven] == []

@@ -1,16 +1,19 @@
 """What a check says of a surveyed garage: its own measures as remarks, and the standard of its country."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
 from garage2usd import GarageConfig
 from garage2usd.checks import RULES, Severity
+from garage2usd.checks.levels import findings_of_whole
 from garage2usd.garage_sources import read_built
 from garage2usd.imports import import_layout
-from garage2usd.profiles import PROFILE_NAMES, load_profile
+from garage2usd.profiles import PROFILE_NAMES, load_profile, read_profile
 from garage2usd.profiles.countries import profile_at
 from garage2usd.survey.survey import Survey, SurveyedLane, SurveyedStall
+from garage2usd.survey.surveyed_building import SurveyedBuilding, SurveyedLevel
 
 
 def lot(count=6, *, width_m=2.5, aisle_m=6.0, depth_m=5.0, **parts):
@@ -56,6 +59,23 @@ def test_what_cannot_be_driven_is_an_error(tmp_path):
     errors = {finding.rule for finding in made.findings if finding.severity is Severity.ERROR}
     assert errors == {"swept-path"}
     assert "stall-width" in {finding.rule for finding in made.findings if finding.severity is Severity.INFO}
+
+
+def test_rules_on_all_levels_tell_measures_of_the_survey_from_what_cannot_be_driven(tmp_path):
+    levels = tuple(SurveyedLevel(name, lot(), ordinal) for name, ordinal in (("0", 0.0), ("-1", -1.0)))
+    made = import_layout(SurveyedBuilding(levels), tmp_path / "two.usdc", proves=False)
+    built = read_built(made.stage)
+    told = {"source": "a test", "confidence": "high", "text": "Roomy."}
+    high, doors = {"value": 5, "unit": "m", **told}, {"steps": [[1, 9]], "above": 9, "unit": "count", **told}
+    profile = read_profile({"name": "strict", "clear_height": high, "portals": doors})
+    found = {each.rule: each for each in findings_of_whole(built.garage, profile)}
+    assert found["level-height"].severity is Severity.INFO
+    assert found["level-height"].message.endswith("lie too close together, as surveyed")
+    assert found["portal-count"].severity is Severity.WARNING
+    upper, lower = built.garage.levels
+    near = replace(lower, place=lower.place._replace(floor_m=-1.2))
+    found = {each.rule: each for each in findings_of_whole(replace(built.garage, levels=(upper, near)), profile)}
+    assert found["level-height"].severity is Severity.ERROR
 
 
 def test_a_generated_garage_is_judged_as_before():
