@@ -23,7 +23,7 @@ class Demand:
     Attributes
     ----------
     leave_s
-        Time at which each car that is parked at the start leaves, in the order of the cars; infinite for cars that stay.
+        Time at which each car that is parked at the start leaves, in their order; infinite for cars that stay.
     arrivals
         (time, stay) of each arrival in seconds, ascending.
     """

@@ -32,7 +32,8 @@ class Ground:
     Attributes
     ----------
     owner
-        Number of the moving car that holds each cell; 0 for none. Parked cars hold none: paths are proven clear of them.
+        Number of the moving car that holds each cell; 0 for none. Parked cars hold none, as paths are proven clear of
+        them.
     people
         Number of people who hold each cell.
     """
@@ -90,7 +91,8 @@ class Ground:
     def _number(self, col: Cells, row: Cells, layer: Cells | int) -> Cells:
         col = np.clip(col - self._low[layer, 0], 0, self._columns[layer] - 1)
         row = np.clip(row - self._low[layer, 1], 0, self._rows[layer] - 1)
-        return self._first[layer] + row * self._columns[layer] + col
+        cells: Cells = self._first[layer] + row * self._columns[layer] + col
+        return cells
 
     def near_cars(
         self, places: Floats, layer: int, radius_m: float, *, wanted: Sequence[Cells] = ()
@@ -127,4 +129,5 @@ class Ground:
 
 def united(cells: Iterable[Cells]) -> Cells:
     """Return the distinct cells of several sets."""
-    return np.unique(np.concatenate(list(cells)))
+    found: Cells = np.unique(np.concatenate(list(cells)))
+    return found

@@ -17,7 +17,7 @@ from garage2usd.traffic.walking import BREADTH_M, DEPTH_M, PERSON_RADIUS_M, Walk
 
 _SLICE_M = 0.4
 _SPEED_M_S, _SPREAD_M_S = 1.34, 0.2
-"""Mean and standard deviation of walking speeds (Weidmann, Transporttechnik der Fussgänger, 1993: 1.34 and 0.26 m/s)."""
+"""Mean and standard deviation of walking speeds (Weidmann, Transporttechnik der Fussgänger, 1993: 1.34 m/s)."""
 _ACCELERATION_M_S2 = 2.5
 """Acceleration with which a person starts and stops within a step or two (Breniere and Do, J. Biomech. 1986)."""
 _TURN_M, _LOOK_M = 0.5, 0.8
@@ -26,6 +26,7 @@ _OUT_M = 0.6
 _GET_OUT_S = (6.0, 20.0)
 _GET_IN_S = (5.0, 12.0)
 _TALL_M = 1.72
+_AT_END_M, _STILL_M = 0.01, 1e-9
 _RETRY_STEPS, _PATIENCE_STEPS = 3, 18
 
 Outlines = Mapping[int, tuple[int, shapely.Polygon]]
@@ -248,7 +249,7 @@ class People:
         """Return True if nothing of the building is in the way of a person on a line."""
         return not self._levels[level].standing.intersects(line.buffer(PERSON_RADIUS_M + _BESIDE_M))
 
-    def advance(self, step: int, now_s: float) -> None:
+    def advance(self, step: int) -> None:
         """Advance all people by a step."""
         for walker in self._walking[:]:
             if step < walker.begin_step:
@@ -256,34 +257,10 @@ class People:
             self._advance(walker, step)
 
     def _advance(self, walker: Walker, step: int) -> None:
-        if walker.is_done and walker.goal is not None:
-            walker.samples.append((step, walker.way_m, 0.0, int(AgentState.STANDS)))
-            if step % _PATIENCE_STEPS == 0:
-                self._go_around(walker)
-            return
         if walker.is_done:
-            if walker.pause_steps:
-                walker.pause_steps -= 1
-                walker.samples.append((step, walker.way_m, 0.0, int(AgentState.STANDS)))
-                return
-            for number in range(walker.freed, walker.held):
-                self._ground.people[walker.cells[number]] -= 1
-            walker.freed = walker.held
-            self._walking.remove(walker)
-            if walker.car in self._coming:
-                self._there.add(walker.car)
-                self._coming.discard(walker.car)
+            self._stand(walker, step)
             return
-        need = min(int((walker.way_m + _LOOK_M) / _SLICE_M), len(walker.cells) - 1)
-        while walker.held <= need and step >= walker.retry_at:
-            cells = walker.cells[walker.held]
-            if (self._ground.owner[cells] > 0).any():
-                walker.retry_at = step + _RETRY_STEPS
-                walker.blocked_steps += _RETRY_STEPS
-                break
-            walker.blocked_steps = 0
-            self._ground.people[cells] += 1
-            walker.held += 1
+        self._hold(walker, step)
         if walker.held == 0:
             return
         if walker.blocked_steps >= _PATIENCE_STEPS:
@@ -294,14 +271,44 @@ class People:
         most = math.sqrt(2 * _ACCELERATION_M_S2 * max(left - before * STEP_S / 2, 0.0))
         speed = min(before + _ACCELERATION_M_S2 * STEP_S, walker.speed_m_s, most)
         way = min(walker.way_m + (before + speed) / 2 * STEP_S, held_m)
-        if held_m - way < 0.01:  # noqa: PLR2004 - within a centimetre of the end a person stands
+        if held_m - way < _AT_END_M:
             way, speed = held_m, 0.0
-        stands = way - walker.way_m < 1e-9  # noqa: PLR2004
+        stands = way - walker.way_m < _STILL_M
         walker.way_m, walker.now_m_s = way, speed
         while walker.freed < min(int(way / _SLICE_M), walker.held - 1):
             self._ground.people[walker.cells[walker.freed]] -= 1
             walker.freed += 1
         walker.samples.append((step, way, speed, int(AgentState.STANDS if stands else AgentState.WALKS)))
+
+    def _stand(self, walker: Walker, step: int) -> None:
+        """Let a person at the end of a walk wait for a car to pass, get into a car, or go."""
+        if walker.goal is not None or walker.pause_steps:
+            walker.samples.append((step, walker.way_m, 0.0, int(AgentState.STANDS)))
+            if walker.goal is None:
+                walker.pause_steps -= 1
+            elif step % _PATIENCE_STEPS == 0:
+                self._go_around(walker)
+            return
+        for number in range(walker.freed, walker.held):
+            self._ground.people[walker.cells[number]] -= 1
+        walker.freed = walker.held
+        self._walking.remove(walker)
+        if walker.car in self._coming:
+            self._there.add(walker.car)
+            self._coming.discard(walker.car)
+
+    def _hold(self, walker: Walker, step: int) -> None:
+        """Hold the ground of the next steps as far as no car holds it."""
+        need = min(int((walker.way_m + _LOOK_M) / _SLICE_M), len(walker.cells) - 1)
+        while walker.held <= need and step >= walker.retry_at:
+            cells = walker.cells[walker.held]
+            if (self._ground.owner[cells] > 0).any():
+                walker.retry_at = step + _RETRY_STEPS
+                walker.blocked_steps += _RETRY_STEPS
+                return
+            walker.blocked_steps = 0
+            self._ground.people[cells] += 1
+            walker.held += 1
 
     def tracks(self) -> Iterator[Track]:
         """Yield the tracks of all people who have walked."""

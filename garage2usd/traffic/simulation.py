@@ -24,7 +24,7 @@ _MOST_BRAKING_M_S2 = 3.4
 _AHEAD_M = 2.5
 """Ground held beyond the braking distance in metres."""
 _RETRY_STEPS, _LOOK_SLICES = 4, 12
-_NEAR_M = 0.002
+_NEAR_M, _AT_END_M = 0.002, 1e-6
 
 
 @dataclass(eq=False)
@@ -61,6 +61,11 @@ class Driver:
     retry_at: int = 0
     waits_since: int = -1
     samples: list[tuple[int, float, float, int]] = field(default_factory=list)
+
+    @property
+    def is_done(self) -> bool:
+        """True at the end of the trip."""
+        return self.way_m >= self.trip.length_m - _AT_END_M and self.next_stop >= len(self.trip.stops)
 
 
 class Simulation:
@@ -116,7 +121,7 @@ class Simulation:
         self.step += 1
         for driver in self.drivers[:]:
             self._advance(driver)
-            if driver.way_m >= driver.trip.length_m - 1e-6 and driver.next_stop >= len(driver.trip.stops):
+            if driver.is_done:
                 self.drivers.remove(driver)
                 ended(driver)
 

@@ -214,7 +214,7 @@ class Trip:
             if each.level is None:
                 continue
             own = np.flatnonzero(stretch == number)
-            for start, end, along, length_m, width_m, one_way, lows in _aisles(self._lanes[each.level]):
+            for start, along, length_m, width_m, one_way, lows in _aisles(self._lanes[each.level]):
                 away = middle[own] - start
                 run, right = away @ along, away @ np.array([-along[1], along[0]])
                 same = ahead[own] @ along
@@ -294,7 +294,7 @@ class Trip:
         return np.array(levels, dtype=np.int8)[numbers]
 
     def way_through(self, pose: Floats, level: int) -> float | None:
-        """Return the distance along the floor at which the trip passes a pose (x, z, yaw) of a level; None if nowhere."""
+        """Return the distance along the floor at which a pose (x, z, yaw) of a level is passed; None if nowhere."""
         poses, _ = self._nodes
         away = np.hypot(*(poses[:, :2] - pose[:2]).T)
         node = int(away.argmin())
@@ -312,8 +312,8 @@ class Trip:
 @lru_cache(maxsize=64)
 def _aisles(
     lanes: LaneGraph,
-) -> list[tuple[Floats, Floats, Floats, float, float, bool, tuple[float, float]]]:
-    """Return the start, end, direction, length and width of each lane edge, and the reach of the crossings at its ends."""
+) -> list[tuple[Floats, Floats, float, float, bool, tuple[float, float]]]:
+    """Return the start, direction, length and width of each lane edge, and the reach of the crossings at its ends."""
     found = []
     for edge in lanes.edges:
         start, end = (np.array(lanes.nodes[number].position) for number in (edge.start, edge.end))
@@ -322,7 +322,7 @@ def _aisles(
             continue
         along = (end - start) / length_m
         lows = tuple(_crossing_m(lanes, number, along) for number in (edge.start, edge.end))
-        found.append((start, end, along, length_m, edge.width_m, edge.one_way, (lows[0], lows[1])))
+        found.append((start, along, length_m, edge.width_m, edge.one_way, (lows[0], lows[1])))
     return found
 
 
