@@ -23,7 +23,7 @@ _CONTROL = re.compile("[\0-\b\v-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u20
 """Characters that move the cursor, ring, colour or reverse text, except tabs and ends of lines."""
 ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 """Signals that ask a process to end: `kill` sends the first, a terminal that closes the second."""
-SUPERVISED = frozenset({"check", "drive", "export", "plan", "render", "view"})
+SUPERVISED = frozenset({"check", "drive", "export", "plan", "render", "traffic", "view"})
 """The commands that open stages from unknown sources."""
 CRASHES = {
     getattr(signal, name)

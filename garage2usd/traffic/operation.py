@@ -1,4 +1,5 @@
 """A garage in operation: cars arrive, look for a stall, park, stay and leave; their drivers walk."""
+# Over 300 lines: arrivals, stays and departures of a run change the same cars and stalls.
 
 import math
 from collections import Counter
@@ -189,8 +190,10 @@ class _Run:
                 self._reconsider()
             self.people.advance(self.cars.step)
             self.cars.advance(self._ended)
+        self._note_stuck()
+        tracks = sorted(self._tracks(), key=lambda track: (track.time_s[0], track.agent.name))
         return Tracks(
-            tuple(sorted(self._tracks(), key=lambda track: (track.time_s[0], track.agent.name))),
+            tuple(tracks),
             STEP_S,
             steps * STEP_S,
             self.operation.garage.source,
@@ -198,9 +201,26 @@ class _Run:
                 "seed": self.seed,
                 "settings": self.settings.model_dump(mode="json"),
                 **{name: self.counts[name] for name in ("arrivals", "departures", "turned_away", "changed", "walks")},
+                "cars_of_people": {name: f"car_{car:04}" for name, car in self.people.drivers().items()},
             },
             tuple(self.log),
-        )
+        ).rounded()
+
+    def _note_stuck(self) -> None:
+        """Name the cars that have waited for more than three minutes at the end."""
+        for driver in self.cars.drivers:
+            waited_s = (self.cars.step - driver.waits_since) * STEP_S if driver.waits_since >= 0 else 0.0
+            if waited_s > _STUCK_S:
+                self.log.append(f"car_{driver.number:04} has waited on an aisle for {waited_s:.0f} s at the end")
+        for visit in self.staying:
+            late_s = self.now_s - visit.leave_s
+            if late_s > _STUCK_S:
+                self.log.append(f"{visit.car.agent.name} has waited in its stall for {late_s:.0f} s at the end")
+        for visit, since in self.street:
+            if self.now_s - since > _STUCK_S:
+                self.log.append(
+                    f"{visit.car.agent.name} has waited on the street for {self.now_s - since:.0f} s at the end"
+                )
 
     def _admit(self) -> None:
         """Let cars that have arrived drive in from the street."""

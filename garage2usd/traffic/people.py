@@ -1,4 +1,5 @@
 """People who walk between cars and stair cores, on ground that they reserve a step ahead."""
+# Over 300 lines: walks, ways around cars and the ground of both change together.
 
 import math
 from collections.abc import Callable, Iterator, Mapping
@@ -309,6 +310,10 @@ class People:
             walker.blocked_steps = 0
             self._ground.people[cells] += 1
             walker.held += 1
+
+    def drivers(self) -> dict[str, int]:
+        """Return the number of the car that each person walks from or to."""
+        return {walker.name: walker.car for walker in self._all}
 
     def tracks(self) -> Iterator[Track]:
         """Yield the tracks of all people who have walked."""

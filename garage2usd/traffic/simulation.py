@@ -23,7 +23,8 @@ which takes up to 3.4 m/s2."""
 _MOST_BRAKING_M_S2 = 3.4
 _AHEAD_M = 2.5
 """Ground held beyond the braking distance in metres."""
-_RETRY_STEPS, _LOOK_SLICES = 4, 12
+_RETRY_STEPS, _LOOK_SLICES = 4, 60
+"""Steps between two tries to go on, and number of slices ahead in which a car finds others that stand in its way."""
 _NEAR_M, _AT_END_M = 0.002, 1e-6
 
 
@@ -84,6 +85,7 @@ class Simulation:
         self.step = 0
         self.drivers: list[Driver] = []
         self._stands = np.zeros_like(ground.owner)
+        self._is_own = np.zeros(len(ground.owner), dtype=bool)
         self._standing: dict[int, Cells] = {}
 
     def try_start(self, number: int, trip: Trip) -> Driver | None:
@@ -129,8 +131,7 @@ class Simulation:
         """Return the cells that a car wants next: of the slices up to the second place to wait."""
         for driver in self.drivers:
             if driver.number == number and driver.held < driver.trip.slices:
-                groups = driver.trip.groups
-                last = groups[min(groups[driver.held] + _LOOK_SLICES, driver.trip.slices - 1)]
+                last = driver.trip.next_wait(driver.held + _LOOK_SLICES)
                 return driver.trip.cells(self.ground)[driver.freed : last + 1]
         return []
 
@@ -175,19 +176,20 @@ class Simulation:
             return False
         of_number = {other.number: other for other in self.drivers}
         own = trip.cells(self.ground)[last]
+        self._is_own[own] = True
         waiting, seen = [(trip, last + 1)], {driver.number}
-        is_first = True
-        while waiting:
+        closes = False
+        while waiting and not closes:
             other, begin = waiting.pop()
-            cells = other.cells(self.ground)[begin : other.groups[begin] + 1]
-            if not is_first and any(np.isin(own, each, assume_unique=True).any() for each in cells):
-                return True
-            is_first = False
-            found = {int(number) for each in cells for number in np.unique(self._stands[each])} - seen - {0}
+            cells = other.cells_between(self.ground, begin, other.next_wait(begin + _LOOK_SLICES) + 1)
+            closes = (other is not trip or begin != last + 1) and bool(self._is_own[cells].any())
+            standing = self._stands[cells]
+            found = set(standing[standing > 0].tolist()) - seen
             seen |= found
             blocking = (of_number[number] for number in sorted(found) if number in of_number)
             waiting += [(each.trip, each.held) for each in blocking if each.held < each.trip.slices]
-        return False
+        self._is_own[own] = False
+        return closes
 
     def _advance(self, driver: Driver) -> None:
         trip, settings = driver.trip, self._settings

@@ -1,4 +1,5 @@
 """Trips of cars: a path with its speed limits, the ground along it, and the places where a car may wait."""
+# Over 300 lines: speeds, ground and waiting places of a trip are measured on the same poses.
 
 import math
 from collections.abc import Sequence
@@ -185,6 +186,16 @@ class Trip:
 
     _cells: tuple[Ground, list[Cells]] | None = None
 
+    def cells_between(self, ground: Ground, begin: int, end: int) -> Cells:
+        """Return the cells of the slices from one up to another, some of them several times."""
+        cells = self.cells(ground)
+        if self._flat is None or self._flat[0] is not cells:
+            self._flat = cells, np.concatenate(cells), np.cumsum([0, *map(len, cells)])
+        _, flat, starts = self._flat
+        return flat[starts[begin] : starts[end]]
+
+    _flat: tuple[list[Cells], Cells, Cells] | None = None
+
     @cached_property
     def groups(self) -> list[int]:
         """For each slice the first slice at or after it at whose end a car may wait."""
@@ -198,6 +209,10 @@ class Trip:
             after = number if may_wait[number] else after
             found[number] = after
         return found
+
+    def next_wait(self, number: int) -> int:
+        """Return the first slice at or after one at whose end a car may wait; the last one beyond the end."""
+        return self.groups[min(number, self.slices - 1)]
 
     def _may_wait(self, poses: Floats, plan: Floats) -> NDArray[np.bool_]:
         """Find the poses at which a waiting car leaves room for oncoming and for crossing traffic.

@@ -49,6 +49,6 @@ def test_stays_are_log_normal():
 def test_the_rest_of_a_stay_found_is_that_of_a_renewal_process():
     """Half of the mean square of stays over their mean: the mean rest of the interval in which an observer arrives."""
     settings = TrafficConfig(minutes=1440, stay_minutes=10.0, stay_spread=0.5)
-    rests = np.array(drawn_demand(settings, 40_000, 40_000, np.random.default_rng(2)).leave_s) / 60
+    rests = np.array(drawn_demand(settings, 10_000, 10_000, np.random.default_rng(2)).leave_s) / 60
     rests = rests[np.isfinite(rests)]
-    assert rests.mean() == pytest.approx(10.0 * math.exp(1.5 * 0.5**2) / 2, rel=0.03)
+    assert rests.mean() == pytest.approx(10.0 * math.exp(1.5 * 0.5**2) / 2, rel=0.05)
