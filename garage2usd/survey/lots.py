@@ -46,8 +46,8 @@ def in_lots(survey: Survey) -> Survey:
     if survey.outline is None:
         return with_medial_lanes(survey)
     lots = _lots(survey)
-    if len(lots) == 1:
-        return _laned(lots[0])
+    if len(lots) < 2:  # noqa: PLR2004 - without stalls there is none
+        return _laned(lots[0] if lots else survey)
     found: list[Survey] = []
     unread: list[Unplaced] = []
     first = _ground(lots[0])

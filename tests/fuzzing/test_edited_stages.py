@@ -100,7 +100,7 @@ EDITS = (
 def tries(file, out):
     """Do all that is done with a stage; each step ends in a result or in an error of garage2usd."""
     try:
-        garage, profile, _ = read_built(file)
+        garage, profile, *_ = read_built(file)
     except Garage2UsdError:
         return
     as_table(finding for rule in QUICK for level in garage.levels for finding in rule.findings(level, profile))

@@ -120,7 +120,7 @@ def test_a_garage_is_read_in_its_own_frame_wherever_it_is_moved_to(stage_file, o
         edited(stage_file, tmp_path / "away.usda", turned_and_moved(**place), hidden("/Garage", "/Garage/Walls")),
         referring(stage_file, tmp_path / "z_up.usda", up="Z", metres_per_unit=0.01, move=(4, 5, 6), yaw_deg=20),
     ):
-        garage, profile, _ = read_built(file)
+        garage, profile, *_ = read_built(file)
         assert profile.name == PROFILE.name
         (level,) = garage.levels
         found = {finding.rule for rule in rules for finding in rule.findings(level, profile)}

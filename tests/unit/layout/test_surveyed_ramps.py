@@ -66,7 +66,7 @@ def test_cars_reach_every_stall_over_the_ramp(name, request):
     made = request.getfixturevalue(name)
     assert unreached_stalls(made.garage.joined, may_turn_back=True) == []
     assert {proof.outcome.value for proof in made.proofs} == {"reached"}
-    built, profile, _ = read_built(made.stage)
+    built, profile, *_ = read_built(made.stage)
     assert findings_of_whole(built, profile) == []
     assert built.faults == ()
     storeys = len(made.garage.levels) - 1

@@ -151,7 +151,7 @@ def test_check_finds_nothing_and_a_stricter_clause_finds_both_helices(made):
     "edit", [inactive(f"{RAMPS}/Ramp_Up"), moved(x=0.6, path=f"{RAMPS}/Ramp_Down"), moved(yaw_deg=180, path=RAMPS)]
 )
 def test_a_helix_that_is_gone_or_moved_is_found_and_not_driven_on(edit, bare, tmp_path):
-    garage, profile, _ = read_built(edited(bare, tmp_path / "edited.usda", edit))
+    garage, profile, *_ = read_built(edited(bare, tmp_path / "edited.usda", edit))
     found = {finding.rule for finding in findings_of_whole(garage, profile)}
     assert {"level-ramp", "level-route"} <= found
     with pytest.raises(ConfigError, match="that lanes and ramps join with the street"):

@@ -292,7 +292,7 @@ def test_variants_reach_all_levels(built):
 
 
 def test_check_finds_nothing_and_a_lost_ramp_is_found(built):
-    garage, profile, _ = read_built(built.stage)
+    garage, profile, *_ = read_built(built.stage)
     assert [finding.rule for finding in findings_of(garage, profile) if finding.severity.value == "error"] == []
     stage = open_stage(built.stage)
     stage.SetEditTarget(stage.GetSessionLayer())
@@ -332,7 +332,7 @@ def test_a_building_that_is_moved_and_hidden_is_read_as_it_stands(bare, unmoved,
     last = unmoved.stalls[-1].name
     drive = DrivePlanner(unmoved).drive(last).trajectory
     for file in (away, tipped, z_up):
-        garage, profile, _ = read_built(file)
+        garage, profile, *_ = read_built(file)
         assert garage.faults == ()
         assert findings_of_whole(garage, profile) == []
         assert [stall.name for stall in garage.stalls] == [stall.name for stall in unmoved.stalls]
@@ -365,7 +365,7 @@ MISFITS = {
 
 @pytest.mark.parametrize(("edit", "rules"), MISFITS.values(), ids=MISFITS)
 def test_levels_and_ramps_that_do_not_fit_are_found_and_not_driven_on(edit, rules, bare, tmp_path):
-    garage, profile, _ = read_built(edited(bare, tmp_path / "edited.usda", edit))
+    garage, profile, *_ = read_built(edited(bare, tmp_path / "edited.usda", edit))
     found = {finding.rule for finding in findings_of_whole(garage, profile) if finding.severity.value == "error"}
     assert found - {"portal-count"} == rules
     planner = DrivePlanner(garage)
