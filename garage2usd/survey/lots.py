@@ -43,11 +43,13 @@ def in_lots(survey: Survey) -> Survey:
     around its stalls and the lanes beside them. Stalls of lots without ground for lanes, and of those too far from the
     first one, are unread. Without any outline, all stalls are one lot.
     """
+    if not survey.stalls:
+        return survey
     if survey.outline is None:
         return with_medial_lanes(survey)
     lots = _lots(survey)
-    if len(lots) < 2:  # noqa: PLR2004 - without stalls there is none
-        return _laned(lots[0] if lots else survey)
+    if len(lots) == 1:
+        return _laned(lots[0])
     found: list[Survey] = []
     unread: list[Unplaced] = []
     first = _ground(lots[0])
