@@ -14,7 +14,7 @@ from garage2usd.native import Bools, Float64Cube, Float64s, Float64Table, Int64s
 
 Floats = Float64s
 _CORNERS = 4
-_ROUNDING_M2 = 1e-9
+_ROUNDING_M2, _AREA = 1e-9, 2
 
 
 class Scene(NamedTuple):
@@ -163,12 +163,23 @@ def _convex(parts: NDArray[np.object_]) -> tuple[NDArray[np.int64], Floats]:
             own.append(alike)
             cut.append(_padded(corners[:, start : start + 2]))
     for index in np.flatnonzero(are_areas & ~are_convex).tolist():
-        triangles = shapely.get_parts(shapely.constrained_delaunay_triangles(parts[index]))
+        triangles = _triangles(parts[index])
         own.append(np.full(len(triangles), index))
         cut.append(_padded(shapely.get_coordinates(triangles).reshape(-1, _CORNERS, 2)[:, :-1]))
     number = np.concatenate(own)
     order = np.argsort(number, kind="stable")
     return number[order], np.concatenate(cut)[order]
+
+
+def _triangles(part: shapely.Polygon) -> NDArray[np.object_]:
+    """Cut a polygon into triangles."""
+    try:
+        found = shapely.constrained_delaunay_triangles(part)
+    except shapely.GEOSException:  # its border crosses itself within rounding
+        sound = shapely.get_parts(shapely.make_valid(part))
+        found = shapely.constrained_delaunay_triangles(sound[shapely.get_dimensions(sound) == _AREA])
+    triangles: NDArray[np.object_] = shapely.get_parts(found)
+    return triangles
 
 
 def _padded(corners: Floats) -> Floats:
