@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 from garage2usd.common.errors import ConfigError
+from garage2usd.config.vehicles import CarBody
 from garage2usd.native import elementary
 from garage2usd.profiles.profile import USUAL_CAR_LENGTH_M, USUAL_CAR_WIDTH_M
 
@@ -106,6 +107,11 @@ class DesignCar:
     def ahead_m(self) -> float:
         """Distance from the car's rear axle to its nose."""
         return self.length_m - self.rear_overhang_m
+
+    def holds(self, body: CarBody) -> bool:
+        """Return True if a body without its mirrors lies within the car, with the rear axles at the same place."""
+        behind_m = body.length_m - body.ahead_m
+        return body.ahead_m <= self.ahead_m and behind_m <= self.rear_overhang_m and body.width_m <= self.width_m
 
     def centred(self, middle: Point, yaw_rad: float) -> Pose:
         """Return the pose that puts the middle of the car's footprint at `middle`."""

@@ -11,7 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from garage2usd.driving.car import Point, Pose
 from garage2usd.driving.garage import DrivenGarage
 from garage2usd.driving.obstacles import Obstacles
+from garage2usd.driving.path import PathPoints
 from garage2usd.garage import LaneKind
+from garage2usd.native import elementary
 
 Floats = NDArray[np.float64]
 _ON_EDGE = 1e-9
@@ -181,6 +183,21 @@ def floor_heights_m(spans: Sequence[FloorSpan], plan_m: Floats, x_m: Floats, z_m
         here = number == index
         heights[here] = heights_m(span.ramps, x_m[here], z_m[here], level_m=span.level_m)
     return heights
+
+
+def tilt(spans: Sequence[FloorSpan], plan_m: Floats, points: PathPoints, wheelbase_m: float) -> tuple[Floats, Floats]:
+    """Return the floor's heights under the rear axle at points of a path, and the pitch of a car; shape (n,)."""
+    height, nose = (
+        floor_heights_m(
+            spans,
+            plan_m,
+            points.x_m - elementary.sin(points.yaw_rad) * ahead,
+            points.z_m - elementary.cos(points.yaw_rad) * ahead,
+        )
+        for ahead in (0.0, wheelbase_m)
+    )
+    pitch: Floats = elementary.arctan((nose - height) / wheelbase_m)
+    return height, pitch
 
 
 def heights_m(ramps: Sequence[SlopedFloor], x_m: ArrayLike, z_m: ArrayLike, *, level_m: float = 0.0) -> Floats:

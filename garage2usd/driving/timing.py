@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from garage2usd.config.outputs import DriveConfig
 from garage2usd.driving.car import DesignCar
 from garage2usd.driving.path import Floats, Path, Piece
-from garage2usd.driving.road import FloorSpan, floor_heights_m
+from garage2usd.driving.road import FloorSpan, floor_heights_m, tilt
 from garage2usd.driving.trajectory import Trajectory
 from garage2usd.native import elementary
 
@@ -136,15 +136,7 @@ class Motion:
             target = self._angle(self.runs[index + 1].path.pieces[0].start_per_m)
             turned = np.clip((since - run.seconds) * self.steering_rate_rad_s, 0.0, np.abs(target - steering))
             steering = np.where(stands, steering + np.sign(target - steering) * turned, steering)
-        height, nose = (
-            floor_heights_m(
-                self.spans,
-                run.begin_m + plan,
-                points.x_m - elementary.sin(points.yaw_rad) * ahead,
-                points.z_m - elementary.cos(points.yaw_rad) * ahead,
-            )
-            for ahead in (0.0, self.car.wheelbase_m)
-        )
+        height, pitch = tilt(self.spans, run.begin_m + plan, points, self.car.wheelbase_m)
         sign = float(run.path.pieces[0].gear.sign)
         return (
             times,
@@ -152,7 +144,7 @@ class Motion:
             height,
             points.z_m,
             points.yaw_rad,
-            elementary.arctan((nose - height) / self.car.wheelbase_m),
+            pitch,
             sign * speed,
             sign * pace,
             elementary.tan(steering) / self.car.wheelbase_m,

@@ -32,15 +32,10 @@ def body_within(car: DesignCar) -> CarBody:
 
     Mirrors may protrude, as those of the design car do. If no body fits, the shortest is selected.
     """
-    fitting = [body for body in DRIVEN_BODIES if _lies_within(body, car)]
+    fitting = [body for body in DRIVEN_BODIES if car.holds(body)]
     return (
         max(fitting, key=lambda body: body.length_m) if fitting else min(DRIVEN_BODIES, key=lambda body: body.length_m)
     )
-
-
-def _lies_within(body: CarBody, car: DesignCar) -> bool:
-    behind_m = body.length_m - body.ahead_m
-    return body.ahead_m <= car.ahead_m and behind_m <= car.rear_overhang_m and body.width_m <= car.width_m
 
 
 def write_driving_car(path: Path, motion: Motion, car: CarBody | None = None) -> tuple[Path, ...]:

@@ -9,6 +9,7 @@ from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody
 from garage2usd.driving import DesignCar, Pose
 from garage2usd.driving.tracks import Agent, AgentClass
 from garage2usd.maps.parked_cars import ParkedCar, parked_cars
+from garage2usd.native import elementary
 
 _ALIKE_M = 0.06
 HULLS = (
@@ -16,12 +17,6 @@ HULLS = (
     DesignCar(),
 )
 """Outlines for which paths are proven; a garage is operated with the first that most of its stalls take."""
-
-
-def lies_within(body: CarBody, hull: DesignCar) -> bool:
-    """Return True if a body lies within an outline that has its rear axle at the same place."""
-    behind_m = body.length_m - body.ahead_m
-    return body.ahead_m <= hull.ahead_m and behind_m <= hull.rear_overhang_m and body.width_m <= hull.width_m
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,14 +61,9 @@ class Car:
         """Pose of the rear axle of a car that is parked at the start."""
         if self.stands is None or self.body is None:
             return None
-        driven = DesignCar(
-            self.body.length_m,
-            self.body.width_m,
-            self.body.wheelbase_m,
-            self.body.length_m - self.body.ahead_m,
-            min(DesignCar().track_m, self.body.width_m),
-        )
-        return driven.centred(self.stands.middle_m, self.stands.yaw_rad)
+        (x, z), yaw_rad = self.stands.middle_m, self.stands.yaw_rad
+        back_m = self.body.rear_axle_m
+        return Pose(x + elementary.sin(yaw_rad) * back_m, z + elementary.cos(yaw_rad) * back_m, yaw_rad)
 
 
 def standing_cars(garage: BuiltGarage) -> list[Car]:
@@ -95,6 +85,6 @@ def standing_cars(garage: BuiltGarage) -> list[Car]:
 
 def drawn_car(number: int, hull: DesignCar, draw: np.random.Generator) -> Car:
     """Draw a car that arrives, of a body within an outline."""
-    bodies = [body for body in CAR_BODIES if lies_within(body, hull)]
+    bodies = [body for body in CAR_BODIES if hull.holds(body)]
     body = bodies[int(draw.integers(len(bodies)))]
     return Car(number, body, PAINTS[int(draw.integers(len(PAINTS)))])

@@ -21,8 +21,8 @@ _BEYOND_M = 40.0
 """Reach of the ground beyond lanes and stalls: ramps to the street."""
 
 
-class Ground:
-    """The cells of all layers of a garage, and who holds them.
+class Raster:
+    """The cells of all layers of a garage.
 
     Parameters
     ----------
@@ -31,11 +31,8 @@ class Ground:
 
     Attributes
     ----------
-    owner
-        Number of the moving car that holds each cell; 0 for none. Parked cars hold none, as paths are proven clear of
-        them.
-    people
-        Number of people who hold each cell.
+    size
+        Number of cells.
     """
 
     def __init__(self, boxes: Floats) -> None:
@@ -43,9 +40,7 @@ class Ground:
         size = np.ceil((boxes[:, 1] + _BEYOND_M) / CELL_M).astype(np.int64) - self._low + 1
         self._columns, self._rows = size[:, 0], size[:, 1]
         self._first = np.concatenate([[0], np.cumsum(size[:, 0] * size[:, 1])])
-        self.owner = np.zeros(int(self._first[-1]), dtype=np.int32)
-        self._held = np.zeros(int(self._first[-1]), dtype=np.int16)
-        self.people = np.zeros(int(self._first[-1]), dtype=np.int16)
+        self.size = int(self._first[-1])
 
     def rectangles(self, poses: Floats, body: Floats, layers: Sequence[int]) -> list[Cells]:
         """Return the cells that hold a car's outline with a margin at each pose.
@@ -94,22 +89,49 @@ class Ground:
         cells: Cells = self._first[layer] + row * self._columns[layer] + col
         return cells
 
+    def are_near(self, marked: NDArray[np.bool_], places: Floats, layer: int, radius_m: float) -> NDArray[np.bool_]:
+        """Return True for places (x, z) of a layer within a distance of marked cells; shape (n,)."""
+        own = slice(int(self._first[layer]), int(self._first[layer + 1]))
+        reach = math.ceil(radius_m / CELL_M)
+        steps = np.arange(-reach, reach + 1) * CELL_M
+        disc = np.hypot(steps[:, None], steps[None, :]) <= radius_m
+        near = binary_dilation(marked[own].reshape(int(self._rows[layer]), int(self._columns[layer])), disc)
+        cells = np.round(places / CELL_M).astype(np.int64) - self._low[layer]
+        found: NDArray[np.bool_] = near[cells[:, 1], cells[:, 0]]
+        return found
+
+
+class Ground:
+    """Who holds each cell of a raster.
+
+    Parameters
+    ----------
+    raster
+        The raster.
+
+    Attributes
+    ----------
+    owner
+        Number of the moving car that holds each cell; 0 for none. Parked cars hold none, as paths are proven clear of
+        them.
+    people
+        Number of people who hold each cell.
+    """
+
+    def __init__(self, raster: Raster) -> None:
+        self.raster = raster
+        self.owner = np.zeros(raster.size, dtype=np.int32)
+        self._held = np.zeros(raster.size, dtype=np.int16)
+        self.people = np.zeros(raster.size, dtype=np.int16)
+
     def near_cars(
         self, places: Floats, layer: int, radius_m: float, *, wanted: Sequence[Cells] = ()
     ) -> NDArray[np.bool_]:
         """Return True for places (x, z) within a distance of ground that a car holds, or wants; shape (n,)."""
-        own = slice(int(self._first[layer]), int(self._first[layer + 1]))
         held = self.owner > 0
         for cells in wanted:
             held[cells] = True
-        held = held[own].reshape(int(self._rows[layer]), int(self._columns[layer]))
-        reach = math.ceil(radius_m / CELL_M)
-        steps = np.arange(-reach, reach + 1) * CELL_M
-        disc = np.hypot(steps[:, None], steps[None, :]) <= radius_m
-        near = binary_dilation(held, disc)
-        cells = np.round(places / CELL_M).astype(np.int64) - self._low[layer]
-        found: NDArray[np.bool_] = near[cells[:, 1], cells[:, 0]]
-        return found
+        return self.raster.are_near(held, places, layer, radius_m)
 
     def is_free(self, cells: Cells, agent: int) -> bool:
         """Return True if cells are held by nobody but a car itself."""

@@ -21,8 +21,8 @@ from garage2usd.garage import Stall, StallUse
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.native import elementary
 from garage2usd.traffic.demand import drawn_demand
-from garage2usd.traffic.fleet import HULLS, Car, drawn_car, lies_within, standing_cars
-from garage2usd.traffic.ground import Ground
+from garage2usd.traffic.fleet import HULLS, Car, drawn_car, standing_cars
+from garage2usd.traffic.ground import Ground, Raster
 from garage2usd.traffic.people import Walkers
 from garage2usd.traffic.simulation import STEP_S, Driver, Simulation
 from garage2usd.traffic.trips import Stretch, Trip
@@ -30,7 +30,7 @@ from garage2usd.traffic.visits import Visit, car_track, outline
 
 _SPEEDS = DriveConfig(lane_speed_m_s=4.2, parking_speed_m_s=1.0, acceleration_m_s2=1.2, lateral_acceleration_m_s2=1.8)
 """Speeds of drivers who know garages: 15 km/h on aisles."""
-_RETRY_S, _PATIENCE_S, _STUCK_S = 1.0, 45.0, 180.0
+_PATIENCE_S, _STUCK_S = 45.0, 180.0
 _CHOICES = 24
 _TRIED, _MOST = 12, 0.7
 _NOISE_M = 15.0
@@ -70,7 +70,7 @@ class Operation:
         places += [np.array(stall.corners) for stall in garage.stalls]
         every = np.concatenate([each for each in places if len(each)])
         layers = 2 * len(garage.levels)
-        self._boxes = np.repeat(np.array([[every.min(axis=0), every.max(axis=0)]]), layers, axis=0)
+        self._raster = Raster(np.repeat(np.array([[every.min(axis=0), every.max(axis=0)]]), layers, axis=0))
         self.walkers = Walkers(garage)
 
     def _most_common(self) -> tuple[DesignCar, DrivePlanner]:
@@ -85,7 +85,7 @@ class Operation:
 
     def new_ground(self) -> Ground:
         """Return the ground of the garage with nobody on it."""
-        return Ground(self._boxes)
+        return Ground(self._raster)
 
     def _trip(self, stall: Stall, leg: Leg, parked: Pose | None = None) -> Trip | None:
         """Return the trip to a stall or away from it; None if none is clear of cars in all other stalls."""
@@ -103,6 +103,7 @@ class Operation:
             stretches,
             car=self.hull,
             settings=self._settings,
+            raster=self._raster,
             lanes=self._lanes,
             keeps_left=self._planner.keeps_left,
         )
@@ -137,7 +138,6 @@ class _Run:
         stalls = {stall.name: stall for stall in operation.garage.stalls}
         self.outlines: dict[int, tuple[int, shapely.Polygon]] = {}
         self.taken: set[str] = set()
-        self.visits: list[Visit] = []
         self.of_car: dict[int, Visit] = {}
         capacity = len(operation.stalls)
         movable = []
@@ -149,7 +149,7 @@ class _Run:
                 self.taken.add(stall.name)
                 visit.parked = car.parked_pose
             self._stand(visit)
-            if stall in operation.stalls and car.body is not None and lies_within(car.body, operation.hull):
+            if stall in operation.stalls and car.body is not None and operation.hull.holds(car.body):
                 movable.append(visit)
         for stall in operation.garage.stalls:
             if stall.is_occupied:
@@ -159,7 +159,6 @@ class _Run:
             visit.leave_s = leave_s
         self.staying = [visit for visit in movable if math.isfinite(visit.leave_s) and self._leads_out(visit)]
         self.arrivals = list(demand.arrivals)
-        self.number = len(standing)
         self.street: list[tuple[Visit, float]] = []
 
     def _leads_out(self, visit: Visit) -> bool:
@@ -226,15 +225,14 @@ class _Run:
         """Let cars that have arrived drive in from the street."""
         while self.arrivals and self.arrivals[0][0] <= self.now_s:
             time, stay = self.arrivals.pop(0)
-            self.number += 1
-            car = drawn_car(self.number, self.operation.hull, self.draw)
+            car = drawn_car(len(self.of_car) + 1, self.operation.hull, self.draw)
             visit = self.of_car[car.number] = Visit(car)
             if self._choose(visit):
                 visit.leave_s = time + stay
                 self.street.append((visit, self.now_s))
             else:
                 self.counts["turned_away"] += 1
-                self.log.append(f"{time:.1f} s: car_{self.number:04} is turned away, as no free stall can take it")
+                self.log.append(f"{time:.1f} s: {car.agent.name} is turned away, as no free stall can take it")
         for visit, since in self.street[:]:
             assert visit.stall is not None
             trip = self.operation.trip(visit.stall, Leg.IN)
@@ -243,7 +241,6 @@ class _Run:
             if driver is not None:
                 visit.begin(driver)
                 self.street.remove((visit, since))
-                self.visits.append(visit)
                 self.counts["arrivals"] += 1
             elif self.now_s - since > _PATIENCE_S:
                 # a driver who cannot go on looks for another stall
@@ -311,8 +308,6 @@ class _Run:
         visit.begin(driver)
         self.outlines.pop(visit.car.number, None)
         self.staying.remove(visit)
-        if visit not in self.visits:
-            self.visits.append(visit)
         visit.has_left = True
         self.counts["departures"] += 1
 
@@ -337,13 +332,14 @@ class _Run:
         body = visit.car.body
         assert body is not None
         end = visit.driver.trip.path.end
-        ahead = body.length_m / 2 - (body.length_m - body.ahead_m)
-        middle = end.x_m - elementary.sin(end.yaw_rad) * ahead, end.z_m - elementary.cos(end.yaw_rad) * ahead
+        ahead_m = body.rear_axle_m
+        middle = end.x_m - elementary.sin(end.yaw_rad) * ahead_m, end.z_m - elementary.cos(end.yaw_rad) * ahead_m
         return visit.stall.level, outline(middle, end.yaw_rad, body.length_m / 2, body.width_m)
 
     def _tracks(self) -> Iterator[Track]:
-        for visit in self.visits:
-            yield car_track(visit, self.settings.minutes * 60)
+        for visit in self.of_car.values():
+            if visit.begun:
+                yield car_track(visit, self.settings.minutes * 60)
         for track in self.people.tracks():
             self.counts["walks"] += 1
             yield track

@@ -4,6 +4,7 @@
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -33,6 +34,33 @@ _RETRY_STEPS, _PATIENCE_STEPS = 3, 18
 Outlines = Mapping[int, tuple[int, shapely.Polygon]]
 
 
+@dataclass(frozen=True, eq=False)
+class Walk:
+    """A walk along a line.
+
+    Attributes
+    ----------
+    corners
+        Corners (x, z); shape (n, 2).
+    """
+
+    corners: Floats
+
+    @cached_property
+    def lengths_m(self) -> Floats:
+        """Distance along the walk at each corner."""
+        return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(self.corners, axis=0).T))])
+
+    @cached_property
+    def length_m(self) -> float:
+        """Length of the walk."""
+        return float(self.lengths_m[-1])
+
+    def places(self, ways: Floats) -> Floats:
+        """Return (x, z) at distances along the walk; shape (n, 2)."""
+        return np.stack([np.interp(ways, self.lengths_m, self.corners[:, axis]) for axis in (0, 1)], axis=1)
+
+
 @dataclass(eq=False)
 class Walker:
     """A person on a walk.
@@ -45,8 +73,8 @@ class Walker:
         Number of the car that the walk begins or ends at.
     level
         Number of the level.
-    corners
-        Corners (x, z) of the walk.
+    walk
+        The walk.
     begin_step
         Step at which the walk may begin.
     tail
@@ -54,13 +82,13 @@ class Walker:
     goal
         Corners at the end of the walk of a person who has stepped aside for a car.
     legs
-        Corners and samples of the parts before such changes.
+        Walks and samples before such changes.
     """
 
     name: str
     car: int
     level: int
-    corners: Floats
+    walk: Walk
     speed_m_s: float
     height_m: float
     begin_step: int
@@ -75,25 +103,12 @@ class Walker:
     goal: Floats | None = None
     cells: list[Cells] = field(default_factory=list)
     samples: list[tuple[int, float, float, int]] = field(default_factory=list)
-    legs: list[tuple[Floats, list[tuple[int, float, float, int]]]] = field(default_factory=list)
-
-    @property
-    def lengths_m(self) -> Floats:
-        """Distance along the walk at each corner."""
-        return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(self.corners, axis=0).T))])
+    legs: list[tuple[Walk, list[tuple[int, float, float, int]]]] = field(default_factory=list)
 
     @property
     def is_done(self) -> bool:
         """True at the end of the walk."""
-        return self.way_m >= self.length_m - 1e-6
-
-    def __post_init__(self) -> None:
-        """Measure the walk."""
-        self.length_m = float(self.lengths_m[-1])
-
-    def places(self, ways: Floats) -> Floats:
-        """Return (x, z) at distances along the walk; shape (n, 2)."""
-        return np.stack([np.interp(ways, self.lengths_m, self.corners[:, axis]) for axis in (0, 1)], axis=1)
+        return self.way_m >= self.walk.length_m - 1e-6
 
 
 class Walkers:
@@ -169,25 +184,27 @@ class People:
         speed = float(np.clip(self._draw.normal(_SPEED_M_S, _SPREAD_M_S), 0.8, 1.8))
         height = float(np.clip(self._draw.normal(_TALL_M, 0.08), 1.5, 1.95))
         name = f"person_{len(self._all) + 1:04}"
-        walker = Walker(name, car, level, corners, speed, height, round(begin_s / STEP_S), round(pause_s / STEP_S))
-        walker.tail = tail
-        walker.cells = self._cells(walker)
+        walk = Walk(corners)
+        walker = Walker(
+            name, car, level, walk, speed, height, round(begin_s / STEP_S), round(pause_s / STEP_S), tail=tail
+        )
+        walker.cells = self._cells(walk, level)
         self._all.append(walker)
         self._walking.append(walker)
 
-    def _cells(self, walker: Walker) -> list[Cells]:
+    def _cells(self, walk: Walk, level: int) -> list[Cells]:
         """Return the cells of each slice of a walk."""
-        count = max(math.ceil(walker.length_m / _SLICE_M), 1)
+        count = max(math.ceil(walk.length_m / _SLICE_M), 1)
         ways = np.linspace(0.0, count * _SLICE_M, 2 * count + 1)
-        discs = self._ground.discs(walker.places(ways), PERSON_RADIUS_M + _BESIDE_M, walker.level)
+        discs = self._ground.raster.discs(walk.places(ways), PERSON_RADIUS_M + _BESIDE_M, level)
         return [np.unique(np.concatenate(discs[2 * number : 2 * number + 3])) for number in range(count)]
 
     def _go_around(self, walker: Walker) -> None:
         """Change the walk of a person who is blocked, around the ground that cars hold, or out of their way."""
-        ((x, z),) = walker.places(np.array([walker.way_m])).tolist()
-        tail = walker.goal if walker.goal is not None else walker.corners[-walker.tail :]
+        ((x, z),) = walker.walk.places(np.array([walker.way_m])).tolist()
+        tail = walker.goal if walker.goal is not None else walker.walk.corners[-walker.tail :]
         tail_m = float(np.hypot(*np.diff(tail, axis=0).T).sum())
-        if walker.goal is None and walker.way_m >= walker.length_m - tail_m - _SLICE_M:
+        if walker.goal is None and walker.way_m >= walker.walk.length_m - tail_m - _SLICE_M:
             return
         ways, end = self._levels[walker.level], (float(tail[0][0]), float(tail[0][1]))
         found = ways.around((x, z), end, self._ground, walker.level)
@@ -204,15 +221,14 @@ class People:
 
     def _turn(self, walker: Walker, corners: Floats) -> bool:
         """Let a person go on along other corners if the first step is free."""
-        other = Walker(walker.name, walker.car, walker.level, corners, walker.speed_m_s, walker.height_m, 0)
-        cells = self._cells(other)
+        walk = Walk(corners)
+        cells = self._cells(walk, walker.level)
         if (self._ground.owner[cells[0]] > 0).any():
             return False
-        for number in range(walker.freed, walker.held):
-            self._ground.people[walker.cells[number]] -= 1
+        self._leave_ground(walker)
         self._ground.people[cells[0]] += 1
-        walker.legs.append((walker.corners, walker.samples))
-        walker.corners, walker.length_m, walker.cells, walker.samples = other.corners, other.length_m, cells, []
+        walker.legs.append((walker.walk, walker.samples))
+        walker.walk, walker.cells, walker.samples = walk, cells, []
         walker.way_m, walker.now_m_s, walker.held, walker.freed, walker.retry_at = 0.0, 0.0, 1, 0, 0
         return True
 
@@ -267,7 +283,7 @@ class People:
         if walker.blocked_steps >= _PATIENCE_STEPS:
             walker.blocked_steps = 0
             self._go_around(walker)
-        held_m = walker.length_m if walker.held == len(walker.cells) else walker.held * _SLICE_M
+        held_m = walker.walk.length_m if walker.held == len(walker.cells) else walker.held * _SLICE_M
         before, left = walker.now_m_s, held_m - walker.way_m
         most = math.sqrt(2 * _ACCELERATION_M_S2 * max(left - before * STEP_S / 2, 0.0))
         speed = min(before + _ACCELERATION_M_S2 * STEP_S, walker.speed_m_s, most)
@@ -290,13 +306,17 @@ class People:
             elif step % _PATIENCE_STEPS == 0:
                 self._go_around(walker)
             return
-        for number in range(walker.freed, walker.held):
-            self._ground.people[walker.cells[number]] -= 1
-        walker.freed = walker.held
+        self._leave_ground(walker)
         self._walking.remove(walker)
         if walker.car in self._coming:
             self._there.add(walker.car)
             self._coming.discard(walker.car)
+
+    def _leave_ground(self, walker: Walker) -> None:
+        """Release all ground of a person."""
+        for number in range(walker.freed, walker.held):
+            self._ground.people[walker.cells[number]] -= 1
+        walker.freed = walker.held
 
     def _hold(self, walker: Walker, step: int) -> None:
         """Hold the ground of the next steps as far as no car holds it."""
@@ -324,13 +344,12 @@ class People:
 
 def _track(walker: Walker, floor_m: float) -> Track:
     columns, headings = [], []
-    for corners, samples in [*walker.legs, (walker.corners, walker.samples)]:
+    for walk, samples in [*walker.legs, (walker.walk, walker.samples)]:
         if not samples:
             continue
-        leg = Walker(walker.name, walker.car, walker.level, corners, walker.speed_m_s, walker.height_m, 0)
         steps, ways, speed, state = (np.array(column) for column in zip(*samples, strict=True))
-        places = leg.places(ways)
-        ahead = leg.places(np.minimum(ways + _TURN_M, leg.length_m)) - leg.places(np.maximum(ways - _TURN_M, 0.0))
+        places = walk.places(ways)
+        ahead = walk.places(np.minimum(ways + _TURN_M, walk.length_m)) - walk.places(np.maximum(ways - _TURN_M, 0.0))
         columns.append(np.stack([steps * STEP_S, *places.T, speed, state], axis=1))
         headings.append(elementary.arctan2(-ahead[:, 0], -ahead[:, 1]))
     time, x, z, speed, state = np.concatenate(columns).T

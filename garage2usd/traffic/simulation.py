@@ -44,8 +44,6 @@ class Driver:
         Number of slices held, from the first one on.
     freed
         Number of slices that were released again.
-    kept
-        Number of them before all were.
     samples
         Step, distance, speed and state at each step.
     """
@@ -56,7 +54,6 @@ class Driver:
     speed_m_s: float = 0.0
     held: int = 0
     freed: int = 0
-    kept: int = 0
     pause_steps: int = 0
     next_stop: int = 0
     retry_at: int = 0
@@ -104,15 +101,16 @@ class Simulation:
         way_m = trip.way_through(np.array([x, z, yaw]), int(driver.trip.levels(here)[0]))
         if way_m is None or way_m >= trip.length_m - SLICE_M:
             return None
+        freed = driver.freed
         self.leave_ground(driver)
         other = Driver(driver.number, trip, way_m)
         other.held = other.freed = int(way_m / SLICE_M)
         other.next_stop = sum(stop.way_m <= way_m for stop in trip.stops)
         if not self._extend(other, way_m + _AHEAD_M):
-            cells = driver.trip.cells(self.ground)
-            for number in range(driver.kept, driver.held):
+            cells = driver.trip.cells
+            for number in range(freed, driver.held):
                 self.ground.hold(cells[number], driver.number)
-            driver.freed = driver.kept
+            driver.freed = freed
             self._stand(driver, driver.held - 1)
             return None
         self.drivers[self.drivers.index(driver)] = other
@@ -132,13 +130,13 @@ class Simulation:
         for driver in self.drivers:
             if driver.number == number and driver.held < driver.trip.slices:
                 last = driver.trip.next_wait(driver.held + _LOOK_SLICES)
-                return driver.trip.cells(self.ground)[driver.freed : last + 1]
+                return driver.trip.cells[driver.freed : last + 1]
         return []
 
     def _extend(self, driver: Driver, wanted_m: float) -> bool:
         """Hold the ground up to a distance, and on to a place to wait; return False if some of it is not free."""
         trip = driver.trip
-        cells, groups = trip.cells(self.ground), trip.groups
+        cells, groups = trip.cells, trip.groups
         while driver.held < trip.slices and (driver.held * SLICE_M <= wanted_m or driver.held == 0):
             last = groups[driver.held]
             slices = range(driver.held, last + 1)
@@ -162,7 +160,7 @@ class Simulation:
         if standing is not None:
             self._stands[standing] = 0
         if last is not None and last < driver.trip.slices - 1:
-            cells = driver.trip.cells(self.ground)[last]
+            cells = driver.trip.cells[last]
             self._stands[cells] = driver.number
             self._standing[driver.number] = cells
 
@@ -175,13 +173,13 @@ class Simulation:
         if last >= trip.slices - 1:
             return False
         of_number = {other.number: other for other in self.drivers}
-        own = trip.cells(self.ground)[last]
+        own = trip.cells[last]
         self._is_own[own] = True
         waiting, seen = [(trip, last + 1)], {driver.number}
         closes = False
         while waiting and not closes:
             other, begin = waiting.pop()
-            cells = other.cells_between(self.ground, begin, other.next_wait(begin + _LOOK_SLICES) + 1)
+            cells = other.cells_between(begin, other.next_wait(begin + _LOOK_SLICES) + 1)
             closes = (other is not trip or begin != last + 1) and bool(self._is_own[cells].any())
             standing = self._stands[cells]
             found = set(standing[standing > 0].tolist()) - seen
@@ -219,7 +217,7 @@ class Simulation:
             driver.pause_steps = round(stop.pause_s / STEP_S)
             driver.next_stop += 1
         passed = min(int(way_to / SLICE_M), driver.held - 1)
-        cells = trip.cells(self.ground)
+        cells = trip.cells
         while driver.freed < passed:
             self.ground.release(cells[driver.freed])
             driver.freed += 1
@@ -235,8 +233,8 @@ class Simulation:
 
     def leave_ground(self, driver: Driver) -> None:
         """Release all ground of a car."""
-        cells = driver.trip.cells(self.ground)
+        cells = driver.trip.cells
         for number in range(driver.freed, driver.held):
             self.ground.release(cells[number])
-        driver.kept, driver.freed = driver.freed, driver.held
+        driver.freed = driver.held
         self._stand(driver, None)

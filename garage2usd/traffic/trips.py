@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from garage2usd.config.outputs import DriveConfig
 from garage2usd.driving import DesignCar
 from garage2usd.driving.path import Path
-from garage2usd.driving.road import FloorSpan
+from garage2usd.driving.road import FloorSpan, tilt
 from garage2usd.driving.timing import timed
 from garage2usd.garage import LaneGraph
 from garage2usd.native import elementary
-from garage2usd.traffic.ground import Cells, Floats, Ground, united
+from garage2usd.traffic.ground import Cells, Floats, Raster, united
 
 SLICE_M = 0.5
 """Length of the slices of a path whose ground is held at once."""
@@ -77,6 +77,8 @@ class Trip:
         The path, the floors along it, and its levels and ramps.
     car, settings
         The car, and the limits of its motion.
+    raster
+        The raster of the garage.
     lanes
         The lane graph of each level.
     keeps_left
@@ -104,13 +106,14 @@ class Trip:
         *,
         car: DesignCar,
         settings: DriveConfig,
+        raster: Raster,
         lanes: Sequence[LaneGraph],
         keeps_left: bool = False,
     ) -> None:
         self.path, self.car, self.stretches, self._lanes = path, car, tuple(stretches), lanes
-        self._keeps_left = keeps_left
+        self._raster, self._keeps_left = raster, keeps_left
+        self._spans = tuple(spans)
         motion = timed(path, settings, car=car, spans=spans)
-        self._motion = motion
         starts = np.cumsum([0.0, *(float(run.way_m[-1]) for run in motion.runs)])
         self.length_m = float(starts[-1])
         pauses = [
@@ -164,37 +167,30 @@ class Trip:
         at = self.path.at(plan)
         return np.stack([at.x_m, at.z_m, at.yaw_rad], axis=1), plan
 
-    def cells(self, ground: Ground) -> list[Cells]:
-        """Return the cells of each slice; computed once for one ground."""
-        if self._cells is None or self._cells[0] is not ground:
-            poses, plan = self._nodes
-            body = np.array([self.car.ahead_m, self.car.rear_overhang_m, self.car.width_m / 2])
-            layers = self.layers_at(plan)
-            most = max(map(len, layers))
-            drawn = [
-                ground.rectangles(poses, body, [each[min(number, len(each) - 1)] for each in layers])
-                for number in range(most)
-            ]
-            whole = [
-                united({id(part): part for part in parts}.values()) if len(set(layer)) > 1 else parts[0]
-                for layer, *parts in zip(layers, *drawn, strict=True)
-            ]
-            step = _NODES_A_SLICE - 1
-            slices = [united(whole[step * each : step * (each + 1) + 1]) for each in range(self.slices)]
-            self._cells = ground, slices
-        return self._cells[1]
+    @cached_property
+    def cells(self) -> list[Cells]:
+        """The cells of each slice."""
+        poses, plan = self._nodes
+        body = np.array([self.car.ahead_m, self.car.rear_overhang_m, self.car.width_m / 2])
+        layers = self.layers_at(plan)
+        most = max(map(len, layers))
+        drawn = [
+            self._raster.rectangles(poses, body, [each[min(number, len(each) - 1)] for each in layers])
+            for number in range(most)
+        ]
+        whole = [united(parts) if len(layer) > 1 else parts[0] for layer, *parts in zip(layers, *drawn, strict=True)]
+        step = _NODES_A_SLICE - 1
+        return [united(whole[step * each : step * (each + 1) + 1]) for each in range(self.slices)]
 
-    _cells: tuple[Ground, list[Cells]] | None = None
-
-    def cells_between(self, ground: Ground, begin: int, end: int) -> Cells:
+    def cells_between(self, begin: int, end: int) -> Cells:
         """Return the cells of the slices from one up to another, some of them several times."""
-        cells = self.cells(ground)
-        if self._flat is None or self._flat[0] is not cells:
-            self._flat = cells, np.concatenate(cells), np.cumsum([0, *map(len, cells)])
-        _, flat, starts = self._flat
+        flat, starts = self._flat
         return flat[starts[begin] : starts[end]]
 
-    _flat: tuple[list[Cells], Cells, Cells] | None = None
+    @cached_property
+    def _flat(self) -> tuple[Cells, Cells]:
+        """The cells of all slices, and where each slice begins."""
+        return np.concatenate(self.cells), np.cumsum([0, *map(len, self.cells)])
 
     @cached_property
     def groups(self) -> list[int]:
@@ -247,25 +243,11 @@ class Trip:
 
     def states(self, ways: Floats) -> NDArray[np.float64]:
         """Return x, y, z, yaw, pitch and steering of the rear axle at distances along the floor; shape (n, 6)."""
-        from garage2usd.driving.road import floor_heights_m  # noqa: PLC0415
-
         plan = np.interp(ways, *self._plan_of)
         at = self.path.at(plan)
-        spans = self._motion.spans
-        heights = [
-            floor_heights_m(
-                spans,
-                plan,
-                at.x_m - elementary.sin(at.yaw_rad) * ahead,
-                at.z_m - elementary.cos(at.yaw_rad) * ahead,
-            )
-            if spans
-            else np.zeros(len(plan))
-            for ahead in (0.0, self.car.wheelbase_m)
-        ]
-        pitch = elementary.arctan((heights[1] - heights[0]) / self.car.wheelbase_m)
+        height, pitch = tilt(self._spans, plan, at, self.car.wheelbase_m)
         steering = elementary.arctan(self.car.wheelbase_m * at.curvature_per_m)
-        return np.stack([at.x_m, heights[0], at.z_m, at.yaw_rad, pitch, steering], axis=1)
+        return np.stack([at.x_m, height, at.z_m, at.yaw_rad, pitch, steering], axis=1)
 
     @cached_property
     def gears(self) -> tuple[Floats, Floats]:

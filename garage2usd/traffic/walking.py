@@ -135,10 +135,7 @@ class Walkways:
         cost, before = self._fields[door]
         if not math.isfinite(cost[start]):
             return None
-        numbers = [start]
-        while before[numbers[-1]] >= 0:
-            numbers.append(int(before[numbers[-1]]))
-        return np.array([np.array(place), *self._straightened(self._free[numbers])])
+        return np.array([np.array(place), *self._straightened(self._free[_traced(before, start)])])
 
     def around(
         self, start: Point, end: Point | None, ground: Ground, layer: int, *, wanted: Sequence[Cells] = ()
@@ -171,10 +168,7 @@ class Walkways:
             at = int(number[other])
         if not math.isfinite(cost[at]):
             return None
-        numbers = [at]
-        while before[numbers[-1]] >= 0:
-            numbers.append(int(before[numbers[-1]]))
-        return np.array([start, *self._free[kept[numbers[::-1]]]])
+        return np.array([start, *self._free[kept[_traced(before, at)[::-1]]]])
 
     def _straightened(self, places: Floats) -> Sequence[Floats]:
         kept = [places[0]]
@@ -192,6 +186,14 @@ class Walkways:
             kept.append(places[last])
             at = last
         return kept
+
+
+def _traced(before: NDArray[np.int32], at: int) -> list[int]:
+    """Return the numbers of the grid points from one back to the root of a tree of shortest walks."""
+    numbers = [at]
+    while before[numbers[-1]] >= 0:
+        numbers.append(int(before[numbers[-1]]))
+    return numbers
 
 
 def _across(line: shapely.LineString) -> Floats:
