@@ -2,7 +2,6 @@
 
 import math
 import re
-import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -16,11 +15,12 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody
 from garage2usd.driving.tracks import Agent, AgentClass, AgentState, Track, Tracks, knots
 from garage2usd.objects.car import car_spec
-from garage2usd.objects.person import PEOPLE, PersonSpec
 from garage2usd.stage.authoring import attribute, define, new_layer, operation, order_operations
 from garage2usd.stage.cameras import FRAMES_PER_SECOND, set_frames
-from garage2usd.stage.moving_car import define_car, define_looks, define_parts, write_textures
+from garage2usd.stage.moving_car import define_car, write_textures
 from garage2usd.stage.prototypes import asset_of
+from garage2usd.stage.track_people import figure_of, gait_of
+from garage2usd.stage.walkers import HIPS_MOVE, animate_figure, define_figure
 
 TRAFFIC_NAME, MODELS_NAME = "Traffic", "Models"
 """Names of the scope of agents below ``/Garage``, and of that of their models below it, which is abstract."""
@@ -218,37 +218,24 @@ def _unturned(wheel: Sdf.PrimSpec, is_front: bool) -> Sequence[str]:  # noqa: FB
 def _author_person(
     layer: Sdf.Layer, prim: Sdf.PrimSpec, track: Track, models: dict[tuple[str, ...], _Model], shared: Sdf.Path
 ) -> None:
-    """Author a figure that walks and one that stands, of which one is visible at a time."""
-    frames = _frames(track)
-    _author_pose(layer, prim, frames, track, np.stack([track.x_m, track.y_m, track.z_m], axis=1))
-    walks = track.state == AgentState.WALKS
-    changes = np.flatnonzero(np.diff(walks.astype(np.int8), prepend=-1)).tolist()
-    for pose, is_walking in (("walking", True), ("standing", False)):
-        if (walks == is_walking).any():
-            child = define(layer, prim.path.AppendChild(pose.capitalize()), "Xform")
-            _refer(child, _person_model(layer, track.agent, pose, models, shared))
-            shown = {float(frames[at]): _shown(bool(walks[at] == is_walking)) for at in changes}
-            _switched(layer, child, "visibility", shown)
-
-
-def _person_model(
-    layer: Sdf.Layer, agent: Agent, pose: str, models: dict[tuple[str, ...], _Model], shared: Sdf.Path
-) -> Sdf.Path:
-    """Define the model of a person in a pose, once; its body is a number in `PEOPLE`, or else drawn by its name."""
-    number = int(agent.body) if agent.body.isdecimal() else zlib.crc32(agent.name.encode())
-    number %= len(PEOPLE)
-    key = str(number), pose
-    if key not in models:
-        asset = asset_of(PersonSpec(number, pose))
-        root = define(layer, shared.AppendChild(f"Person_{number}_{pose}"), "Xform")
-        looks = define_looks(layer, root.path, asset)
-        # figures look to +Z, agents to -Z
-        body = define(layer, root.path.AppendChild("Body"), "Xform")
-        operation(body, "rotateY", _TYPES.Float, 180.0)
-        order_operations(body, ["rotateY"])
-        define_parts(layer, body.path, asset.parts, asset, looks)
-        models[key] = _Model(root.path, (asset,))
-    return models[key].path
+    """Author a figure that walks and stands along the track."""
+    name, figure, factor = figure_of(track.agent)
+    if (name,) not in models:
+        define_figure(layer, shared.AppendChild(name), figure)
+        models[name,] = _Model(shared.AppendChild(name), ())
+    gait = gait_of(track)
+    places = np.stack([track.x_m, track.y_m, track.z_m], axis=1)
+    _sampled(layer, prim, "translate", _frames(track), places, _NEAR_M)
+    _sampled(layer, prim, "rotateY", gait.frames, np.degrees(gait.yaw_rad), _NEAR_DEG)
+    order_operations(prim, ["translate", "rotateY"])
+    root = define(layer, prim.path.AppendChild("Figure"), "SkelRoot")
+    _refer(root, models[name,].path)
+    # figures look to +Z, agents to -Z
+    operation(root, "rotateY", _TYPES.Float, 180.0)
+    operation(root, "scale", _TYPES.Float3, Gf.Vec3f(factor))
+    order_operations(root, ["rotateY", "scale", HIPS_MOVE])
+    motion = gait.motion._replace(hips_m=gait.motion.hips_m / factor)
+    animate_figure(layer, root, figure.skeleton, gait.frames[gait.poses].tolist(), motion)
 
 
 def _refer(prim: Sdf.PrimSpec, model: Sdf.Path) -> None:
