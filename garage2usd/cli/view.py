@@ -34,7 +34,7 @@ def view(*, path: Path, port: int, no_browser: bool, tracks: Path | None) -> Non
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.common.limits import lift  # noqa: PLC0415 - keeps --help instant
     from garage2usd.reading.files import open_stage  # noqa: PLC0415
-    from garage2usd.view.viewer import ViewerServer, read_scene  # noqa: PLC0415
+    from garage2usd.view.viewer import Looks, ViewerServer, read_agents, read_scene  # noqa: PLC0415
 
     start = time.perf_counter()
     played = None
@@ -46,8 +46,9 @@ def view(*, path: Path, port: int, no_browser: bool, tracks: Path | None) -> Non
     with ViewerServer(port) as server:
         try:
             click.echo(f"{path.name} at {server.url}")
-            scene = read_scene(stage, path)
-            server.show(scene, played)
+            looks = Looks()
+            scene = read_scene(stage, path, looks)
+            server.show(scene, played and read_agents(played, looks))
             # before the browser starts, which would inherit the limits of a process that reads a stage
             lift()
             if not no_browser:
