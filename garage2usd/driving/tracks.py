@@ -158,7 +158,8 @@ class Track:
         """Return the places of a rear axle on the floor, a distance behind the middle; shape (n, 3)."""
         along = back_m * np.cos(self.pitch_rad)
         off = along * np.sin(self.yaw_rad), -back_m * np.sin(self.pitch_rad), along * np.cos(self.yaw_rad)
-        return np.stack([self.x_m, self.y_m, self.z_m], axis=1) + np.stack(off, axis=1)
+        places: Floats = np.stack([self.x_m, self.y_m, self.z_m], axis=1) + np.stack(off, axis=1)
+        return places
 
     def rolled_m(self, back_m: float) -> Floats:
         """Return the way of a rear axle since the first sample, negative in reverse; shape (n,)."""

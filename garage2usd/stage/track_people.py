@@ -124,5 +124,6 @@ def _needed(skeleton: Skeleton, motion: Motion, times: _Floats, places: _Floats,
         worst = np.lexsort((errors, before))[np.append(np.flatnonzero(np.diff(before)), len(times) - 1)]
         added = worst[errors[worst] > 1]
         if not len(added):
-            return kept
-        kept = np.union1d(kept, added)
+            break
+        kept = np.sort(np.concatenate([kept, added]))
+    return np.asarray(kept)

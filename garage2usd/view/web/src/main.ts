@@ -418,6 +418,8 @@ class Viewer {
     const corners = [[x0, z0], [x1, z0], [x1, z1], [x0, z1]].map(([x, z]) => new THREE.Vector3(x, this.floor, z));
     this.orbit.target.set((x0 + x1) / 2, this.floor, (z0 + z1) / 2);
     const away = new THREE.Vector3(0.1, 1, 0.62).normalize();
+    // a film has the long side across
+    if (this.filming) away.set(x1 - x0 < z1 - z0 ? 0.5 : 0, 1, x1 - x0 < z1 - z0 ? 0 : 0.5).normalize();
     // as near as all corners stay clear of the panels
     const free = this.freeView();
     for (let distance = 10; distance < 1e4; distance *= 1.04) {
