@@ -96,7 +96,7 @@ def test_a_film_is_as_long_as_it_should_be_and_moves(opened, tmp_path):
     import av
 
     _, page = opened
-    drives = ["--tracks", page.tracks, "--start", 4, "--seconds", 0.4, "--speed", 10, "--size", "320x180"]
+    drives = ["--tracks", page.tracks, "--start", 13, "--seconds", 0.4, "--speed", 8, "--size", "320x180"]
     for camera in ("above", "car_000"):
         file = tmp_path / f"{camera}.mp4"
         command = [sys.executable, "-m", "garage2usd", "view", page.stage, *drives, "--camera", camera, "--video", file]

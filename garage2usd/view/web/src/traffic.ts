@@ -96,7 +96,7 @@ export class Traffic {
         instances.move(object, this.part, person?.number);
         instances.moving.push(object);
       }
-      this.shade(agent, instances.visible[agent.parts[0].object] > 0);
+      this.shade(agent, number !== this.rider && instances.visible[agent.parts[0].object] > 0);
     });
     this.shadows.instanceMatrix.needsUpdate = true;
   }
