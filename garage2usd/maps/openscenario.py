@@ -29,7 +29,7 @@ _MINOR, _MINOR_OF_TRAFFIC = 2, 3
 _HEIGHT_M, _WHEEL_M = 1.5, 0.62
 _AFTER_S = 1.0
 """Seconds for which the scenario continues after the car has stopped."""
-_PERSON_KG = 75.0
+_PERSON_KG, _TROLLEY_KG = 75.0, 25.0
 _NEAR_M, _NEAR_RAD = 1e-3, math.radians(0.02)
 """Deviations from tracks that save vertices."""
 _CATEGORIES = {
@@ -38,7 +38,8 @@ _CATEGORIES = {
     AgentClass.TRUCK: xosc.VehicleCategory.truck,
 }
 _DIGITS = 6
-_INDENT = "    "
+_INDENT, _INDENT_OF_TRAFFIC = "    ", ""
+"""Indentation; vertices of traffic stand so deep that it would be two thirds of the file."""
 
 
 def write_scenario(
@@ -118,6 +119,7 @@ def write_traffic_scenario(
         storyboard,
         road_file=road_file,
         minor=_MINOR_OF_TRAFFIC,
+        indent=_INDENT_OF_TRAFFIC,
     )
 
 
@@ -166,12 +168,18 @@ def _kept(track: Track) -> Track:
     return track.sampled(track.time_s[np.unique(np.concatenate([knots(track.time_s, *one) for one in columns]))])
 
 
-def _entity(agent: Agent) -> "xosc.Vehicle | xosc.Pedestrian":
-    if agent.kind is AgentClass.PERSON:
-        box = xosc.BoundingBox(agent.width_m, agent.length_m, agent.height_m, 0.0, 0.0, _number(agent.height_m / 2))
-        return xosc.Pedestrian(agent.name, _PERSON_KG, xosc.PedestrianCategory.pedestrian, box)
+def _entity(agent: Agent) -> "xosc.Vehicle | xosc.Pedestrian | xosc.MiscObject":
     sizes = agent.width_m, agent.length_m, agent.height_m
-    return _vehicle(agent.name, *sizes, agent.rear_axle_m, agent.wheelbase_m, _CATEGORIES[agent.kind])
+    box = xosc.BoundingBox(*sizes, 0.0, 0.0, _number(agent.height_m / 2))
+    if agent.kind is AgentClass.PERSON:
+        entity = xosc.Pedestrian(agent.name, _PERSON_KG, xosc.PedestrianCategory.pedestrian, box)
+    elif agent.kind is AgentClass.TROLLEY:
+        entity = xosc.MiscObject(agent.name, _TROLLEY_KG, xosc.MiscObjectCategory.obstacle, box)
+    else:
+        entity = _vehicle(agent.name, *sizes, agent.rear_axle_m, agent.wheelbase_m, _CATEGORIES[agent.kind])
+    if agent.behaviour:
+        entity.add_property("behaviour", agent.behaviour)
+    return entity
 
 
 def _write(
@@ -183,6 +191,7 @@ def _write(
     *,
     road_file: str,
     minor: int,
+    indent: str = _INDENT,
 ) -> None:
     seeded = "" if seed is None else f", seed {seed}"
     description = f"{name}, by garage2usd {VERSION}{seeded}"
@@ -197,7 +206,7 @@ def _write(
         osc_minor_version=minor,
         creation_date=_WRITTEN,
     )
-    write_lines(element_lines(scenario.get_element(), indent=_INDENT, end="/>"), path)
+    write_lines(element_lines(scenario.get_element(), indent=indent, end="/>"), path)
 
 
 def _add_parked(parked: Sequence[ParkedCar], entities: "xosc.Entities", init: "xosc.Init") -> None:
