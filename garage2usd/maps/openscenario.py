@@ -38,8 +38,7 @@ _CATEGORIES = {
     AgentClass.TRUCK: xosc.VehicleCategory.truck,
 }
 _DIGITS = 6
-_INDENT, _INDENT_OF_TRAFFIC = "    ", ""
-"""Indentation; vertices of traffic stand so deep that it would be two thirds of the file."""
+_INDENT = "    "
 
 
 def write_scenario(
@@ -110,17 +109,9 @@ def write_traffic_scenario(
     _add_parked(parked, entities, init)
     if len(tracks):
         storyboard.add_act(act)
-    seed = tracks.facts.get("seed")
-    _write(
-        path,
-        name,
-        int(str(seed)) if str(seed).isdecimal() else None,
-        entities,
-        storyboard,
-        road_file=road_file,
-        minor=_MINOR_OF_TRAFFIC,
-        indent=_INDENT_OF_TRAFFIC,
-    )
+    seed = str(tracks.facts.get("seed"))
+    number = int(seed) if seed.isdecimal() else None
+    _write(path, name, number, entities, storyboard, road_file=road_file, minor=_MINOR_OF_TRAFFIC)
 
 
 def _followed(track: Track, ends_s: float, entities: "xosc.Entities", init: "xosc.Init") -> "xosc.ManeuverGroup":
@@ -191,7 +182,6 @@ def _write(
     *,
     road_file: str,
     minor: int,
-    indent: str = _INDENT,
 ) -> None:
     seeded = "" if seed is None else f", seed {seed}"
     description = f"{name}, by garage2usd {VERSION}{seeded}"
@@ -206,6 +196,8 @@ def _write(
         osc_minor_version=minor,
         creation_date=_WRITTEN,
     )
+    # vertices of traffic stand so deep that indentation would be two thirds of the file
+    indent = "" if minor == _MINOR_OF_TRAFFIC else _INDENT
     write_lines(element_lines(scenario.get_element(), indent=indent, end="/>"), path)
 
 
