@@ -32,6 +32,7 @@ class AgentClass(StrEnum):
     VAN = "van"
     TRUCK = "truck"
     PERSON = "person"
+    TROLLEY = "shopping_trolley"
 
 
 class AgentState(IntEnum):
