@@ -24,13 +24,14 @@ from garage2usd.traffic.walking import BREADTH_M, PERSON_RADIUS_M, Walkways
 
 _OUT_M, _NEAR_CAR_M = 0.6, 3.0
 _GET_OUT_S, _GET_IN_S, _LOADS_S = (6.0, 14.0), (4.0, 8.0), (12.0, 25.0)
-_APART_M = 0.06
-"""Least distance between the discs of two people."""
+_APART_M, _SLACK_M = 0.06, 0.03
+"""Least distance between the discs of two people, and what may be missing where one begins another walk."""
 _RIGHT_M, _ABREAST_M = 0.3, 0.75
 """How far to the right of the shortest way people walk, and distance between two who walk side by side."""
 _FAST_M_S, _RUN_ON_M = (2.2, 3.0), 1.0
 _ROLL_M, _ROLL_M_S = (2.0, 6.0), 0.5
 _RETRY_STEPS, _MOST_PATIENCE_STEPS, _TAIL_STEPS = 3, 80, 150
+_MARKS_AHEAD, _DOOR_M = 40, 1.2
 _STUCK_STEPS = round(180 / STEP_S)
 
 Outlines = Mapping[int, tuple[int, shapely.Polygon]]
@@ -196,12 +197,14 @@ class People:
         outwards = outwards / (np.hypot(*outwards) or 1.0)
         own = 1.0 if person.seat % 2 == 0 else -1.0
         for side in (own, -own):
-            aside = side * (half_m + BESIDE_M + BREADTH_M / 2) * left
-            door = (front + rear) / 2 + (0.3 if person.seat < 2 else -0.6) * along + aside  # noqa: PLR2004 - front seats
-            out_m = max(float((mouth - door) @ outwards), 0.0) + _OUT_M
-            line = np.array([door, door + out_m * outwards])
-            if self._walkers.levels[level].is_clear(line, over_stalls=True):
-                yield line
+            # the shoulders are turned along the car where there is little room
+            for aside_m in (PERSON_RADIUS_M + BESIDE_M, BREADTH_M / 2 + BESIDE_M):
+                door = (front + rear) / 2 + (0.3 if person.seat < 2 else -0.6) * along  # noqa: PLR2004 - front seats
+                door = door + side * (half_m + aside_m) * left
+                out_m = max(float((mouth - door) @ outwards), 0.0) + _OUT_M
+                line = np.array([door, door + out_m * outwards])
+                if self._walkers.levels[level].is_clear(line, over_stalls=True):
+                    yield line
         end = front if float((front - mouth) @ (front - mouth)) < float((rear - mouth) @ (rear - mouth)) else rear
         door = end + (PERSON_RADIUS_M + 2 * BESIDE_M) * outwards
         out_m = max(float((mouth - door) @ outwards) + _OUT_M, SLICE_M)
@@ -275,43 +278,55 @@ class People:
             whole = [(length_m - float(np.hypot(*(tail[1] - tail[0]))), length_m)]
         return self._turn(walker, replace(walker.stage, walk=Walk(corners, whole), tail=len(tail)))
 
-    def _around(self, walker: Walker, end: tuple[float, float] | None, wanted: Iterable[Cells] = ()) -> Floats | None:
+    def _around(
+        self, walker: Walker, end: tuple[float, float] | None, cells: Iterable[Cells] = (), marks: Floats | None = None
+    ) -> Floats | None:
+        """Return a walk around cars and people, or out of the way of cells and marks."""
         ((x, z),) = walker.walk.places(np.array([walker.way_m])).tolist()
-        others = [other for other in self._walking if other is not walker and other.level == walker.level]
-        marks = [
+        held = [
             np.insert(other.marks, 2, other.radius_m + walker.radius_m + _APART_M, axis=1)
-            for other in others
-            if other.held > other.freed
+            for other in self._walking
+            if other is not walker and other.level == walker.level and other.held > other.freed
         ]
+        wanted = [self._ground.raster.places(each, walker.level) for each in cells]
         return self._walkers.levels[walker.level].around(
             (x, z),
             end,
             self._ground.of_cars(walker.level),
-            np.concatenate([np.empty((0, 3)), *marks]),
-            wanted=np.concatenate(
-                [np.empty((0, 2)), *(self._ground.raster.places(cells, walker.level) for cells in wanted)]
-            ),
+            np.concatenate([np.empty((0, 3)), *held]),
+            wanted=(np.concatenate([np.empty((0, 2)), *wanted]), np.empty((0, 3)) if marks is None else marks),
         )
 
     def _go_around(self, walker: Walker) -> None:
         """Change the walk of a person who is blocked, around cars and people, or out of their way."""
         tail = walker.goal if walker.goal is not None else walker.walk.corners[-walker.stage.tail :]
         tail_m = float(np.hypot(*np.diff(tail, axis=0).T).sum())
-        if walker.goal is None and walker.way_m >= walker.walk.length_m - tail_m - SLICE_M:
-            if walker.blocked_steps > _TAIL_STEPS:
-                self._change_side(walker)
+        is_near = walker.goal is None and walker.way_m >= walker.walk.length_m - tail_m - SLICE_M
+        if is_near and walker.blocked_steps > _TAIL_STEPS and self._change_side(walker):
             return
-        if self._turn_to(walker, tail):
+        if not is_near and self._turn_to(walker, tail):
             walker.goal = None
             return
         if walker.goal is None:
-            cars = np.unique(self._ground.owner[walker.cells[walker.held]])
-            wanted = [cells for car in cars[cars > 0].tolist() for cells in self.wanted(int(car))]
-            if not wanted:
-                return
-            found = self._around(walker, None, wanted)
-            if found is not None and self._turn(walker, replace(walker.stage, walk=Walk(found))):
-                walker.goal = tail
+            cells, marks = self._in_the_way(walker)
+            if cells or len(marks):
+                found = self._around(walker, None, cells, marks)
+                if found is not None and self._turn(walker, replace(walker.stage, walk=Walk(found))):
+                    walker.goal = tail
+
+    def _in_the_way(self, walker: Walker) -> tuple[list[Cells], Floats]:
+        """Return the ground that those who block a person want themselves: cells of cars, and (x, z, distance)."""
+        first = min(walker.held, walker.walk.slices - 1)
+        last = walker.walk.groups[first]
+        cars = np.unique(self._ground.owner[np.concatenate(walker.cells[first : last + 1])])
+        cells = [cells for car in cars[cars > 0].tolist() for cells in self.wanted(int(car))]
+        here = walker.walk.places(np.array([walker.way_m]))
+        rests = [np.empty((0, 3))]
+        for other, far in self._close(walker, walker.walk.marks[2 * first : 2 * last + 3]):
+            rest = other.walk.marks[2 * other.freed : 2 * other.held + _MARKS_AHEAD]
+            if np.hypot(*(rest - here).T).min() < far:
+                rests.append(np.insert(rest, 2, far, axis=1))
+        return cells, np.concatenate(rests)
 
     def _turn(self, walker: Walker, stage: Stage) -> bool:
         """Let a person go on along another line if the ground for its body is free."""
@@ -323,7 +338,7 @@ class People:
         front = stage.begin_m + max(stage.trolley, 0) * PUSHED_M
         last = min(int(front / SLICE_M), stage.walk.slices - 1)
         last = stage.walk.groups[last]
-        if not self._is_free(walker, walker.held, last):
+        if not self._is_free(walker, walker.held, last, slack_m=_SLACK_M):
             walker.stages[0] = old[0]
             for name, value in kept.items():
                 setattr(walker, name, value)
@@ -442,13 +457,19 @@ class People:
         (low_x, low_z), (high_x, high_z) = walker.marks.min(axis=0).tolist(), walker.marks.max(axis=0).tolist()
         walker.box = low_x, low_z, high_x, high_z
 
-    def _is_free(self, walker: Walker, first: int, last: int) -> bool:
+    def _is_free(self, walker: Walker, first: int, last: int, *, slack_m: float = 0.0) -> bool:
         """Return True if no car holds some slices, and no other person is close."""
         for number in range(first, last + 1):
             if (self._ground.owner[walker.cells[number]] > 0).any():
                 return False
-        own = walker.walk.marks[2 * first : 2 * last + 3]
-        (low_x, low_z), (high_x, high_z) = own.min(axis=0).tolist(), own.max(axis=0).tolist()
+        return not any(self._close(walker, walker.walk.marks[2 * first : 2 * last + 3], slack_m=slack_m))
+
+    def _close(self, walker: Walker, marks: Floats, *, slack_m: float = 0.0) -> Iterator[tuple[Walker, float]]:
+        """Yield people who hold ground too close to some marks, and how far away it should be.
+
+        With some slack also one who is as close to the first mark may be as close to all.
+        """
+        (low_x, low_z), (high_x, high_z) = marks.min(axis=0).tolist(), marks.max(axis=0).tolist()
         for other in self._walking:
             if other is walker or other.level != walker.level or other.held == other.freed:
                 continue
@@ -456,10 +477,11 @@ class People:
             box = other.box
             if box[0] > high_x + far or box[2] < low_x - far or box[1] > high_z + far or box[3] < low_z - far:
                 continue
-            away = other.marks[:, None, :] - own[None]
-            if (away * away).sum(axis=2).min() < far * far:
-                return False
-        return True
+            away = other.marks[:, None, :] - marks[None]
+            squares = (away * away).sum(axis=2)
+            least = min(far, max(math.sqrt(squares[:, 0].min()) - 1e-6, far - slack_m)) if slack_m else far
+            if squares.min() < least * least:
+                yield other, far
 
     def drivers(self) -> dict[str, int]:
         """Return the number of the car that each person walks from or to."""
@@ -485,11 +507,13 @@ def _walk(corners: Floats | tuple[Floats, float, float, float], *, is_coming: bo
         fast = (rest[0], rest[1], rest[2])
     beside = float(np.hypot(*(corners[1] - corners[0])))
     if not is_coming:
-        return Walk(corners, [(0.0, beside)], fast)
+        length_m = float(np.hypot(*np.diff(corners, axis=0).T).sum())
+        return Walk(corners, [(0.0, beside), (max(length_m - _DOOR_M, beside + SLICE_M), length_m)], fast)
     walk = Walk(corners[::-1])
     length_m = walk.length_m
     low, high, speed = fast
-    return Walk(walk.corners, [(length_m - beside, length_m)], (length_m - high, length_m - low, speed))
+    whole = [(0.0, min(_DOOR_M, length_m - beside - SLICE_M)), (length_m - beside, length_m)]
+    return Walk(walk.corners, whole, (length_m - high, length_m - low, speed))
 
 
 _OF_STAGE = (

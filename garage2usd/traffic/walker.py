@@ -74,8 +74,8 @@ class Walk:
         """For each slice the last one that is held at once with it."""
         found = list(range(self.slices))
         for begin, end in self.whole:
-            low, high = int(begin / SLICE_M), min(math.ceil(end / SLICE_M), self.slices) - 1
-            found[low : high + 1] = [max(high, low)] * (high + 1 - low)
+            low, high = max(int(begin / SLICE_M), 0), min(math.ceil(end / SLICE_M), self.slices) - 1
+            found[low : high + 1] = [high] * max(high + 1 - low, 0)
         return found
 
     def places(self, ways: Floats) -> Floats:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation
 from scipy.sparse import coo_matrix, csr_matrix
 from scipy.sparse.csgraph import dijkstra
+from scipy.spatial import cKDTree
 
 from garage2usd.as_built.core_reader import core_doors
 from garage2usd.as_built.level import BuiltLevel
@@ -21,6 +22,8 @@ PERSON_RADIUS_M = math.hypot(BREADTH_M, DEPTH_M) / 2
 _GRID_M = 0.4
 _CLEAR_M, _WIDE_M = 0.34, 0.62
 """Distance from cars, stalls and the building that people keep, and such with trolleys."""
+_EDGE_M, _CELL_M = 0.065, 0.2
+"""Distance between a person and the middle of a cell that a car holds, beyond the person's radius."""
 _HEAD_M = 2.0
 """Height under which an object is in a walker's way."""
 _MIDDLE_COST = 1.6
@@ -65,6 +68,7 @@ class Walkways:
         self._number = np.full(len(places), -1)
         self._number[is_free] = np.arange(int(is_free.sum()))
         self._free = places[is_free]
+        self._tree = cKDTree(self._free)
         self._is_wide = ~shapely.contains_xy(wide, self._free)
         self._index = np.flatnonzero(is_free)
         self._graph = self._connected(is_free.reshape(self._shape))
@@ -97,14 +101,20 @@ class Walkways:
         return coo_matrix((np.concatenate([cost, cost]), both), (size, size)).tocsr()
 
     def _nearest(
-        self, place: Point, within_m: float, *, among: NDArray[np.bool_] | None = None, short_m: float = 0.0
+        self,
+        place: Point,
+        within_m: float,
+        *,
+        among: NDArray[np.bool_] | None = None,
+        short_m: float = 0.0,
+        held: Floats | None = None,
     ) -> int | None:
         """Return the number of the free grid point nearest to a place, to which the way is free; None without one.
 
         Notes
         -----
         Beside a car the way may lead over stalls, but through nothing that stands there. A way to a door ends short of
-        it.
+        it. None leads closer to places that are held, rows of (x, z, distance), than their distance.
         """
         away = np.hypot(*(self._free - np.array(place)).T)
         if among is not None:
@@ -117,6 +127,10 @@ class Walkways:
         shares = short_m / np.maximum(away[nearest], short_m or 1.0)
         starts = starts + (self._free[nearest] - starts) * shares[:, None]
         lines = shapely.linestrings(np.stack([starts, self._free[nearest]], axis=1))
+        if held is not None and len(held):
+            apart = shapely.distance(lines[:, None], shapely.points(held[:, :2])[None])
+            is_open = (apart >= held[:, 2] - 1e-6).all(axis=1)
+            nearest, lines = nearest[is_open], lines[is_open]
         for ground in self._near:
             if short_m or ground is self._near[1] or not ground.intersects(shapely.Point(place)):
                 found = nearest[~shapely.intersects(ground, lines)]
@@ -218,7 +232,7 @@ class Walkways:
         return min(far - (_WIDE_M if not hit.is_empty else 0.0), most_m)
 
     def around(
-        self, start: Point, end: Point | None, cars: Floats, people: Floats, *, wanted: Floats | None = None
+        self, start: Point, end: Point | None, cars: Floats, people: Floats, *, wanted: tuple[Floats, Floats]
     ) -> Floats | None:
         """Return the corners (x, z) of the shortest walk between two places around cars and people.
 
@@ -233,23 +247,24 @@ class Walkways:
         people
             Places (x, z) that other people hold, and how far to keep away; shape (n, 3).
         wanted
-            Middles of the cells that cars want besides.
+            Those that others want besides: of cars, and of people.
         """
-        is_kept = ~self._near_places(cars, PERSON_RADIUS_M + _AROUND_M)
-        for far_m in np.unique(people[:, 2]).tolist():
-            is_kept &= ~self._near_places(people[people[:, 2] == far_m, :2], far_m)
+        is_kept = ~self._near_places(cars, PERSON_RADIUS_M + _AROUND_M) & ~self._within(people)
         other = None if end is None else self._nearest(end, 3.0, among=is_kept)
         if other is None and end is not None:
             return None
-        one = self._nearest(start, _ASIDE_M, among=is_kept)
+        held = np.concatenate([people, np.insert(cars, 2, PERSON_RADIUS_M + _CELL_M, axis=1)])
+        held = held[np.abs(held[:, :2] - np.array(start)).max(axis=1) < _ASIDE_M + 1.0]
+        one = self._nearest(start, _ASIDE_M, among=is_kept, held=held)
         if one is None:
             return None
         kept = np.flatnonzero(is_kept)
         number = np.cumsum(is_kept) - 1
         cost, before = dijkstra(self._graph[kept][:, kept], indices=number[one], return_predecessors=True)
         if other is None:
-            assert wanted is not None
-            is_aside = ~self._near_places(np.concatenate([cars, wanted]), PERSON_RADIUS_M + 2 * _AROUND_M)[kept]
+            by_cars = np.concatenate([cars, wanted[0]]) if len(wanted[0]) else cars
+            is_aside = ~self._near_places(by_cars, PERSON_RADIUS_M + _AROUND_M * (1 + bool(len(wanted[0]))))
+            is_aside = (is_aside & ~self._within(wanted[1]))[kept]
             at = int(np.where(is_aside, cost, np.inf).argmin())
             if not is_aside[at]:
                 return None
@@ -257,7 +272,15 @@ class Walkways:
             at = int(number[other])
         if not math.isfinite(cost[at]):
             return None
-        return np.concatenate([[start], self._straightened(self._free[kept[_traced(before, at)[::-1]]], most=6)])
+        return np.concatenate([[start], self._free[kept[_traced(before, at)[::-1]]]])
+
+    def _within(self, places: Floats) -> NDArray[np.bool_]:
+        """Return True for each free grid point within a distance of a place; rows of (x, z, distance)."""
+        found = np.zeros(len(self._free), dtype=bool)
+        # an edge between two points of the grid comes closer than they do
+        for near in self._tree.query_ball_point(places[:, :2], places[:, 2] + _EDGE_M) if len(places) else ():
+            found[near] = True
+        return found
 
     def _near_places(self, places: Floats, radius_m: float) -> NDArray[np.bool_]:
         """Return True for each free grid point within a distance of some places."""
@@ -273,11 +296,11 @@ class Walkways:
         near: NDArray[np.bool_] = binary_dilation(marked, disc).ravel()[self._index]
         return near
 
-    def _straightened(self, places: Floats, *, most: int = 24) -> Floats:
+    def _straightened(self, places: Floats) -> Floats:
         kept = [places[0]]
         at = 0
         while at < len(places) - 1:
-            last = min(at + most, len(places) - 1)
+            last = min(at + 24, len(places) - 1)
             while last > at + 1:
                 line = shapely.LineString([places[at], places[last]])
                 if (
