@@ -276,26 +276,39 @@ class People:
         if len(tail) > 1:
             length_m = Walk(corners).length_m
             whole = [(length_m - float(np.hypot(*(tail[1] - tail[0]))), length_m)]
-        return self._turn(walker, replace(walker.stage, walk=Walk(corners, whole), tail=len(tail)))
+        return self._turn(walker, self._stage(walker, Walk(corners, whole), len(tail)))
+
+    def _stage(self, walker: Walker, walk: Walk, tail: int) -> Stage:
+        """Return the present stage with another walk, from where the person is."""
+        begin_m = PUSHED_M if walker.stage.trolley < 0 else 0.0
+        return replace(walker.stage, walk=walk, tail=tail, begin_m=begin_m, roll_m=0.0)
 
     def _around(
         self, walker: Walker, end: tuple[float, float] | None, cells: Iterable[Cells] = (), marks: Floats | None = None
     ) -> Floats | None:
         """Return a walk around cars and people, or out of the way of cells and marks."""
-        ((x, z),) = walker.walk.places(np.array([walker.way_m])).tolist()
+        here, trolley = walker.walk.places(np.array([walker.way_m, walker.trolley_m]))
+        first, last = (trolley, here) if walker.stage.trolley < 0 else (here, trolley)
+        (x, z) = (last if walker.stage.trolley else here).tolist()
         held = [
             np.insert(other.marks, 2, other.radius_m + walker.radius_m + _APART_M, axis=1)
             for other in self._walking
             if other is not walker and other.level == walker.level and other.held > other.freed
         ]
         wanted = [self._ground.raster.places(each, walker.level) for each in cells]
-        return self._walkers.levels[walker.level].around(
+        found = self._walkers.levels[walker.level].around(
             (x, z),
             end,
             self._ground.of_cars(walker.level),
             np.concatenate([np.empty((0, 3)), *held]),
             wanted=(np.concatenate([np.empty((0, 2)), *wanted]), np.empty((0, 3)) if marks is None else marks),
+            radius_m=walker.radius_m,
         )
+        if found is None or not walker.stage.trolley:
+            return found
+        # a trolley does not turn about
+        is_onward = len(found) > 1 and float((found[1] - found[0]) @ (last - first)) >= 0
+        return np.concatenate([[first], found]) if is_onward else None
 
     def _go_around(self, walker: Walker) -> None:
         """Change the walk of a person who is blocked, around cars and people, or out of their way."""
@@ -311,7 +324,7 @@ class People:
             cells, marks = self._in_the_way(walker)
             if cells or len(marks):
                 found = self._around(walker, None, cells, marks)
-                if found is not None and self._turn(walker, replace(walker.stage, walk=Walk(found))):
+                if found is not None and self._turn(walker, self._stage(walker, Walk(found), 1)):
                     walker.goal = tail
 
     def _in_the_way(self, walker: Walker) -> tuple[list[Cells], Floats]:
@@ -358,13 +371,13 @@ class People:
 
     def _advance(self, walker: Walker, step: int) -> None:
         stage = walker.stage
-        if walker.goal is not None and walker.way_m >= walker.walk.length_m - 1e-6:
+        end_m = stage.end_m
+        if walker.goal is not None and walker.way_m >= end_m - 1e-6:
             walker.note(step, is_still=True)
             walker.blocked_steps += 1
             if walker.blocked_steps >= walker.patience_steps:
                 self._lose_patience(walker)
             return
-        end_m = stage.end_m if walker.goal is None else walker.walk.length_m
         if stage.roll_m and walker.pause_steps == 0:
             end_m = walker.trolley_m - PUSHED_M
         if walker.held > walker.freed and walker.way_m >= end_m - 1e-6:
@@ -383,9 +396,6 @@ class People:
             walker.freed += 1
 
     def _lose_patience(self, walker: Walker) -> None:
-        if walker.stage.trolley:
-            walker.blocked_steps = 0
-            return
         number = len(walker.legs)
         self._go_around(walker)
         if len(walker.legs) > number:
@@ -410,15 +420,26 @@ class People:
             return
         following = walker.stages[1]
         if following.trolley < 0:
-            following = replace(following, begin_m=following.walk.length_m - walker.way_m)
+            here, trolley = walker.walk.places(np.array([walker.way_m, walker.trolley_m]))
+            back = self._walkers.levels[walker.level].walk((float(here[0]), float(here[1])), is_wide=True)
+            if back is None:
+                back = walker.walk.corners[walker.walk.lengths_m < walker.way_m][::-1]
+            following = replace(following, walk=Walk(np.concatenate([[trolley], back])), begin_m=PUSHED_M)
         old = walker.stages
         walker.stages = [old[0], *old[2:]]
         if following.trolley >= 0 and old[0].trolley:
             # the trolley is back at the core
-            following = replace(following, begin_m=0.0)
+            following = self._on_foot(walker, following)
         if not self._turn(walker, following):
             walker.stages = old
-            walker.note(step, is_still=True)
+        walker.note(step, is_still=True)
+
+    def _on_foot(self, walker: Walker, stage: Stage) -> Stage:
+        """Return a stage that begins where a person has left a trolley."""
+        ((x, z),) = walker.walk.places(np.array([walker.way_m])).tolist()
+        found = self._between(walker.person, *self._cars[walker.person.car])
+        walk = stage.walk if found is None else _walk(found, is_coming=True)
+        return replace(stage, walk=Walk(np.concatenate([[(x, z)], walk.corners[1:]]), walk.whole))
 
     def _roll(self, walker: Walker) -> None:
         """Let the trolley of a person who loads roll away slowly, as far as its ground is free."""

@@ -21,7 +21,7 @@ BESIDE_M = 0.05
 """Least distance from cars and from the building."""
 ACCELERATION_M_S2 = 2.5
 """Acceleration with which a person starts and stops within a step or two (Breniere and Do, J. Biomech. 1986)."""
-PUSHED_M = 0.85
+PUSHED_M = 0.95
 """Distance from a person to the middle of the trolley that it pushes or pulls."""
 TROLLEY_RADIUS_M = 0.5
 _TURN_M, _TURN_STEPS = 0.5, 9
@@ -283,7 +283,7 @@ class Walker:
         if sum(len(rows) for _, rows in pushed) > 1:
             outline = np.array(TrolleySpec().outlines()[0])
             wide, long = np.ptp(outline, axis=0).tolist()
-            rolls = any(stage.roll_m for stage, _ in pushed)
+            rolls = any((rows[:, 4] > rows[:, 1] + PUSHED_M + ACCELERATION_M_S2 * STEP_S).any() for _, rows in pushed)
             name = self.name.replace("person", "trolley")
             behaviour = "rolls_away" if rolls else "pushed"
             cart = Agent(name, AgentClass.TROLLEY, long, wide, _TROLLEY_HEIGHT_M, behaviour=behaviour)

@@ -232,7 +232,14 @@ class Walkways:
         return min(far - (_WIDE_M if not hit.is_empty else 0.0), most_m)
 
     def around(
-        self, start: Point, end: Point | None, cars: Floats, people: Floats, *, wanted: tuple[Floats, Floats]
+        self,
+        start: Point,
+        end: Point | None,
+        cars: Floats,
+        people: Floats,
+        *,
+        wanted: tuple[Floats, Floats],
+        radius_m: float = PERSON_RADIUS_M,
     ) -> Floats | None:
         """Return the corners (x, z) of the shortest walk between two places around cars and people.
 
@@ -248,12 +255,16 @@ class Walkways:
             Places (x, z) that other people hold, and how far to keep away; shape (n, 3).
         wanted
             Those that others want besides: of cars, and of people.
+        radius_m
+            Radius of who walks; more than that of a person with a trolley.
         """
-        is_kept = ~self._near_places(cars, PERSON_RADIUS_M + _AROUND_M) & ~self._within(people)
+        is_kept = ~self._near_places(cars, radius_m + _AROUND_M) & ~self._within(people)
+        if radius_m > PERSON_RADIUS_M:
+            is_kept &= self._is_wide
         other = None if end is None else self._nearest(end, 3.0, among=is_kept)
         if other is None and end is not None:
             return None
-        held = np.concatenate([people, np.insert(cars, 2, PERSON_RADIUS_M + _CELL_M, axis=1)])
+        held = np.concatenate([people, np.insert(cars, 2, radius_m + _CELL_M, axis=1)])
         held = held[np.abs(held[:, :2] - np.array(start)).max(axis=1) < _ASIDE_M + 1.0]
         one = self._nearest(start, _ASIDE_M, among=is_kept, held=held)
         if one is None:
@@ -263,7 +274,7 @@ class Walkways:
         cost, before = dijkstra(self._graph[kept][:, kept], indices=number[one], return_predecessors=True)
         if other is None:
             by_cars = np.concatenate([cars, wanted[0]]) if len(wanted[0]) else cars
-            is_aside = ~self._near_places(by_cars, PERSON_RADIUS_M + _AROUND_M * (1 + bool(len(wanted[0]))))
+            is_aside = ~self._near_places(by_cars, radius_m + _AROUND_M * (1 + bool(len(wanted[0]))))
             is_aside = (is_aside & ~self._within(wanted[1]))[kept]
             at = int(np.where(is_aside, cost, np.inf).argmin())
             if not is_aside[at]:
@@ -272,7 +283,8 @@ class Walkways:
             at = int(number[other])
         if not math.isfinite(cost[at]):
             return None
-        return np.concatenate([[start], self._free[kept[_traced(before, at)[::-1]]]])
+        walk: Floats = np.concatenate([[start], self._free[kept[_traced(before, at)[::-1]]]])
+        return walk
 
     def _within(self, places: Floats) -> NDArray[np.bool_]:
         """Return True for each free grid point within a distance of a place; rows of (x, z, distance)."""
