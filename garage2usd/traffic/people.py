@@ -31,7 +31,7 @@ _RIGHT_M, _ABREAST_M = 0.3, 0.75
 _FAST_M_S, _RUN_ON_M = (2.2, 3.0), 1.0
 _ROLL_M, _ROLL_M_S = (2.0, 6.0), 0.5
 _RETRY_STEPS, _MOST_PATIENCE_STEPS, _TAIL_STEPS = 3, 80, 150
-_MARKS_AHEAD, _DOOR_M = 40, 1.2
+_MARKS_AHEAD, _DOOR_M, _BEHIND_M = 40, 1.2, 0.3
 _STUCK_STEPS = round(180 / STEP_S)
 
 Outlines = Mapping[int, tuple[int, shapely.Polygon]]
@@ -155,11 +155,15 @@ class People:
             return []
         corners, roll_m = found[:0:-1], 0.0
         if self._draw.random() < self._settings.loose_trolleys:
-            roll_m = ways.rolls_m(corners, float(self._draw.uniform(*_ROLL_M)))
-            along = corners[-1] - corners[-2]
-            along = along / np.hypot(*along)
-            roll_m = roll_m if roll_m >= _ROLL_M[0] / 2 else 0.0
-            corners = np.concatenate([corners, [corners[-1] + roll_m * along]]) if roll_m else corners
+            # it stops where it points along the aisle
+            most_m = float(self._draw.uniform(*_ROLL_M))
+            shorter = [corners[: len(corners) - cut] for cut in range(min(6, len(corners) - 2))]
+            rolls = [ways.rolls_m(each, most_m) for each in shorter]
+            best = int(np.argmax(rolls))
+            if rolls[best] >= _ROLL_M[0] / 2:
+                corners, roll_m = shorter[best], rolls[best]
+                along = corners[-1] - corners[-2]
+                corners = np.concatenate([corners, [corners[-1] + roll_m * along / np.hypot(*along)]])
         walk = Walk(corners)
         if walk.length_m < 4 * PUSHED_M + roll_m:
             return []
@@ -348,7 +352,7 @@ class People:
         old = walker.stage, walker.samples
         kept = {name: getattr(walker, name) for name in _OF_STAGE}
         walker.enter(stage)
-        front = stage.begin_m + max(stage.trolley, 0) * PUSHED_M
+        front = PUSHED_M if stage.trolley > 0 else max(stage.begin_m - _BEHIND_M, 0.0)
         last = min(int(front / SLICE_M), stage.walk.slices - 1)
         last = stage.walk.groups[last]
         if not self._is_free(walker, walker.held, last, slack_m=_SLACK_M):
@@ -398,6 +402,9 @@ class People:
     def _lose_patience(self, walker: Walker) -> None:
         number = len(walker.legs)
         self._go_around(walker)
+        if walker.stage.trolley > 0 and number == len(walker.legs) and walker.blocked_steps > _TAIL_STEPS:
+            # who cannot get through takes the trolley back
+            self._go_on(walker)
         if len(walker.legs) > number:
             walker.blocked_steps = 0
         else:
@@ -418,6 +425,11 @@ class People:
             if walker.is_coming:
                 self._missing[walker.person.car] -= 1
             return
+        self._go_on(walker)
+        walker.note(step, is_still=True)
+
+    def _go_on(self, walker: Walker) -> None:
+        """Begin the next stage as soon as its first ground is free."""
         following = walker.stages[1]
         if following.trolley < 0:
             here, trolley = walker.walk.places(np.array([walker.way_m, walker.trolley_m]))
@@ -430,9 +442,10 @@ class People:
         if following.trolley >= 0 and old[0].trolley:
             # the trolley is back at the core
             following = self._on_foot(walker, following)
-        if not self._turn(walker, following):
+        if self._turn(walker, following):
+            walker.goal = None
+        else:
             walker.stages = old
-        walker.note(step, is_still=True)
 
     def _on_foot(self, walker: Walker, stage: Stage) -> Stage:
         """Return a stage that begins where a person has left a trolley."""

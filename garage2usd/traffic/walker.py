@@ -247,6 +247,7 @@ class Walker:
         """Walk on for a step, up to a distance."""
         before, way, a = self.now_m_s, self.way_m, ACCELERATION_M_S2
         low, high, speed = self.walk.fast
+        end_m = max(end_m, way)
         limit = speed if low <= way < high else self.person.speed_m_s
         left, half = end_m - way - before * STEP_S / 2, a * STEP_S / 2
         most = math.sqrt(half * half + 2 * a * left) - half if left > 0 else 0.0
