@@ -434,8 +434,11 @@ class People:
         if following.trolley < 0:
             here, trolley = walker.walk.places(np.array([walker.way_m, walker.trolley_m]))
             back = self._walkers.levels[walker.level].walk((float(here[0]), float(here[1])), is_wide=True)
-            if back is None:
-                back = walker.walk.corners[walker.walk.lengths_m < walker.way_m][::-1]
+            came = walker.walk.corners[walker.walk.lengths_m < walker.way_m - SLICE_M][::-1]
+            back = np.concatenate([[here], came]) if back is None else back
+            # a person does not walk back through the trolley
+            while len(back) > 2 and float((back[1] - here) @ (here - trolley)) < 0:  # noqa: PLR2004
+                back = np.delete(back, 1, axis=0)
             following = replace(following, walk=Walk(np.concatenate([[trolley], back])), begin_m=PUSHED_M)
         old = walker.stages
         walker.stages = [old[0], *old[2:]]
