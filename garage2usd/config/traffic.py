@@ -4,7 +4,7 @@ import math
 from enum import StrEnum
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, field_validator
 
 from garage2usd.common.settings import Settings
 
@@ -44,7 +44,23 @@ class TrafficConfig(Settings):
     """Mean number of arrivals per hour, from which the stays follow by Little's law; if left out, arrivals follow from
     the stays and the occupancy."""
     people: bool = True
-    """True if drivers walk between their cars and the stair cores."""
+    """True if people walk between their cars and the stair cores."""
+    people_in_car: tuple[float, float, float, float] = (0.66, 0.23, 0.07, 0.04)
+    """Shares of cars with one, two, three and four people, 1.5 on average as in Mobilität in Deutschland 2017; those of
+    a car walk together."""
+    running_children: float = Field(0.05, ge=0.0, le=1.0)
+    """Share of cars with passengers of which one is a child who runs across the aisle."""
+    trolleys: float = Field(0.05, ge=0.0, le=1.0)
+    """Share of drivers who bring their shopping to the car in a trolley, and take it back to the stair core."""
+    loose_trolleys: float = Field(0.2, ge=0.0, le=1.0)
+    """Share of these trolleys that roll away while they are unloaded."""
+
+    @field_validator("people_in_car")
+    @classmethod
+    def _are_shares(cls, shares: tuple[float, ...]) -> tuple[float, ...]:
+        if min(shares) < 0 or not math.isclose(sum(shares), 1.0, abs_tol=1e-6):
+            raise ValueError("four shares of at least 0 whose sum is 1")
+        return shares
 
     def occupancy(self, hour: float) -> float:
         """Return the mean occupancy at an hour of the day, linear between the table's hours."""

@@ -8,7 +8,6 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import binary_dilation
 
 from garage2usd.native import elementary
 
@@ -75,13 +74,11 @@ class Raster:
         """Return the cells that hold a disc at each (x, z); shape (n, 2)."""
         radius = radius_m + CELL_M * math.sqrt(0.5)
         steps = np.arange(-math.ceil(radius / CELL_M) - 1, math.ceil(radius / CELL_M) + 2)
-        found = []
-        for x, z in places.tolist():
-            col, row = round(x / CELL_M) + steps, round(z / CELL_M) + steps
-            inside = np.hypot((col * CELL_M - x)[None, :], (row * CELL_M - z)[:, None]) <= radius
-            at = np.nonzero(inside)
-            found.append(self._number(col[at[1]], row[at[0]], layer))
-        return found
+        cols, rows = np.moveaxis(np.round(places / CELL_M).astype(np.int64)[:, :, None] + steps, 1, 0)
+        away_x, away_z = cols * CELL_M - places[:, :1], rows * CELL_M - places[:, 1:]
+        place, row, col = np.nonzero(np.hypot(away_x[:, None, :], away_z[:, :, None]) <= radius)
+        numbers = self._number(cols[place, col], rows[place, row], layer)
+        return np.split(numbers, np.searchsorted(place, np.arange(1, len(places))))
 
     def _number(self, col: Cells, row: Cells, layer: Cells | int) -> Cells:
         col = np.clip(col - self._low[layer, 0], 0, self._columns[layer] - 1)
@@ -89,16 +86,19 @@ class Raster:
         cells: Cells = self._first[layer] + row * self._columns[layer] + col
         return cells
 
-    def are_near(self, marked: NDArray[np.bool_], places: Floats, layer: int, radius_m: float) -> NDArray[np.bool_]:
-        """Return True for places (x, z) of a layer within a distance of marked cells; shape (n,)."""
-        own = slice(int(self._first[layer]), int(self._first[layer + 1]))
-        reach = math.ceil(radius_m / CELL_M)
-        steps = np.arange(-reach, reach + 1) * CELL_M
-        disc = np.hypot(steps[:, None], steps[None, :]) <= radius_m
-        near = binary_dilation(marked[own].reshape(int(self._rows[layer]), int(self._columns[layer])), disc)
-        cells = np.round(places / CELL_M).astype(np.int64) - self._low[layer]
-        found: NDArray[np.bool_] = near[cells[:, 1], cells[:, 0]]
-        return found
+    def marked(self, is_marked: NDArray[np.bool_], layer: int) -> Floats:
+        """Return the middles (x, z) of marked cells of a layer; shape (n, 2)."""
+        own = np.flatnonzero(is_marked[self._first[layer] : self._first[layer + 1]])
+        return self._middles(own, layer)
+
+    def places(self, cells: Cells, layer: int) -> Floats:
+        """Return the middles (x, z) of those cells that are of a layer; shape (n, 2)."""
+        own = cells[(cells >= self._first[layer]) & (cells < self._first[layer + 1])] - self._first[layer]
+        return self._middles(own, layer)
+
+    def _middles(self, own: Cells, layer: int) -> Floats:
+        middles: Floats = (np.stack(np.divmod(own, self._columns[layer])[::-1], axis=1) + self._low[layer]) * CELL_M
+        return middles
 
 
 class Ground:
@@ -124,14 +124,9 @@ class Ground:
         self._held = np.zeros(raster.size, dtype=np.int16)
         self.people = np.zeros(raster.size, dtype=np.int16)
 
-    def near_cars(
-        self, places: Floats, layer: int, radius_m: float, *, wanted: Sequence[Cells] = ()
-    ) -> NDArray[np.bool_]:
-        """Return True for places (x, z) within a distance of ground that a car holds, or wants; shape (n,)."""
-        held = self.owner > 0
-        for cells in wanted:
-            held[cells] = True
-        return self.raster.are_near(held, places, layer, radius_m)
+    def of_cars(self, layer: int) -> Floats:
+        """Return the middles (x, z) of the cells of a layer that cars hold; shape (n, 2)."""
+        return self.raster.marked(self.owner > 0, layer)
 
     def is_free(self, cells: Cells, agent: int) -> bool:
         """Return True if cells are held by nobody but a car itself."""

@@ -131,7 +131,7 @@ class _Run:
         self.ground = operation.new_ground()
         self.cars = Simulation(self.ground, operation._settings)  # noqa: SLF001 - the run is the operation's own
         self.draw = generator(seed, Step.TRAFFIC_CARS)
-        self.people = operation.walkers.begin(self.ground, generator(seed, Step.TRAFFIC_PEOPLE))
+        self.people = operation.walkers.begin(self.ground, settings, generator(seed, Step.TRAFFIC_PEOPLE))
         self.people.wanted = self.cars.wanted
         self.log: list[str] = []
         self.counts: Counter[str] = Counter()
@@ -206,7 +206,8 @@ class _Run:
         ).rounded()
 
     def _note_stuck(self) -> None:
-        """Name the cars that have waited for more than three minutes at the end."""
+        """Name the cars that have waited for more than three minutes at the end, and people who have stood so long."""
+        self.log += self.people.stuck()
         for driver in self.cars.drivers:
             waited_s = (self.cars.step - driver.waits_since) * STEP_S if driver.waits_since >= 0 else 0.0
             if waited_s > _STUCK_S:
