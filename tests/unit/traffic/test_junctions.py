@@ -26,6 +26,7 @@ _LANES = LaneGraph(
     tuple(LaneEdge(0, number, 6.0, one_way=False) for number in (1, 2, 3, 4)),
 )
 _RASTER = Raster(np.array([[[-60.0, -60.0], [60.0, 60.0]]]))
+_AHEAD = (Piece(Gear.FORWARD, 2 * _REACH_M - 6.0),)
 _LEFT_TURN = (
     Piece(Gear.FORWARD, _REACH_M - 5.0),
     Piece(Gear.FORWARD, 3.0, 0.0, 1 / 6),
@@ -35,7 +36,7 @@ _LEFT_TURN = (
 )
 
 
-def _trip(quarter, *, keeps_left=False, ahead_m=0.0, pieces=(Piece(Gear.FORWARD, 2 * _REACH_M - 6.0),)):
+def _trip(quarter, *, keeps_left=False, ahead_m=0.0, pieces=_AHEAD):
     """A trip over the crossing whose heading is some quarters of a turn left of -Z."""
     yaw = quarter * math.pi / 2
     aside = -_ASIDE_M if keeps_left else _ASIDE_M
@@ -61,7 +62,7 @@ def _order(trips):
     drivers = [cars.try_start(number, trip) for number, trip in enumerate(trips, 1)]
     assert all(drivers)
     for _ in range(900):
-        cars.advance(lambda driver: cars.leave_ground(driver))
+        cars.advance(cars.leave_ground)
     passed = [next(step for step, way_m, *_ in driver.samples if way_m > _REACH_M) for driver in drivers]
     assert all(driver.is_done for driver in drivers)
     return [int(number) for number in np.argsort(passed)]
