@@ -4,7 +4,8 @@
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from functools import lru_cache
+from dataclasses import replace
+from functools import cached_property, lru_cache
 
 import numpy as np
 import shapely
@@ -19,7 +20,7 @@ from garage2usd.driving import DesignCar, Pose
 from garage2usd.driving.manoeuvre import Gear
 from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.tracks import Track, Tracks
-from garage2usd.garage import Stall, StallUse
+from garage2usd.garage import LaneGraph, Stall, StallUse
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.native import elementary
 from garage2usd.traffic.demand import drawn_demand
@@ -34,9 +35,11 @@ _SPEEDS = DriveConfig(lane_speed_m_s=4.2, parking_speed_m_s=1.0, acceleration_m_
 """Speeds of drivers who know garages: 15 km/h on aisles."""
 _PATIENCE_S, _STUCK_S = 45.0, 180.0
 _COUNTED = ("arrivals", "departures", "turned_away", "changed", "stuck", "walks")
+_HELD_S = 60.0
+"""Time after which cars on the street let one go first that cannot get out of its stall."""
 _CHOICES = 24
 _TRIED, _MOST = 12, 0.7
-_NOISE_M = 15.0
+_NOISE_M, _WRONG_WAY_M = 15.0, 5.0
 _SOON_S, _HALT_S = (10.0, 90.0), (40.0, 90.0)
 """Time until a car leaves for whose stall another one waits, and time for which a car stands double-parked."""
 _EASES_M = (0.3, 0.6, 0.9, -0.3, -0.6, -0.9)
@@ -92,9 +95,28 @@ class Operation:
         """Return the ground of the garage with nobody on it."""
         return Ground(self._raster)
 
-    def _trip(self, stall: Stall, leg: Leg, parked: Pose | None = None) -> Trip | None:
+    @cached_property
+    def _unruly(self) -> DrivePlanner:
+        """Planner of drives for which one-way aisles are open both ways."""
+        levels = [
+            replace(
+                level, lanes=LaneGraph(level.lanes.nodes, tuple(e._replace(one_way=False) for e in level.lanes.edges))
+            )
+            for level in self.garage.levels
+        ]
+        garage = replace(self.garage, levels=tuple(levels))
+        return DrivePlanner(garage, self._settings, car=self.hull, are_stalls_changing=True)
+
+    def wrong_way(self, stall: Stall) -> Trip | None:
+        """Return a trip to a stall that is driven against a one-way aisle for some metres; None if there is none."""
+        if all(not edge.one_way for lanes in self._lanes for edge in lanes.edges):
+            return None
+        trip = self.trip(stall, Leg.IN, obeys=False)
+        return trip if trip is not None and trip.against_m() >= _WRONG_WAY_M else None
+
+    def _trip(self, stall: Stall, leg: Leg, parked: Pose | None = None, *, obeys: bool = True) -> Trip | None:
         """Return the trip to a stall or away from it; None if none is clear of cars in all other stalls."""
-        found, path = self._planner.leg(stall, leg, parked=parked), None
+        found, path = (self._planner if obeys else self._unruly).leg(stall, leg, parked=parked), None
         for ahead_m in _EASES_M if parked is not None and found is None else ():
             # a shorter car stands where the outline would reach into a wall: it drives straight ahead until it does not
             assert parked is not None
@@ -180,10 +202,11 @@ class _Run:
 
     def _leaving(self, parked: Sequence[Visit]) -> list[Visit]:
         """Return the parked cars that leave; those that no path leads out hand their time on to one that stays."""
-        found, others = [], [visit for visit in parked if math.isinf(visit.leave_s)]
-        for each in parked:
+        found: list[Visit] = []
+        others = [visit for visit in parked if math.isinf(visit.leave_s)]
+        for each in [visit for visit in parked if math.isfinite(visit.leave_s)]:
             visit, leave_s = each, each.leave_s
-            while math.isfinite(leave_s):
+            while True:
                 visit.leave_s = leave_s
                 assert visit.stall is not None
                 if self.operation.trip(visit.stall, Leg.OUT, visit.parked) is not None:
@@ -214,8 +237,8 @@ class _Run:
             if step % 600 == 0:
                 progress("traffic", step // 600, math.ceil(steps / 600))
             if step % 5 == 0:
-                self._admit()
                 self._call()
+                self._admit()
                 self._reconsider()
                 self._lift_barriers()
             self.people.advance(self.cars.step)
@@ -250,23 +273,26 @@ class _Run:
             time, stay = self.arrivals.pop(0)
             car = drawn_car(len(self.of_car) + 1, self.operation.hull, self.draw)
             visit = self.of_car[car.number] = Visit(car, come_s=time, leave_s=time + stay)
-            has_permit, waits, double_parks = (
-                self.draw.uniform(size=3)
-                < [self.settings.permits, self.settings.waits_for_stall, self.settings.double_parks]
-            ).tolist()
+            own = self.settings
+            shares = own.permits, own.waits_for_stall, own.double_parks, own.wrong_way
+            has_permit, waits, double_parks, errs = (self.draw.uniform(size=len(shares)) < shares).tolist()
             has_permit = has_permit and self._choose(visit, among=self.operation.accessible)
             if has_permit:
                 visit.behaviour = "permit"
             if has_permit or (waits and self._wait_for_stall(visit)) or self._choose(visit):
                 if double_parks and not visit.behaviour:
                     self._double_park(visit)
+                elif errs and not visit.behaviour and visit.stall is not None:
+                    visit.wrong_way = self.operation.wrong_way(visit.stall)
+                    visit.behaviour = "wrong_way" if visit.wrong_way is not None else ""
                 self.street.append((visit, self.now_s))
             else:
                 self.counts["turned_away"] += 1
                 self.log.append(f"{time:.1f} s: {car.agent.name} is turned away, as no free stall can take it")
-        for visit, since in self.street[:]:
+        is_held = any(self.now_s - visit.ready_s > _HELD_S for visit in self.staying)
+        for visit, since in self.street[:] if not is_held else ():
             assert visit.stall is not None
-            trip = self.operation.trip(visit.stall, Leg.IN)
+            trip = visit.wrong_way or self.operation.trip(visit.stall, Leg.IN)
             assert trip is not None
             driver = self.cars.try_start(visit.car.number, trip, visit.barrier)
             if driver is not None:
@@ -347,7 +373,9 @@ class _Run:
         if visit.awaits is None or stall.name not in self.awaited:
             self.taken.discard(stall.name)
         self.awaited.discard(stall.name)
-        visit.awaits = visit.barrier = None
+        visit.awaits = visit.barrier = visit.wrong_way = None
+        if not visit.begun:
+            visit.behaviour = ""
 
     def _reconsider(self) -> None:
         """Let drivers who cannot go on to their stall choose another one that lies on their way."""

@@ -231,6 +231,24 @@ class Trip:
         near = self.waits()[-_BESIDE_SLICES:]
         return next((number for number in reversed(near) if not np.isin(self.cells[number], passed).any()), None)
 
+    def against_m(self) -> float:
+        """Return the distance that the car drives forward against one-way aisles."""
+        poses, plan = self._nodes
+        ahead = np.stack([-elementary.sin(poses[:, 2]), -elementary.cos(poses[:, 2])], axis=1)
+        ends = [stretch.end_m for stretch in self.stretches[:-1]]
+        stretch = np.searchsorted(ends, plan, side="right")
+        forward = self.signs(np.interp(plan, self._plan_of[1], self._plan_of[0])) > 0
+        is_against = np.zeros(len(poses), dtype=bool)
+        for number, each in enumerate(self.stretches):
+            for start, along, length_m, width_m, one_way, _ in (
+                _aisles(self._lanes[each.level]) if each.level is not None else ()
+            ):
+                away = poses[:, :2] - start
+                run, right = away @ along, away @ np.array([-along[1], along[0]])
+                here = (stretch == number) & (run >= 0) & (run <= length_m) & (np.abs(right) <= width_m / 2)
+                is_against |= here & forward & one_way & (ahead @ along < -_IN_LINE)
+        return float(is_against.sum()) * SLICE_M / (_NODES_A_SLICE - 1)
+
     def _may_wait(self, poses: Floats, plan: Floats) -> NDArray[np.bool_]:
         """Find the poses at which a waiting car leaves room for oncoming and for crossing traffic.
 

@@ -12,6 +12,7 @@ from garage2usd.garage import Stall
 from garage2usd.native import elementary
 from garage2usd.traffic.fleet import Car
 from garage2usd.traffic.simulation import STEP_S, Driver
+from garage2usd.traffic.trips import Trip
 
 
 @dataclass(eq=False)
@@ -41,7 +42,9 @@ class Visit:
     awaits
         That other visit.
     halts_s
-        Time for which it stands double-parked; counted down.
+        Time for which it stands double-parked.
+    wrong_way
+        Its trip to the stall, if it drives against a one-way aisle.
     is_leaving
         True after its stay.
     has_left
@@ -60,6 +63,7 @@ class Visit:
     barrier: int | None = None
     awaits: "Visit | None" = None
     halts_s: float = 0.0
+    wrong_way: Trip | None = None
     is_leaving: bool = False
     has_left: bool = False
 

@@ -152,3 +152,31 @@ def test_a_garage_whose_stalls_no_lane_joins_is_refused(garage):
     bare = replace(garage, lanes=LaneGraph(garage.lanes.nodes, ()))
     with pytest.raises(ConfigError, match="a stall that lanes join with the street"):
         Operation(bare)
+
+
+@pytest.mark.soak
+def test_some_drive_against_one_way_aisles():
+    plan = {"aisles": "one-way"}
+    made = generate(GarageConfig(seed=3, site={"width_cells": 10, "height_cells": 8}, plan=plan))
+    garage = built_source(made, source="a garage").garage
+    settings = TrafficConfig(minutes=8, arrivals_per_hour=110, wrong_way=1.0)
+    tracks = Operation(garage).run(settings, seed=1)
+    errant = [track for track in tracks if track.agent.behaviour == "wrong_way"]
+    assert errant
+    nodes = garage.lanes.positions_m
+    for track in errant:
+        steps = np.stack([np.diff(track.x_m), np.diff(track.z_m)], axis=1)
+        middles = np.stack([track.x_m, track.z_m], axis=1)[:-1] + steps / 2
+        against_m = 0.0
+        for edge in garage.lanes.edges:
+            along = nodes[edge.end] - nodes[edge.start]
+            length_m = float(np.hypot(*along))
+            away = middles - nodes[edge.start]
+            run, aside = away @ along / length_m, (away[:, 0] * along[1] - away[:, 1] * along[0]) / length_m
+            on = edge.one_way & (run >= 0) & (run <= length_m) & (np.abs(aside) < edge.width_m / 2)
+            against_m += float(
+                -(steps[on & (track.state[:-1] == AgentState.DRIVES)] @ along / length_m).clip(max=0).sum()
+            )
+        assert against_m > 4.0, track.agent.name
+    verdict = judge(tracks, garage, own=list(tracks.facts["cars_of_people"].items()))
+    assert [str(touch) for touch in verdict.overlaps if touch.kind in {"car-car", "car-building"}] == []
