@@ -4,10 +4,12 @@ import math
 
 import numpy as np
 import pytest
+import shapely
 from support.tracks_judge import judge
 
 from garage2usd import GarageConfig, generate
 from garage2usd.common.errors import ConfigError
+from garage2usd.config.outputs import Leg
 from garage2usd.config.traffic import TrafficConfig
 from garage2usd.driving.tracks import AgentClass, AgentState
 from garage2usd.garage import StallUse
@@ -26,7 +28,8 @@ _BUSY = TrafficConfig(minutes=8, arrivals_per_hour=110)
 
 @pytest.fixture(scope="module")
 def garage():
-    made = generate(GarageConfig(seed=3, site={"width_cells": 9, "height_cells": 7}))
+    fittings = {"cone_rate": 0.15}
+    made = generate(GarageConfig(seed=3, site={"width_cells": 9, "height_cells": 7}, fittings=fittings))
     return built_source(made, source="a garage").garage
 
 
@@ -43,7 +46,7 @@ def tracks(operation):
 @pytest.fixture(scope="module")
 def special(operation):
     """Half of the cars double-park or wait for a stall, and some have a permit."""
-    shares = {"permits": 0.2, "waits_for_stall": 0.5, "double_parks": 0.5}
+    shares = {"permits": 0.2, "waits_for_stall": 0.5, "double_parks": 0.5, "people": False}
     return operation.run(_BUSY.model_copy(update=shares), seed=2)
 
 
@@ -78,8 +81,6 @@ def test_cars_arrive_park_and_leave(tracks):
 
 
 def test_cars_stand_parked_within_their_stalls(garage, tracks):
-    import shapely
-
     stalls = {stall.name: shapely.Polygon(stall.corners) for stall in garage.stalls}
     for track in tracks:
         if track.agent.kind is AgentClass.PERSON or track.state[-1] != AgentState.PARKED:
@@ -95,6 +96,19 @@ def test_no_stall_holds_two_cars(tracks):
         if track.agent.kind is not AgentClass.PERSON and track.state[-1] == AgentState.PARKED
     ]
     assert len(parked) == len(set(parked))
+
+
+def test_nobody_parks_in_a_stall_that_cones_close(garage, operation):
+    (level,) = garage.levels
+    feet = [piece for _, label, pieces in level.solids.grounds(2.0) if label == "traffic_cone" for piece in pieces]
+    within = [shapely.box(*shapely.Polygon(stall.corners).buffer(-0.3).bounds) for stall in operation.stalls]
+    closed = [
+        stall
+        for stall, ground in zip(operation.stalls, within, strict=True)
+        if any(ground.contains(foot.centroid) for foot in feet)
+    ]
+    assert closed
+    assert [stall.name for stall in closed if operation.trip(stall, Leg.IN) is not None] == []
 
 
 def test_special_cases_are_labelled_and_do_what_they_say(garage, special):
