@@ -34,7 +34,7 @@ from garage2usd.traffic.visits import Visit, car_track, outline
 _SPEEDS = DriveConfig(lane_speed_m_s=4.2, parking_speed_m_s=1.0, acceleration_m_s2=1.2, lateral_acceleration_m_s2=1.8)
 """Speeds of drivers who know garages: 15 km/h on aisles."""
 _PATIENCE_S, _STUCK_S = 45.0, 180.0
-_COUNTED = ("arrivals", "departures", "turned_away", "changed", "stuck", "walks")
+_COUNTED = ("arrivals", "departures", "turned_away", "changed", "queued", "stuck", "walks")
 _HELD_S = 60.0
 """Time after which cars on the street let one go first that cannot get out of its stall."""
 _CHOICES = 24
@@ -264,7 +264,7 @@ class _Run:
         for visit in self.of_car.values():
             for where, begin_s, waited_s in visit.waits(self.now_s):
                 if waited_s > _STUCK_S:
-                    self.counts["stuck"] += 1
+                    self.counts["queued" if where == "on the street" else "stuck"] += 1
                     self.log.append(f"{begin_s:.1f} s: {visit.car.agent.name} has to wait {where} for {waited_s:.0f} s")
 
     def _admit(self) -> None:
