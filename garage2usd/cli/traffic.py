@@ -17,7 +17,9 @@ _SHOWN = 8
 @click.option("--minutes", type=float, metavar="MINUTES", help="Duration; 25 unless the settings say otherwise.")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Seed of the run.")
 @click.option("--hour", type=float, metavar="HOUR", help="Hour of the day at the start, 0 to 24.")
-@click.option("--arrivals-per-hour", type=float, metavar="NUMBER", help="Mean number of cars that arrive in an hour.")
+@click.option(
+    "--arrivals-per-hour", type=float, metavar="NUMBER", help="Mean number of cars that arrive in an hour, and leave."
+)
 @click.option("--people/--no-people", default=None, help="Let people walk between their cars and the stair cores.")
 @click.option(
     "--output",
@@ -42,9 +44,9 @@ def traffic(
 
     PATH is a stage, the report of a build, or a configuration with a structure. Arrivals are a Poisson process whose
     rate follows the occupancy by hour of the day. Cars keep to their side of two-way aisles, drive only over ground
-    that they have reserved, and wait where they block nobody, so that no two touch. The settings are those of
-    `[traffic]`, among them the shares of cars with passengers (`people_in_car`), with a child who runs
-    (`running_children`), and of drivers with a shopping trolley (`trolleys`) that rolls away (`loose_trolleys`).
+    that they have reserved, and wait where they block nobody, so that no two touch. At junctions they yield by the
+    country's rule. The settings are those of `[traffic]`, among them the shares of cars that wait for a stall,
+    double-park or use an accessible stall, of cars with passengers, of children who run and of shopping trolleys.
 
     \b
     Examples:

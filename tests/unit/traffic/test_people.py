@@ -47,7 +47,9 @@ def test_people_and_trolleys_touch_nothing(operation, tracks):
     walking = ("person", "trolley")
     assert [str(touch) for touch in verdict.overlaps if any(kind in touch.kind for kind in walking)] == []
     # the own car may be as close as a door asks for, also one that has not moved yet
-    near = [touch for touch in verdict.close if touch.kind == "car-person" and "/Car_" not in f"{touch.one}{touch.other}"]
+    near = [
+        touch for touch in verdict.close if touch.kind == "car-person" and "/Car_" not in f"{touch.one}{touch.other}"
+    ]
     assert [str(touch) for touch in near] == []
     assert verdict.faults == []
 
