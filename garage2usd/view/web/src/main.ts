@@ -439,7 +439,7 @@ class Viewer {
 
   /** What no panel covers, from -1 to 1 as a camera has it. */
   private freeView(): { left: number; right: number; bottom: number; top: number } {
-    if (this.filming) return { left: -0.97, right: 0.97, bottom: -0.97, top: 0.97 };
+    if (this.filming) return { left: -0.97, right: 0.97, bottom: -0.97, top: 0.92 };
     const [width, height] = [window.innerWidth, window.innerHeight];
     const [bar, layers, map] = ["bar", "layers", "map"].map((id) => element(id).getBoundingClientRect());
     return {
