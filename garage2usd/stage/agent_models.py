@@ -10,8 +10,8 @@ from garage2usd.assets.mesh import make_part
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody
 from garage2usd.driving.tracks import Agent, AgentClass
+from garage2usd.objects import trolley
 from garage2usd.objects.car import car_spec
-from garage2usd.objects.trolley import TrolleySpec
 from garage2usd.stage.authoring import define, operation, order_operations
 from garage2usd.stage.moving_car import define_car, define_looks, define_parts
 from garage2usd.stage.prototypes import asset_of
@@ -20,8 +20,8 @@ from garage2usd.stage.walkers import define_figure
 
 CARS = (AgentClass.CAR, AgentClass.VAN, AgentClass.TRUCK)
 _TYPES = Sdf.ValueTypeNames
-_OBJECTS = {"trolley": TrolleySpec()}
-"""Objects by the kinds of agents that are neither cars nor people."""
+_OBJECTS = {trolley.KIND.label: trolley.TrolleySpec()}
+"""Objects by the classes of agents that are neither cars nor people."""
 
 
 class AgentModels:

@@ -178,7 +178,7 @@ def test_an_agent_of_another_kind_is_an_object_or_a_block_of_its_size(played, tm
     tracks, _ = played
 
     class Kinds(StrEnum):
-        TROLLEY = "trolley"
+        TROLLEY = "shopping_trolley"
         ROBOT = "robot"
 
     odd = [
