@@ -59,7 +59,7 @@ class TrafficConfig(Settings):
     a car walk together."""
     running_children: float = Field(0.05, ge=0.0, le=1.0)
     """Share of cars with passengers of which one is a child who runs across the aisle."""
-    trolleys: float = Field(0.05, ge=0.0, le=1.0)
+    trolleys: float = Field(0.0, ge=0.0, le=1.0)
     """Share of drivers who bring their shopping to the car in a trolley, and take it back to the stair core."""
     loose_trolleys: float = Field(0.2, ge=0.0, le=1.0)
     """Share of these trolleys that roll away while they are unloaded."""
