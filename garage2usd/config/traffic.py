@@ -46,9 +46,9 @@ class TrafficConfig(Settings):
     the stays and the occupancy."""
     permits: float = Field(0.02, ge=0.0, le=1.0)
     """Share of the arriving cars that have a permit for accessible stalls, which they prefer."""
-    waits_for_stall: float = Field(0.02, ge=0.0, le=1.0)
+    waits_for_stall: float = Field(0.0, ge=0.0, le=1.0)
     """Share of the arriving cars that wait on the aisle for a stall whose car is about to leave, where there is one."""
-    double_parks: float = Field(0.01, ge=0.0, le=1.0)
+    double_parks: float = Field(0.0, ge=0.0, le=1.0)
     """Share of the arriving cars that stop on an aisle for a minute or so on their way."""
     wrong_way: float = Field(0.0, ge=0.0, le=1.0)
     """Share of the arriving cars that drive against a one-way aisle, where that leads to their stalls."""

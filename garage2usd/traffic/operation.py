@@ -35,8 +35,6 @@ _SPEEDS = DriveConfig(lane_speed_m_s=4.2, parking_speed_m_s=1.0, acceleration_m_
 """Speeds of drivers who know garages: 15 km/h on aisles."""
 _PATIENCE_S, _STUCK_S = 45.0, 180.0
 _COUNTED = ("arrivals", "departures", "turned_away", "changed", "queued", "stuck", "walks")
-_HELD_S = 60.0
-"""Time after which cars on the street let one go first that cannot get out of its stall."""
 _CHOICES = 24
 _TRIED, _MOST = 12, 0.7
 _NOISE_M, _WRONG_WAY_M = 15.0, 5.0
@@ -237,8 +235,8 @@ class _Run:
             if step % 600 == 0:
                 progress("traffic", step // 600, math.ceil(steps / 600))
             if step % 5 == 0:
-                self._call()
                 self._admit()
+                self._call()
                 self._reconsider()
                 self._lift_barriers()
             self.people.advance(self.cars.step)
@@ -290,8 +288,7 @@ class _Run:
             else:
                 self.counts["turned_away"] += 1
                 self.log.append(f"{time:.1f} s: {car.agent.name} is turned away, as no free stall can take it")
-        is_held = any(self.now_s - visit.ready_s > _HELD_S for visit in self.staying)
-        for visit, since in self.street[:] if not is_held else ():
+        for visit, since in self.street[:]:
             assert visit.stall is not None
             trip = visit.wrong_way or self.operation.trip(visit.stall, Leg.IN)
             assert trip is not None

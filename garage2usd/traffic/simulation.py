@@ -4,6 +4,7 @@ A car drives on only over ground that it holds, and it holds ground up to a plac
 two such places, a junction, a narrow aisle or a manoeuvre, is reserved at once or not at all, so that no car stops
 where it blocks others for good.
 """
+# Over 300 lines: who holds ground, who waits for whom and who goes first change the same cars.
 
 import math
 from collections.abc import Callable
