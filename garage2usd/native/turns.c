@@ -65,3 +65,54 @@ void write_straight(double curvature, double sharpness, const double *nodes, int
     straight[0] = ahead.re - other.re;
     straight[1] = ahead.im - other.im;
 }
+
+/* Columns of the samples of a first turn: its angle, its displacement, the direction back from its end, and the
+ * displacement of the second turn. */
+enum { ANGLE, FIRST, ONTO = 3, LAST = 5, COLUMNS = 7 };
+enum { MOST_TRIES = 200 };
+
+/* Write the first turns of paths to (x, y), each with the straight after it; returns their number. Between two samples
+ * whose misses differ in sign lies a root, found by false position (the Illinois algorithm). */
+FROM_PYTHON
+int64_t write_roots(double curvature, double sharpness, const double *nodes, int64_t count, double x, double y,
+                    double turned, const double *samples, int64_t rows, double same, double *roots)
+{
+    int64_t found = 0;
+    double before = 0;
+    for (int64_t at = 0; at < rows; at++) {
+        const double *row = samples + at * COLUMNS;
+        Complex ahead = product((Complex){x - row[FIRST], y - row[FIRST + 1]}, (Complex){row[ONTO], row[ONTO + 1]});
+        double miss = ahead.im - row[LAST + 1];
+        if (fabs(miss) < same) {
+            roots[2 * found] = row[ANGLE];
+            roots[2 * found++ + 1] = ahead.re - row[LAST];
+            miss = 0; /* no root between this sample and the next */
+        } else if (before * miss < 0) {
+            double low = row[ANGLE - COLUMNS], high = row[ANGLE], low_miss = before, high_miss = miss;
+            double root = high, last = low, here[2] = {0, 0};
+            int side = 0;
+            for (int tries = 0; tries < MOST_TRIES && fabs(root - last) > 1e-14; tries++) {
+                last = root;
+                root = (low * high_miss - high * low_miss) / (high_miss - low_miss);
+                write_straight(curvature, sharpness, nodes, count, x, y, root, turned, here);
+                if (here[1] == 0)
+                    break;
+                if (here[1] * high_miss > 0) {
+                    high = root;
+                    high_miss = here[1];
+                    low_miss = side > 0 ? low_miss / 2 : low_miss;
+                    side = 1;
+                } else {
+                    low = root;
+                    low_miss = here[1];
+                    high_miss = side < 0 ? high_miss / 2 : high_miss;
+                    side = -1;
+                }
+            }
+            roots[2 * found] = root;
+            roots[2 * found++ + 1] = here[0];
+        }
+        before = miss;
+    }
+    return found;
+}
