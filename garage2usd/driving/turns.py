@@ -13,14 +13,13 @@ from numpy.typing import NDArray
 
 from garage2usd.driving.car import Pose
 from garage2usd.driving.manoeuvre import Gear
-from garage2usd.driving.path import GAUSS, WEIGHTS, Floats, Piece
+from garage2usd.driving.path import GAUSS, NODES, WEIGHTS, Floats, Piece
 from garage2usd.native import Float64s, elementary, in_c
 
 _MOST_RAD = 2.4
 """Greatest angle of each of the two turns."""
 _SCAN_RAD = math.radians(2.0)
 _SAME_M, _SAME_RAD = 1e-6, 1e-9
-_NODES = np.stack([GAUSS, WEIGHTS], axis=1)
 
 
 @in_c
@@ -138,7 +137,7 @@ def _turning(across: complex, turned: float, steering: Steering) -> Iterator[tup
     """Yield a turn, a straight and a turn that lead to a point ahead, and by an angle to the left in all."""
     scan = _scanned(steering, turned)
     roots = np.empty((len(scan), 2))
-    limits = steering.curvature_per_m, steering.sharpness_per_m2, _NODES, len(_NODES)
+    limits = steering.curvature_per_m, steering.sharpness_per_m2, NODES, len(NODES)
     found = _write_roots(*limits, across.real, across.imag, turned, scan, len(scan), _SAME_M, roots)
     for root, straight_m in roots[:found].tolist():
         if straight_m >= 0:

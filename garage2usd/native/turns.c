@@ -1,5 +1,5 @@
 /* Smooth turns: a clothoid, an arc at full lock or none, and the clothoid back, for the search of roots in
- * garage2usd.driving.turns. */
+ * garage2usd.driving.turns, and the points of paths. */
 #include "elementary.h"
 
 /* Limits of turns, and nodes and weights of Gauss's quadrature from -1 to 1, in turn. */
@@ -115,4 +115,51 @@ int64_t write_roots(double curvature, double sharpness, const double *nodes, int
         before = miss;
     }
     return found;
+}
+
+/* Write the displacement (east, north) of a clothoid up to some of its length, by Gauss's quadrature. */
+static Complex moved(double into, double sign, double curvature, double rate, double yaw, const double *nodes,
+                     int64_t count)
+{
+    Complex sum = {0, 0};
+    if (curvature == 0 && rate == 0) {
+        sum = direction(yaw);
+    } else {
+        for (int64_t at = 0; at < count; at++) {
+            double way = into / 2 * (1 + nodes[2 * at]), half = nodes[2 * at + 1] / 2;
+            Complex heading = direction(yaw + sign * way * (curvature + rate * way / 2));
+            sum.re += half * heading.re;
+            sum.im += half * heading.im;
+        }
+    }
+    /* at yaw 0 a car looks to -z, which is north */
+    return (Complex){-sign * into * sum.im, sign * into * sum.re};
+}
+
+/* Write points of a path: all x, z, yaws and curvatures. `table` has length, sign, curvature and its rate for each
+ * piece; a point is some metres into the piece of a number. */
+FROM_PYTHON
+void write_points(double x, double z, double yaw, const double *table, int64_t pieces, const double *nodes,
+                  int64_t count, const int64_t *numbers, const double *intos, int64_t rows, double *starts,
+                  double *points)
+{
+    for (int64_t piece = 0; piece < pieces; piece++) {
+        const double *row = table + 4 * piece;
+        Complex step = moved(row[0], row[1], row[2], row[3], yaw, nodes, count);
+        starts[3 * piece] = x;
+        starts[3 * piece + 1] = z;
+        starts[3 * piece + 2] = yaw;
+        x += step.re;
+        z -= step.im;
+        yaw += row[1] * row[0] * (row[2] + row[3] * row[0] / 2);
+    }
+    for (int64_t at = 0; at < rows; at++) {
+        const double *row = table + 4 * numbers[at], *start = starts + 3 * numbers[at];
+        double into = intos[at];
+        Complex step = moved(into, row[1], row[2], row[3], start[2], nodes, count);
+        points[at] = start[0] + step.re;
+        points[rows + at] = start[1] - step.im;
+        points[2 * rows + at] = start[2] + row[1] * into * (row[2] + row[3] * into / 2);
+        points[3 * rows + at] = row[2] + row[3] * into;
+    }
 }
