@@ -33,9 +33,9 @@ _BESIDE_NODE_M = tuple(np.arange(0.0, 10.5, 1.0).tolist())
 """Distances before a node at which a turn may begin, and after it at which it may end; metres."""
 _SLIGHT_RAD, _SLIGHT_M = math.radians(20.0), (0.0, 1.0, 2.0, 4.0, 7.0)
 """Greatest angle of a slight bend, and such distances for it."""
-_SHORT_M, _DOUBLE_M = 9.0, (0.0, 2.0, 4.0, 6.0, 8.0)
+_SHORT_M, _DOUBLE_M = 9.0, (0.0, 2.0, 4.0, 7.0)
 """Greatest length of an arc that may be too short for a turn at each of its ends, and such distances for both."""
-_MOST_TESTS = 60
+_MOST_TESTS = 250
 """Greatest number of ways of a turn that are tested for collisions."""
 _MOST_ARCS = 4
 """Greatest number of arcs between a line and the start of a manoeuvre."""
@@ -43,6 +43,16 @@ _CHANGES_M = tuple(np.arange(2.5, 16.0, 0.5).tolist())
 """Distances over which a car may change to another line, or between a line and the start of its manoeuvre; metres."""
 _OWN_MARGIN_M = 0.1
 """Distance kept from the middle by a car that swings out in its own half."""
+_WIDE_STEP_M = 1.0
+"""Step of the offsets from a lane's middle between which double turns are tried; metres."""
+_SWINGS_M = (-0.4, -0.2, 0.0, 0.15, 0.3)
+"""Gaps between a car that swings out before a turn and the middle of its lane; metres."""
+_SWUNG_BEFORE_M, _SWUNG_AFTER_M = (
+    tuple(np.arange(*each).tolist()) for each in ((3.0, 8.1, 0.75), (5.0, 12.1, 1.0))
+)
+"""Distances before a node at which such a turn begins, and after it at which the car is back on its line; metres."""
+_MORE_COST_M = 40.0
+"""How much more a further way of a turn may cost than the first that is clear, for the room that it saves; metres."""
 _OVER_COST = 3.0
 """Cost of a metre over the middle of a two-way lane, in metres driven."""
 _QUARTER, _SAME, _DIGITS = math.pi / 2, 1e-9, 9
@@ -72,6 +82,19 @@ class _Shape(NamedTuple):
     after_m: float
     cost_m: float
     pieces: tuple[Piece, ...]
+
+
+class _Swing(NamedTuple):
+    """A pose beside a line, the way between it and a stop on the line, and how far off the stop is from a node.
+
+    `saved_m` is that distance less the length of the way.
+    """
+
+    stop: Stop
+    pose: Pose
+    pieces: tuple[Piece, ...]
+    away_m: float
+    saved_m: float
 
 
 class _Side(NamedTuple):
@@ -146,6 +169,7 @@ class Network:
         self._trees: dict[tuple[int, ...], _Tree] = {}
         self._shapes: dict[tuple[float, _Side, _Side, bool], list[_Shape]] = {}
         self._known: dict[tuple[Arc, Arc], list[_Turn]] = {}
+        self._singles: dict[tuple[Arc, Arc], list[_Turn]] = {}
         self._clear: dict[tuple[Arc, float, float], bool] = {}
 
     def led(self, pose: Pose, portals: Sequence[Portal], *, is_back: bool) -> tuple[Path, Portal] | None:
@@ -239,8 +263,13 @@ class Network:
     def _turns(self, arc: Arc, other: Arc) -> list[_Turn]:
         """Return the clear turns from the line of an arc to that of the next."""
         if (arc, other) not in self._known:
-            self._known[arc, other] = [*self._found_turns(arc, other), *self._double_turns(arc, other)]
+            self._known[arc, other] = [*self._single_turns(arc, other), *self._double_turns(arc, other)]
         return self._known[arc, other]
+
+    def _single_turns(self, arc: Arc, other: Arc) -> list[_Turn]:
+        if (arc, other) not in self._singles:
+            self._singles[arc, other] = list(self._found_turns(arc, other))
+        return self._singles[arc, other]
 
     def _found_turns(self, arc: Arc, other: Arc) -> Iterator[_Turn]:
         before = list(self._line(arc, is_forward=False))
@@ -254,6 +283,8 @@ class Network:
                 is_worse = any(one.before_m <= shape.before_m and one.after_m <= shape.after_m for one in kept)
                 if is_worse or start is None or end is None:
                     continue
+                if kept and shape.gain_m > kept[0].gain_m + _MORE_COST_M:
+                    break
                 tests += 1
                 if self.roadmap.is_clear(Path(self.pose(start), shape.pieces)):
                     kept.append(shape)
@@ -267,29 +298,65 @@ class Network:
         """Yield clear turns from the line of an arc over the next one, too short for a turn at each end, to another."""
         if _OUTSIDE in short or self.length_m(short) > _SHORT_M:
             return
-        before = list(self._line(arc, is_forward=False))
         for other in self.onward[short]:
-            if other == self._beyond(short, is_forward=True):
+            if other == self._beyond(short, is_forward=True) or self._is_chained(arc, short, other):
                 continue
-            after = list(self._line(other, is_forward=True))
-            found = []
-            for before_m in _DOUBLE_M:
-                for after_m in _DOUBLE_M:
-                    start = self._stop_at(before, before_m, is_forward=False)
-                    end = self._stop_at(after, after_m, is_forward=True)
-                    pieces = start and end and self.roadmap.joined(self.pose(start), self.pose(end))
-                    if start and end and pieces:
-                        path = Path(self.pose(start), pieces)
-                        over_m = self.roadmap.over_middle_m(path, self.roadmap.sides([start.arc, arc, short, other]))
-                        cost_m = path.length_m + _OVER_COST * over_m
-                        found.append(
-                            (cost_m - before_m - after_m, before_m, after_m, _Turn(start, end, pieces, cost_m))
-                        )
+            starts = list(self._swung(arc, arc[1], is_forward=False))
+            ends = list(self._swung(other, other[0], is_forward=True))
+            sides = self.roadmap.sides([arc, short, other])
+            numbers = count()
+            waiting: list[tuple[float, int, _Swing, _Swing, tuple[Piece, ...] | None, bool]] = []
+            for start in starts:
+                for end in ends:
+                    apart_m = math.hypot(end.pose.x_m - start.pose.x_m, end.pose.z_m - start.pose.z_m)
+                    waiting.append((apart_m - start.saved_m - end.saved_m, next(numbers), start, end, None, False))
+            heapq.heapify(waiting)
             kept: list[tuple[float, float]] = []
-            for _, before_m, after_m, turn in sorted(found, key=lambda each: each[:3]):
-                if not any(one <= before_m and two <= after_m for one, two in kept):
-                    kept.append((before_m, after_m))
-                    yield turn
+            first_m, tests = math.inf, 0
+            while waiting and tests < _MOST_TESTS and waiting[0][0] <= first_m + _MORE_COST_M:
+                gain_m, _, start, end, pieces, is_known = heapq.heappop(waiting)
+                if any(one <= start.away_m and two <= end.away_m for one, two in kept):
+                    continue
+                if pieces is None:
+                    pieces = next(joining_pieces(start.pose, end.pose, self.roadmap.steerings[-1]), None)
+                    if pieces:
+                        longer_m = sum(piece.length_m for piece in pieces) - start.saved_m - end.saved_m
+                        heapq.heappush(waiting, (longer_m, next(numbers), start, end, pieces, False))
+                    continue
+                whole = (*start.pieces, *pieces, *end.pieces)
+                path = Path(self.pose(start.stop), whole)
+                if not is_known:
+                    gain_m += _OVER_COST * self.roadmap.over_middle_m(path, sides)
+                    heapq.heappush(waiting, (gain_m, next(numbers), start, end, pieces, True))
+                    continue
+                tests += 1
+                if self.roadmap.is_clear(path):
+                    kept.append((start.away_m, end.away_m))
+                    first_m = min(first_m, gain_m)
+                    yield _Turn(start.stop, end.stop, whole, gain_m + start.away_m + end.away_m)
+
+    def _is_chained(self, arc: Arc, short: Arc, other: Arc) -> bool:
+        """Return True if a turn to a short arc ends before one from it begins."""
+        ends = [turn.end.run_m for turn in self._single_turns(arc, short) if turn.end.arc == short]
+        starts = [turn.start.run_m for turn in self._single_turns(short, other) if turn.start.arc == short]
+        return bool(ends and starts) and min(ends) <= max(starts)
+
+    def _swung(self, arc: Arc, node: int, *, is_forward: bool) -> "Iterator[_Swing]":
+        """Yield poses on and beside the line of an arc near its node, with the changes of line between."""
+        side, steering = self._side(arc, node), self.roadmap.steerings[-1]
+        line = list(self._line(arc, is_forward=is_forward))
+        for aside_m in self._asides(side, _WIDE_STEP_M):
+            right_m = aside_m - side.own_m
+            changed_m, pieces = self._change(-right_m if is_forward else right_m, steering)
+            for away_m in _DOUBLE_M:
+                near = self._stop_at(line, away_m, is_forward=is_forward)
+                stop = self._stop_at(line, away_m + changed_m, is_forward=is_forward)
+                if near is not None and stop is not None:
+                    pose = self.pose(near)
+                    sin, cos = elementary.sin(pose.yaw_rad), elementary.cos(pose.yaw_rad)
+                    swung = Pose(pose.x_m + right_m * cos, pose.z_m - right_m * sin, pose.yaw_rad)
+                    length_m = sum(piece.length_m for piece in pieces)
+                    yield _Swing(stop, swung, pieces, away_m + changed_m, away_m + changed_m - length_m)
 
     def _stop_at(self, line: Sequence[tuple[Arc, float]], away_m: float, *, is_forward: bool) -> Stop | None:
         """Return the stop at a distance from a node on a line; None beyond the line's end."""
@@ -323,13 +390,14 @@ class Network:
         )
 
     def _every_shape(self, turned: float, one: _Side, two: _Side, is_plain: bool) -> Iterator[_Shape]:  # noqa: FBT001
-        ways = self._plain_turns if is_plain else self._joined_ways
+        turn = turned, one, two
+        ways = chain(self._plain_turns(*turn), self._swung_turns(*turn)) if is_plain else self._joined_ways(*turn)
         sin, cos = elementary.sin(turned), elementary.cos(turned)
         halves = [
             ((0.0, -1.0), (0.0, 0.0), -math.inf, -one.reach_m, one.own_m),
             ((-sin, -cos), (0.0, 0.0), two.reach_m, math.inf, two.own_m),
         ]
-        for before_m, after_m, pieces in ways(turned, one, two):
+        for before_m, after_m, pieces in ways:
             path = Path(Pose(one.own_m, before_m, 0.0), pieces)
             cost_m = path.length_m + _OVER_COST * self.roadmap.over_middle_m(path, halves)
             yield _Shape(cost_m - before_m - after_m, before_m, after_m, cost_m, pieces)
@@ -342,9 +410,9 @@ class Network:
             end = Path(Pose(0.0, 0.0, 0.0), pieces).end
             after_m = end.x_m / -sin
             before_m = -end.z_m - after_m * cos
-            for aside_m in self._asides(one, turned):
+            for aside_m in self._asides(one):
                 in_m, changed_in = self._change(aside_m - one.own_m, steering)
-                for other_m in self._asides(two, turned):
+                for other_m in self._asides(two):
                     out_m, changed_out = self._change(two.own_m - other_m, steering)
                     # where the two lines meet, along each of them from the node
                     met_after_m = (other_m * cos - aside_m) / sin
@@ -357,12 +425,31 @@ class Network:
                             (*changed_in, *pieces, *changed_out),
                         )
 
-    def _asides(self, side: _Side, turned: float) -> list[float]:
+    def _swung_turns(self, turned: float, one: _Side, two: _Side) -> Iterator[tuple[float, float, tuple[Piece, ...]]]:
+        """Yield turns from an offset from a line back to the other line, with a change to that offset before."""
+        if one.is_door or two.is_door:
+            return
+        steering, sin, cos = self.roadmap.steerings[-1], elementary.sin(turned), elementary.cos(turned)
+        half_m = self.roadmap.half_width_m * math.copysign(1.0, one.own_m)
+        for aside_m in dict.fromkeys([one.own_m, *(half_m + math.copysign(each, half_m) for each in _SWINGS_M)]):
+            if abs(aside_m) > max(one.room_m, abs(one.own_m)):
+                continue
+            in_m, changed = self._change(aside_m - one.own_m, steering)
+            for before_m in _SWUNG_BEFORE_M:
+                start = Pose(aside_m, before_m, 0.0)
+                for after_m in _SWUNG_AFTER_M:
+                    end = Pose(two.own_m * cos - after_m * sin, -two.own_m * sin - after_m * cos, turned)
+                    pieces = next(joining_pieces(start, end, steering), None)
+                    if pieces:
+                        yield before_m + in_m, after_m, (*changed, *pieces)
+
+    def _asides(self, side: _Side, step_m: float = math.inf) -> list[float]:
         """Return the offsets to the right of a lane's middle between which a car may turn, the line's first."""
+        most_m = max(side.room_m, abs(side.own_m))
         half_m = math.copysign(self.roadmap.half_width_m + _OWN_MARGIN_M, side.own_m)
-        outer_m = math.copysign(side.room_m, turned)
-        asides = [side.own_m, *([half_m] if abs(half_m) < abs(side.own_m) else []), 0.0, outer_m]
-        return [aside for aside in dict.fromkeys(asides) if abs(aside) <= max(side.room_m, abs(side.own_m))]
+        number = int(most_m / step_m)
+        steps = [each * step_m for each in range(-number, number + 1) if each] + [0.0, most_m, -most_m]
+        return [each for each in dict.fromkeys([side.own_m, half_m, *steps]) if abs(each) <= most_m]
 
     def _change(self, right_m: float, steering: Steering) -> tuple[float, tuple[Piece, ...]]:
         """Return the length along a line and the pieces of the shortest change to another line to the right."""

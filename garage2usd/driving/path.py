@@ -21,6 +21,7 @@ NODES = np.stack([GAUSS, WEIGHTS], axis=1)
 """Both, as C takes them; shape (n, 2)."""
 _STEP_M = 0.1
 """Distance in metres between the poses at which the clearance of a path is evaluated."""
+_SIDE_STEP_M = 0.25
 
 
 @in_c
@@ -28,6 +29,14 @@ def _write_points(
     x: float, z: float, yaw: float, table: Float64s, pieces: int, nodes: Float64s, count: int,
     numbers: Int64s, intos: Float64s, rows: int, starts: Float64s, points: Float64s,
 ) -> None:  # fmt: skip
+    raise NotImplementedError
+
+
+@in_c
+def _over_middle_m(
+    x: float, z: float, yaw: float, table: Float64s, pieces: int, nodes: Float64s, count: int,
+    halves: Float64s, rows: int, length: float, width: float, overhang: float, step: float, far_cost: float,
+) -> float:  # fmt: skip
     raise NotImplementedError
 
 
@@ -185,3 +194,23 @@ class Path:
         low, high = poses[:, :2].min(axis=0), poses[:, :2].max(axis=0)
         near = obstacles.near(tuple((low + high) / 2), float((high - low).max()) / 2 + reach + most_m)
         return least_clearance(near.met_by(car), poses, bulges, most_m)
+
+    def over_middle_m(self, car: DesignCar, halves: Floats, *, far_cost: float) -> float:
+        """Compute on how many metres a car is beyond its own half of one of some lanes.
+
+        Parameters
+        ----------
+        car
+            The car.
+        halves
+            Direction (x, z) and start (x, z) of each lane, the runs between which it has a middle, and the offset of
+            the own half's line from that, to the right; shape (n, 7).
+        far_cost
+            How many times metres count that are further than the car's length from both of these runs.
+        """
+        size = car.length_m, car.width_m, car.rear_overhang_m
+        start = self.start.x_m, self.start.z_m, self.start.yaw_rad
+        table = self._table
+        return _over_middle_m(
+            *start, table, len(table), NODES, len(NODES), halves, len(halves), *size, _SIDE_STEP_M, far_cost
+        )

@@ -31,7 +31,8 @@ _BESIDE_M = 0.8
 _DOOR_SPOTS_M, _DOOR_SPOT_M = 12.0, 2.0
 """Length inside a door that has roadmap poses, and their spacing; metres."""
 _DIGITS = 4
-_SIDE_STEP_M = 0.5
+_FAR_COST = 3.0
+"""How many times a metre over the middle counts further than a car's length from the turns of a lane."""
 _ASIDE_COST_M, _EDGE_COST_M = 2.0, 3.0
 """Cost in metres of a spot off the lane's centre line, and of each further edge, so that paths keep to centre lines."""
 
@@ -260,24 +261,9 @@ class Roadmap:
         return halves
 
     def over_middle_m(self, path: Path, halves: "Sequence[Half]") -> float:
-        """Return the length of a path on which a car is beyond its own half; sampled about every half metre."""
-        halves = [half for half in halves if half[-1]]
-        if not halves or not path.pieces:
-            return 0.0
-        number = max(math.ceil(path.length_m / _SIDE_STEP_M), 1)
-        at = path.at((np.arange(number) + 0.5) * path.length_m / number)
-        turned = elementary.turned(at.yaw_rad)
-        ahead = np.stack([-turned.imag, -turned.real], axis=1)
-        middles = np.stack([at.x_m, at.z_m], axis=1) + ahead * (self._car.length_m / 2 - self._car.rear_overhang_m)
-        is_over = np.zeros(number, dtype=bool)
-        for along, start, low_m, high_m, own_m in halves:
-            away = middles - start
-            run, aside = away @ along, away @ (-along[1], along[0]) * math.copysign(1.0, own_m)
-            same = ahead @ along
-            half = self._car.width_m / 2 * same + self._car.length_m / 2 * np.sqrt(np.maximum(1 - same**2, 0.0))
-            is_here = (run > low_m) & (run < high_m) & (same > 0) & (np.abs(aside) < 2 * abs(own_m))
-            is_over |= is_here & (aside < half)
-        return float(np.count_nonzero(is_over) * path.length_m / number)
+        """Return the length of a path on which a car is beyond its own half, far from turns three times."""
+        rows = np.array([(*along, *start, low, high, own) for along, start, low, high, own in halves if own])
+        return path.over_middle_m(self._car, rows, far_cost=_FAR_COST) if len(rows) else 0.0
 
     def turning_m(self, node: int, arc: Arc) -> float:
         """Return the reach of the ground of a junction or bend along an arc, which has no middle to keep to; else 0."""

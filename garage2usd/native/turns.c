@@ -163,3 +163,47 @@ void write_points(double x, double z, double yaw, const double *table, int64_t p
         points[3 * rows + at] = row[2] + row[3] * into;
     }
 }
+
+/* Columns of an own half of a lane: its direction, its start, the run from and up to which it has a middle, and the
+ * offset of its line from that, to the right. */
+enum { ALONG, HALF_START = 2, LOW = 4, HIGH, OWN, HALF_COLUMNS };
+
+/* Return the metres of a path on which a car is beyond its own half of one of some lanes; those further than the car's
+ * length from both ends of the lane count `far_cost` times. Pieces are as for `write_points`. */
+FROM_PYTHON
+double over_middle_m(double x, double z, double yaw, const double *table, int64_t pieces, const double *nodes,
+                     int64_t count, const double *halves, int64_t rows, double length, double width, double overhang,
+                     double step, double far_cost)
+{
+    double over = 0;
+    for (int64_t piece = 0; piece < pieces; piece++) {
+        const double *row = table + 4 * piece;
+        double steps = ceil(row[0] / step), part = steps > 0 ? row[0] / steps : 0;
+        for (double at = 0; at < steps; at++) {
+            double into = (at + 0.5) * part;
+            Complex here = moved(into, row[1], row[2], row[3], yaw, nodes, count);
+            Complex turned = direction(yaw + row[1] * into * (row[2] + row[3] * into / 2));
+            double ahead_x = -turned.im, ahead_z = -turned.re, middle = length / 2 - overhang, worst = 0;
+            double middle_x = x + here.re + ahead_x * middle, middle_z = z - here.im + ahead_z * middle;
+            for (int64_t each = 0; each < rows; each++) {
+                const double *half = halves + HALF_COLUMNS * each;
+                double away_x = middle_x - half[HALF_START], away_z = middle_z - half[HALF_START + 1];
+                double run = away_x * half[ALONG] + away_z * half[ALONG + 1];
+                double aside = (away_z * half[ALONG] - away_x * half[ALONG + 1]) * (half[OWN] < 0 ? -1 : 1);
+                double same = ahead_x * half[ALONG] + ahead_z * half[ALONG + 1];
+                double across = sqrt(fmax(1 - same * same, 0));
+                if (run <= half[LOW] || run >= half[HIGH] || same <= 0 || fabs(aside) >= 2 * fabs(half[OWN]) ||
+                    aside >= width / 2 * same + length / 2 * across)
+                    continue;
+                int is_far = run > half[LOW] + length && run < half[HIGH] - length;
+                worst = fmax(worst, is_far ? far_cost : 1);
+            }
+            over += worst * part;
+        }
+        Complex whole = moved(row[0], row[1], row[2], row[3], yaw, nodes, count);
+        x += whole.re;
+        z -= whole.im;
+        yaw += row[1] * row[0] * (row[2] + row[3] * row[0] / 2);
+    }
+    return over;
+}

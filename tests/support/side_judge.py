@@ -105,7 +105,7 @@ def shares(planned, garage, *, keeps_left):
                         low -= 1
                     while high < len(arcs) - 1 and near_m[high + 1] <= CAR_M:
                         high += 1
-                    if abs(at.yaw_rad[high] - at.yaw_rad[low]) > _TURNS_RAD:
+                    if np.ptp(at.yaw_rad[low : high + 1]) > _TURNS_RAD:
                         counts[low : high + 1] = False
             heading = np.stack([-np.sin(at.yaw_rad), -np.cos(at.yaw_rad)], axis=1)
             corners = np.array([shapely.get_coordinates(body)[:4] for body in bodies])
