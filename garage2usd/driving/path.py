@@ -191,9 +191,7 @@ class Path:
         reach = math.hypot(max(body[:2]), body[2])
         tightest = np.maximum(np.abs(curvature), np.abs(curvature + rate * length))
         bulges = (length / counts[owner]) ** 2 / 8 * (tightest + np.abs(rate) * reach + tightest**2 * reach)
-        low, high = poses[:, :2].min(axis=0), poses[:, :2].max(axis=0)
-        near = obstacles.near(tuple((low + high) / 2), float((high - low).max()) / 2 + reach + most_m)
-        return least_clearance(near.met_by(car), poses, bulges, most_m)
+        return least_clearance(obstacles.met_by(car), poses, bulges, most_m)
 
     def over_middle_m(self, car: DesignCar, halves: Floats, *, far_cost: float) -> float:
         """Compute on how many metres a car is beyond its own half of one of some lanes.
@@ -203,10 +201,10 @@ class Path:
         car
             The car.
         halves
-            Direction (x, z) and start (x, z) of each lane, the runs between which it has a middle, and the offset of
-            the own half's line from that, to the right; shape (n, 7).
+            Direction (x, z) and start (x, z) of each lane, the runs between which it has a middle, those between which
+            no car turns, and the offset of the own half's line from the middle, to the right; shape (n, 9).
         far_cost
-            How many times metres count that are further than the car's length from both of these runs.
+            How many times metres count where no car turns.
         """
         size = car.length_m, car.width_m, car.rear_overhang_m
         start = self.start.x_m, self.start.z_m, self.start.yaw_rad

@@ -31,14 +31,15 @@ _BESIDE_M = 0.8
 _DOOR_SPOTS_M, _DOOR_SPOT_M = 12.0, 2.0
 """Length inside a door that has roadmap poses, and their spacing; metres."""
 _DIGITS = 4
-_FAR_COST = 3.0
+_FAR_COST = 8.0
 """How many times a metre over the middle counts further than a car's length from the turns of a lane."""
 _ASIDE_COST_M, _EDGE_COST_M = 2.0, 3.0
 """Cost in metres of a spot off the lane's centre line, and of each further edge, so that paths keep to centre lines."""
 
 
-Half = tuple[Point, Point, float, float, float]
-"""Own half of a lane: direction, start, low and high run from there, and offset of its middle to the right."""
+Half = tuple[Point, Point, Point, Point, float]
+"""Own half of a lane: direction, start, the runs between which it has a middle, the runs of the grounds beside them on
+which cars turn, and offset of its line to the right."""
 
 
 class Spot(NamedTuple):
@@ -215,7 +216,7 @@ class Roadmap:
     def own_side_m(self, arc: Arc) -> float:
         """Return the offset, to the right of the middle, of a car's own half of a two-way lane; 0 on other lanes."""
         lane = self._lanes.arcs[arc]
-        if lane.one_way or lane.width_m < 2 * (self._car.width_m + 2 * _ROOM_KEPT_M):
+        if lane.one_way or not has_room_for_two(lane.width_m, self._car):
             return 0.0
         return round((-1 if self._keeps_left else 1) * lane.width_m / 4, _DIGITS)
 
@@ -256,13 +257,22 @@ class Roadmap:
         for arc in walk:
             if arc in self._along and self.own_side_m(arc):
                 along, length_m = self._along[arc]
-                low_m, high_m = self.turning_m(arc[0], arc), length_m - self.turning_m(arc[1], arc)
-                halves.append((along, self._lanes.nodes[arc[0]].position, low_m, high_m, self.own_side_m(arc)))
+                first_m, last_m = (self.turning_m(node, arc) for node in arc)
+                ends = first_m, length_m - last_m
+                turns = ends[0] if first_m else -math.inf, ends[1] if last_m else math.inf
+                halves.append((along, self._lanes.nodes[arc[0]].position, ends, turns, self.own_side_m(arc)))
         return halves
 
     def over_middle_m(self, path: Path, halves: "Sequence[Half]") -> float:
-        """Return the length of a path on which a car is beyond its own half, far from turns three times."""
-        rows = np.array([(*along, *start, low, high, own) for along, start, low, high, own in halves if own])
+        """Return the length of a path on which a car is beyond its own half, far from turns several times."""
+        length_m = self._car.length_m
+        rows = np.array(
+            [
+                (*along, *start, *ends, turns[0] + length_m, turns[1] - length_m, own)
+                for along, start, ends, turns, own in halves
+                if own
+            ]
+        )
         return path.over_middle_m(self._car, rows, far_cost=_FAR_COST) if len(rows) else 0.0
 
     def turning_m(self, node: int, arc: Arc) -> float:
@@ -274,7 +284,8 @@ class Roadmap:
 
     def is_clear(self, path: Path) -> bool:
         """Return True if a path keeps the margin from all obstacles."""
-        return path.clearance_m(self._car, self._standing) >= self._margin_m
+        margin_m = self._margin_m
+        return path.clearance_m(self._car, self._standing, most_m=margin_m) >= margin_m
 
     def door_spots(self, portal: Portal) -> Iterator[tuple[Spot, Pose]]:
         """Yield roadmap poses in line with the pose of cars outside a portal, up to the middle of its square."""
@@ -311,6 +322,11 @@ class Roadmap:
             for pieces in joining_pieces(start, end, steering):
                 if pieces and self.is_clear(Path(start, pieces)):
                     yield pieces
+
+
+def has_room_for_two(width_m: float, car: DesignCar) -> bool:
+    """Return True if a two-way lane is wide enough for two cars side by side, each on its own half."""
+    return width_m >= 2 * (car.width_m + 2 * _ROOM_KEPT_M)
 
 
 def _middle(car: DesignCar, pose: Pose) -> Point:

@@ -164,12 +164,12 @@ void write_points(double x, double z, double yaw, const double *table, int64_t p
     }
 }
 
-/* Columns of an own half of a lane: its direction, its start, the run from and up to which it has a middle, and the
- * offset of its line from that, to the right. */
-enum { ALONG, HALF_START = 2, LOW = 4, HIGH, OWN, HALF_COLUMNS };
+/* Columns of an own half of a lane: its direction, its start, the runs between which it has a middle, those between
+ * which no car turns, and the offset of its line from the middle, to the right. */
+enum { ALONG, HALF_START = 2, LOW = 4, HIGH, FAR, FAR_END, OWN, HALF_COLUMNS };
 
-/* Return the metres of a path on which a car is beyond its own half of one of some lanes; those further than the car's
- * length from both ends of the lane count `far_cost` times. Pieces are as for `write_points`. */
+/* Return the metres of a path on which a car is beyond its own half of one of some lanes; those where no car turns
+ * count `far_cost` times. Pieces are as for `write_points`. */
 FROM_PYTHON
 double over_middle_m(double x, double z, double yaw, const double *table, int64_t pieces, const double *nodes,
                      int64_t count, const double *halves, int64_t rows, double length, double width, double overhang,
@@ -195,7 +195,7 @@ double over_middle_m(double x, double z, double yaw, const double *table, int64_
                 if (run <= half[LOW] || run >= half[HIGH] || same <= 0 || fabs(aside) >= 2 * fabs(half[OWN]) ||
                     aside >= width / 2 * same + length / 2 * across)
                     continue;
-                int is_far = run > half[LOW] + length && run < half[HIGH] - length;
+                int is_far = run > half[FAR] && run < half[FAR_END];
                 worst = fmax(worst, is_far ? far_cost : 1);
             }
             over += worst * part;

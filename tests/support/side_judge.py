@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
-from support.driving_simulation import outlines
 
 from garage2usd.driving.path import Path
+from support.driving_simulation import outlines
 
 STEP_M = 0.25
 LEAST_AISLE_M = 5.5
@@ -36,11 +36,8 @@ class Share(NamedTuple):
 
 def parts_with_paths(planned):
     """Each part of a route with its path, apart by arrival and departure."""
-    for start, parts in (
-        (planned.route.arrival.start, planned.arrival),
-        (planned.route.departure.start, planned.departure),
-    ):
-        leg = []
+    for whole, parts in ((planned.route.arrival, planned.arrival), (planned.route.departure, planned.departure)):
+        leg, start = [], whole.start
         for part in parts:
             leg.append((part, Path(start, part.pieces)))
             start = leg[-1][1].end
