@@ -88,8 +88,12 @@ int64_t write_roots(double curvature, double sharpness, const double *nodes, int
             roots[2 * found++ + 1] = ahead.re - row[LAST];
             miss = 0; /* no root between this sample and the next */
         } else if (before * miss < 0) {
-            double low = row[ANGLE - COLUMNS], high = row[ANGLE], low_miss = before, high_miss = miss;
-            double root = high, last = low, here[2] = {0, 0};
+            double low = row[ANGLE - COLUMNS], high = row[ANGLE], root = high, last = low, here[2] = {0, 0};
+            /* NumPy's sums in the samples differ in the last bits from processor to processor */
+            write_straight(curvature, sharpness, nodes, count, x, y, low, turned, here);
+            double low_miss = here[1];
+            write_straight(curvature, sharpness, nodes, count, x, y, high, turned, here);
+            double high_miss = here[1];
             int side = 0;
             for (int tries = 0; tries < MOST_TRIES && fabs(root - last) > 1e-14; tries++) {
                 last = root;
