@@ -140,6 +140,8 @@ def _drive_to(
     click.echo(f"{'nose':>12}  {route.nose.value}")
     click.echo(f"{'seconds':>12}  {states.time_s[-1]:.1f}")
     click.echo(f"{'fastest':>12}  {abs(states.speed_m_s).max():.2f} m/s")
+    for aisle in driven.narrow_aisles:
+        click.echo(f"{'in the middle':>12}  of {aisle}, too narrow for two cars")
     if not route.is_full:
         click.echo(f"{route.stall}: only while the stalls that are empty now stay empty")
 
