@@ -117,8 +117,7 @@ def _filthy(rng: np.random.Generator, worn: Field) -> Field:
     """Heavy dirt, with spills between the tracks that end before the border."""
     rows, columns = worn.shape
     spilt = ramp(clouds(rng, (rows, columns), (4, 4), 5), 0.5, 0.68) * _inside((rows, columns), 0.2)
-    filth: Field = np.minimum(1.5 * worn + 0.22 * spilt * ramp(worn, 0.0, 0.1), 0.82)
-    return filth
+    return np.minimum(1.5 * worn + 0.22 * spilt * ramp(worn, 0.0, 0.1), 0.82)
 
 
 def _places(shape: tuple[int, int]) -> tuple[Field, Field]:
@@ -129,8 +128,7 @@ def _places(shape: tuple[int, int]) -> tuple[Field, Field]:
 
 
 def _length(down: Field, across: Field) -> Field:
-    length: Field = np.sqrt(down * down + across * across)
-    return length
+    return np.sqrt(down * down + across * across)
 
 
 def _from_middle(shape: tuple[int, int]) -> Field:
@@ -186,8 +184,7 @@ def _crack(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
         lines = np.maximum(lines, strength * ramp(np.abs(column - place), 1.6, 0.4))
     broken = ramp(noise(rng, (rows, 1), (9, 1)), 0.1, 0.4)
     ends = ramp(down, 0.02, 0.25) * ramp(down, 0.98, 0.7)
-    cracks: Field = lines * broken * ends * _inside(shape, 0.02)
-    return cracks
+    return lines * broken * ends * _inside(shape, 0.02)
 
 
 def _tyre(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
@@ -289,8 +286,7 @@ def _seam(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
     forked = ramp(np.abs(column - branch) - 0.8 * half, 0.8, -0.8) * (row > start) * (row < end)
     ends = ramp(row / rows, 0.01, 0.03) * ramp(row / rows, 0.99, 0.97)
     inside = ramp(np.minimum(column, columns - 1.0 - column), 1.0, 4.0)
-    seam: Field = 0.74 * np.maximum(lines, forked) * ends * inside
-    return seam
+    return 0.74 * np.maximum(lines, forked) * ends * inside
 
 
 def _sealed_patch(rng: np.random.Generator, shape: tuple[int, int]) -> tuple[Field, Field]:

@@ -176,8 +176,7 @@ def _array(data: bytes) -> NDArray[Any]:
     shape, is_by_columns, dtype = _HEADERS[npy_format.read_magic(file)](file)  # type: ignore[no-untyped-call]
     if dtype.kind not in "iuf":
         raise ValueError(f"it holds {dtype}")
-    array: NDArray[Any] = np.frombuffer(file.read(), dtype).reshape(shape, order="F" if is_by_columns else "C")
-    return array
+    return np.frombuffer(file.read(), dtype).reshape(shape, order="F" if is_by_columns else "C")
 
 
 def _refuse(constant: str) -> NoReturn:

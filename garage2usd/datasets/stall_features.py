@@ -112,8 +112,7 @@ def _stall_lux(layout: Layout) -> NDArray[np.float64]:
     """Compute the illuminance in each stall's middle, without the lamps over ramps; shape (stalls,)."""
     tubes = [place for place in layout.of_kind("light") if place.square is not None]
     middles = np.array([stall.centre for stall in layout.quads]).reshape(-1, 2)
-    lux: NDArray[np.float64] = layout.illuminance.luminance_nit * direct_lux(middles, tubes)
-    return lux
+    return layout.illuminance.luminance_nit * direct_lux(middles, tubes)
 
 
 def _occupied_neighbours(layout: Layout) -> NDArray[np.int64]:

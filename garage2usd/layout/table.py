@@ -196,8 +196,7 @@ class StallTable(Table[PlacedStall]):
     @property
     def access_square(self) -> NDArray[np.int32]:
         """(row, col) of the lane square at each stall's entry; int32, shape (n, 2)."""
-        beyond: NDArray[np.int32] = self.square + np.array(NEIGHBOUR_STEPS, dtype=np.int32)[self.edge]
-        return beyond
+        return self.square + np.array(NEIGHBOUR_STEPS, dtype=np.int32)[self.edge]
 
     def names(self) -> list[str]:
         """Ids of all stalls."""

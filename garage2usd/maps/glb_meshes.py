@@ -277,7 +277,4 @@ def _across(vectors: NDArray[Any], normals: NDArray[Any]) -> NDArray[Any]:
 
 def _unit(vectors: NDArray[Any], otherwise: tuple[float, float, float]) -> NDArray[np.float32]:
     lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    unit: NDArray[np.float32] = np.where(
-        lengths > _SMALLEST, vectors / np.maximum(lengths, _SMALLEST), otherwise
-    ).astype(np.float32)
-    return unit
+    return np.where(lengths > _SMALLEST, vectors / np.maximum(lengths, _SMALLEST), otherwise).astype(np.float32)

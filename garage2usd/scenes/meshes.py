@@ -256,10 +256,7 @@ def _at_corners(
 
 def _unit(vectors: NDArray[Any]) -> NDArray[np.float32]:
     lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    unit: NDArray[np.float32] = np.where(
-        lengths > _SMALLEST_M2, vectors / np.maximum(lengths, _SMALLEST_M2), [0, 1, 0]
-    ).astype(np.float32)
-    return unit
+    return np.where(lengths > _SMALLEST_M2, vectors / np.maximum(lengths, _SMALLEST_M2), [0, 1, 0]).astype(np.float32)
 
 
 def _welded(

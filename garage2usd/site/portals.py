@@ -128,8 +128,7 @@ def straight_frontier(inside: Mask) -> Mask:
     straight = np.zeros_like(inside)
     for side in sides:
         straight |= np.logical_and.reduce([rho[step] for step in side])
-    frontier: Mask = inside & three_outside & straight
-    return frontier
+    return inside & three_outside & straight
 
 
 def outer_squares(cells: CellArray) -> Mask:
@@ -137,8 +136,7 @@ def outer_squares(cells: CellArray) -> Mask:
     outside = outside_squares(cells)
     beside = edge_neighbour_count(outside) > 0
     beside[[0, -1]] = beside[:, [0, -1]] = True
-    outer: Mask = beside & ~outside
-    return outer
+    return beside & ~outside
 
 
 def free_squares_connected(cells: CellArray) -> bool:

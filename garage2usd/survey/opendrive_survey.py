@@ -315,8 +315,7 @@ def _turned(element: ET.Element, line: RoadLine, pose: _Pose, local: Floats, pla
     heading += pose.turned_rad
     cos, sin = math.cos(heading), math.sin(heading)
     u, v = local.T
-    points: Floats = np.stack([origin[0] + u * cos - v * sin, origin[1] + u * sin + v * cos], axis=1)
-    return points
+    return np.stack([origin[0] + u * cos - v * sin, origin[1] + u * sin + v * cos], axis=1)
 
 
 def _unmarked(element: ET.Element, ids: list[str]) -> int | None:
