@@ -1,14 +1,13 @@
 """Materials of all parts, as parameters of a standard surface."""
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from importlib import resources
 from typing import NamedTuple
 
 from pydantic import TypeAdapter
 
+from garage2usd.common.documents import shipped_toml
 from garage2usd.config.map_names import Channel
 from garage2usd.config.texture_sets import MapFile
 
@@ -169,10 +168,9 @@ GLOSSES: dict[str, str] = {
 
 
 def _read_materials() -> dict[str, Material]:
-    text = resources.files(__package__).joinpath("materials.toml").read_text(encoding="utf-8")
     adapter = TypeAdapter(Material)
     materials: dict[str, Material] = {}
-    for key, given in tomllib.loads(text).items():
+    for key, given in shipped_toml("garage2usd.assets", "materials").items():
         materials[key] = materials[given] if isinstance(given, str) else adapter.validate_python(given)
     return materials
 

@@ -10,6 +10,7 @@ import tomllib
 import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from importlib import resources
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -94,6 +95,11 @@ def read_toml(path: Path, *, field: str) -> dict[str, Any]:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # for example brackets nested a thousand deep, numbers of 5000 digits
         raise ConfigError(field, str(path), f"TOML ({error})") from None
+
+
+def shipped_toml(package: str, name: str) -> dict[str, Any]:
+    """Read a TOML file that is shipped beside the modules of a package, such as ``garage2usd.assets``."""
+    return tomllib.loads((resources.files(package) / f"{name}.toml").read_text(encoding="utf-8"))
 
 
 def read_json(path: Path, *, field: str, max_bytes: int) -> Any:  # noqa: ANN401 - whatever JSON holds

@@ -1,14 +1,13 @@
 """The texts, colours and pictograms of signs in each country."""
 
-import tomllib
 from dataclasses import dataclass
 from enum import StrEnum
-from importlib import resources
 
 import shapely
 from pydantic import TypeAdapter
 
 from garage2usd.assets.countries import Country
+from garage2usd.common.documents import shipped_toml
 
 _GRID = 1e-3
 
@@ -64,7 +63,7 @@ class Signage:
 
 
 SIGNAGE: dict[Country, Signage] = TypeAdapter(dict[Country, Signage]).validate_python(
-    tomllib.loads(resources.files(__package__).joinpath("signage.toml").read_text(encoding="utf-8"))
+    shipped_toml("garage2usd.objects", "signage")
 )
 """Signage of each country.
 

@@ -1,12 +1,11 @@
 """Words of drawings and building models: the parts that names of layers and elements tell, in many languages."""
 
 import re
-import tomllib
 import unicodedata
 from enum import StrEnum
 from functools import cache
-from importlib import resources
 
+from garage2usd.common.documents import shipped_toml
 from garage2usd.config.stalls import SizeClass
 from garage2usd.garage import StallUse
 from garage2usd.survey.survey import PortalKind
@@ -31,9 +30,7 @@ class PartKind(StrEnum):
 
 _WORDS = {
     group: {key: tuple(dict.fromkeys(words.split())) for key, words in given.items()}
-    for group, given in tomllib.loads(
-        resources.files(__package__).joinpath("drawing_words.toml").read_text(encoding="utf-8")
-    ).items()
+    for group, given in shipped_toml("garage2usd.survey", "drawing_words").items()
 }
 _NUMBERED = re.compile(r"[0-9]*$")
 _NUMBER = re.compile(r"(?=.*\d)[\w\-./]{1,12}")
