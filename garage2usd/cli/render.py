@@ -8,7 +8,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.options import INPUT_FILE, Place, Several, Size, echo_table
+from garage2usd.cli.options import INPUT_FILE, Place, Several, Size, device_option, echo_table, output_option
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -61,13 +61,7 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     show_default=True,
     help="Seed of the samples, not of the garage.",
 )
-@click.option(
-    "--device",
-    type=click.Choice(["auto", "cpu", "gpu"]),
-    default="auto",
-    show_default=True,
-    help="What draws the colour: auto takes a GPU where Blender finds one.",
-)
+@device_option("What draws the colour: auto takes a GPU where Blender finds one.")
 @click.option(
     "--blender",
     metavar="PROGRAM",
@@ -125,15 +119,7 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     help="With --rig: a bird's-eye view at each place too, of 600 x 600 pixels that are M metres wide.",
 )
 @click.option("--without-cars", is_flag=True, default=None, help="With --birds-eye: it looks through parked cars.")
-@click.option(
-    "--output",
-    "-o",
-    metavar="FOLDER",
-    type=click.Path(file_okay=False, path_type=Path),
-    default="dataset",
-    show_default=True,
-    help="Folder of the data set.",
-)
+@output_option("Folder of the data set.", metavar="FOLDER", default="dataset", file_okay=False)
 def render(
     *,
     stage: Path,
