@@ -251,26 +251,18 @@ _DRAWERS: dict[str, Callable[[np.random.Generator, tuple[int, int]], Field]] = {
 
 def bake_repairs(rng: np.random.Generator) -> NDArray[np.uint8]:
     """Draw the texture of asphalt repairs; uint8, shape (rows, columns, 4)."""
-    side = CELLS_ACROSS * _CELL_PIXELS
-    pixels = np.zeros((side, side, 4), dtype=np.uint8)
-    pixels[:, :, :3] = _BITUMEN_RGB
+    pixels = _sheet(_BITUMEN_RGB)
     for mark, cells in REPAIR_CELLS.items():
         for number, cell in enumerate(cells):
-            left, top, width, height = (int(value * _CELL_PIXELS) for value in cell)
-            window = pixels[top : top + height, left : left + width]
-            shape = height, width
+            window = _window(pixels, cell)
+            shape = _shape(window)
             if mark == "seam":
-                window[:, :, 3] = _levels(_seam(rng, shape))
+                window[:, :, 3] = _alpha(_seam(rng, shape))
                 continue
             inside, border = _sealed_patch(rng, shape)
             window[border <= inside, :3] = _NEW_RGB if number % 2 else _OLD_RGB
-            window[:, :, 3] = _levels(np.maximum(inside, border))
+            window[:, :, 3] = _alpha(np.maximum(inside, border))
     return pixels
-
-
-def _levels(share: Field) -> NDArray[np.uint8]:
-    levels: NDArray[np.uint8] = np.clip(np.rint(share * 255), 0, 255).astype(np.uint8)
-    return levels
 
 
 def _seam(rng: np.random.Generator, shape: tuple[int, int]) -> Field:

@@ -26,6 +26,7 @@ DATA_FILES = (
     "profiles/countries.json",
     "render/*.osl",
     "sensors/formats/*.toml",
+    "sensors/rays/*.toml",
     "sensors/rigs/*.toml",
     "stage/*.npz",
     "view/page/*",
