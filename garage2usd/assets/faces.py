@@ -1,7 +1,8 @@
 """Polygon faces of boxes, solids of revolution, frames, rings and lofts."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -230,3 +231,31 @@ def limb_faces(
         other = np.cross(along, across)
         rings.append(point + np.outer(np.cos(angles) * width, across) + np.outer(np.sin(angles) * depth, other))
     return loft_faces(rings)
+
+
+def faces_of(pieces: Iterable[Mapping[str, Any]], *, side: float = 1.0) -> list[Face]:
+    """Make the faces of the pieces that a table describes, in its order.
+
+    Parameters
+    ----------
+    pieces
+        Tables with a ``box`` of two corners, the rings (half X, half Z, Y, Z) of a ``loft`` of rectangles, or the rings
+        (X, Y, Z, width and, where it differs, depth) of a ``limb`` with its ``segments`` and ``side``; or ``pieces``
+        that are made once for each of some ``sides``.
+    side
+        Factor on the X of limbs.
+    """
+    faces: list[Face] = []
+    for piece in pieces:
+        match piece:
+            case {"pieces": inner, "sides": sides}:
+                faces += [face for each in sides for face in faces_of(inner, side=each)]
+            case {"box": (low, high)}:
+                faces += box_faces(low, high)
+            case {"loft": rings}:
+                faces += loft_faces([rectangle_ring(x, depth, y=y, z=z) for x, depth, y, z in rings])
+            case {"limb": rings, **more}:
+                points = [(side * x, y, z) for x, y, z, *_ in rings]
+                widths, *depths = zip(*(radii for _, _, _, *radii in rings), strict=True)
+                faces += limb_faces(points, widths, *depths, **more)
+    return faces
