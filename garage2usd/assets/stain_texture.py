@@ -1,5 +1,4 @@
 """Textures of stains, dirt and the repairs of old asphalt: colour, and amount as alpha."""
-# Over 300 lines: all kinds of stains and repairs are drawn by the same few shapes.
 
 from collections.abc import Callable
 

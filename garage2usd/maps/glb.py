@@ -1,5 +1,4 @@
 """GLB export: a stage as one binary glTF 2.0 file for engines, browsers and simulators."""
-# Over 300 lines: nodes, extras and remarks of a scene are made in one pass over the stage, level by level.
 
 from collections.abc import Iterable, Sequence
 from functools import cache
