@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike
 from garage2usd.assets.mesh import Face
 
 _STRAIGHT = 1e-9
+_SIDE_OF_RODS = (0.31, 0.17, 0.93)
+"""A direction across rods that lie along none."""
 
 
 def moved(faces: Sequence[Face], by: ArrayLike) -> list[Face]:
@@ -239,11 +241,12 @@ def faces_of(pieces: Iterable[Mapping[str, Any]], *, side: float = 1.0) -> list[
     Parameters
     ----------
     pieces
-        Tables with a ``box`` of two corners, the rings (half X, half Z, Y, Z) of a ``loft`` of rectangles, or the rings
-        (X, Y, Z, width and, where it differs, depth) of a ``limb`` with its ``segments`` and ``side``; or ``pieces``
-        that are made once for each of some ``sides``.
+        Tables with a ``box`` of two corners; the rings (half X, half Z, Y, Z) of a ``loft`` of rectangles; the points
+        of a ``tube`` with its ``radius_m`` and ``segments``; the ends and the radius (X, Y, Z, X, Y, Z, R) of some
+        ``rods``; the rings (X, Y, Z, width and, where it differs, depth) of a ``limb`` with its ``segments`` and
+        ``side``; or ``pieces`` that are made once for each of some ``sides``.
     side
-        Factor on the X of limbs.
+        Factor on the X of rods and limbs.
     """
     faces: list[Face] = []
     for piece in pieces:
@@ -254,6 +257,12 @@ def faces_of(pieces: Iterable[Mapping[str, Any]], *, side: float = 1.0) -> list[
                 faces += box_faces(low, high)
             case {"loft": rings}:
                 faces += loft_faces([rectangle_ring(x, depth, y=y, z=z) for x, depth, y, z in rings])
+            case {"tube": points, "radius_m": radius_m, "segments": segments}:
+                faces += tube_faces(points, radius_m, segments=segments)
+            case {"rods": rods}:
+                for *ends, radius_m in rods:
+                    places = [(side * x, y, z) for x, y, z in (ends[:3], ends[3:])]
+                    faces += limb_faces(places, [radius_m] * 2, side=_SIDE_OF_RODS, segments=8)
             case {"limb": rings, **more}:
                 points = [(side * x, y, z) for x, y, z, *_ in rings]
                 widths, *depths = zip(*(radii for _, _, _, *radii in rings), strict=True)
