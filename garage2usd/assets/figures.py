@@ -221,8 +221,7 @@ class _Body(NamedTuple):
 
 def _wrists(skeleton: Skeleton) -> Vectors:
     way = np.array([hanging(0.0, -side * INWARDS_DEG) for side in SIDES])
-    wrists: Vectors = skeleton.rest_m[[4, 6]] + skeleton.height_m * FOREARM * way
-    return wrists
+    return skeleton.rest_m[[4, 6]] + skeleton.height_m * FOREARM * way
 
 
 def _part(name: str, faces: list[Face], material: str, collider: Collider | None = None) -> Part:
@@ -232,8 +231,7 @@ def _part(name: str, faces: list[Face], material: str, collider: Collider | None
 def _ramp(values: Vectors, start: float, end: float) -> Vectors:
     """Smooth step from 0 at `start` to 1 at `end`."""
     share = np.clip((values - start) / (end - start), 0.0, 1.0)
-    stepped: Vectors = share * share * (3 - 2 * share)
-    return stepped
+    return share * share * (3 - 2 * share)
 
 
 def _weights(points: Vectors, **shares: Vectors | float) -> Vectors:

@@ -316,8 +316,7 @@ def _foot(holds: _Footholds, path: tuple[Vectors, ...]) -> _Foot:
 def _standing_phase(held: _Footholds, gone: Vectors) -> Vectors:
     """Phase of a foot on the floor; it rests at `_LANDED` while the person stands."""
     before, after = np.minimum(gone - held.under_on, 0.0), np.maximum(gone - held.under_off, 0.0)
-    phase: Vectors = _LANDED + before / held.stride_on + after / held.stride_off
-    return phase
+    return _LANDED + before / held.stride_on + after / held.stride_off
 
 
 def _load(held: _Footholds, gone: Vectors) -> Vectors:

@@ -8,14 +8,13 @@ import click
 from click.shell_completion import CompletionItem
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.options import INPUT_FILE, Place, Several, Size, echo_table
+from garage2usd.cli.options import INPUT_FILE, Place, Several, Size, device_option, echo_table, output_option
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from garage2usd.render import Device, Picture, SlotFormat
-    from garage2usd.sensors.rays.birds_eye import BirdsEye
+    from garage2usd.recordings import Recorded
 
 _PICTURES = ("colour", "depth", "normals", "instance", "semantic", "semantic_preview")
 _POINTS = ("pcd", "bin", "npz")
@@ -62,13 +61,7 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     show_default=True,
     help="Seed of the samples, not of the garage.",
 )
-@click.option(
-    "--device",
-    type=click.Choice(["auto", "cpu", "gpu"]),
-    default="auto",
-    show_default=True,
-    help="What draws the colour: auto takes a GPU where Blender finds one.",
-)
+@device_option("What draws the colour: auto takes a GPU where Blender finds one.")
 @click.option(
     "--blender",
     metavar="PROGRAM",
@@ -126,15 +119,7 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     help="With --rig: a bird's-eye view at each place too, of 600 x 600 pixels that are M metres wide.",
 )
 @click.option("--without-cars", is_flag=True, default=None, help="With --birds-eye: it looks through parked cars.")
-@click.option(
-    "--output",
-    "-o",
-    metavar="FOLDER",
-    type=click.Path(file_okay=False, path_type=Path),
-    default="dataset",
-    show_default=True,
-    help="Folder of the data set.",
-)
+@output_option("Folder of the data set.", metavar="FOLDER", default="dataset", file_okay=False)
 def render(
     *,
     stage: Path,
@@ -184,6 +169,8 @@ def render(
     kinds = [Picture(kind) for kind in pictures or _PICTURES]
     told = None if slots is None else [SlotFormat(each) for each in slots]
     if rig is not None:
+        from garage2usd.recordings import CloudFormat, Sequence, record  # noqa: PLC0415 - only with a rig
+
         own = {"camera": cameras or None, "frames": frames, "at": at_m, "look-at": look_at_m, "size": size}
         _refuse(own, "without --rig, which has its own")
         if along is None:
@@ -192,10 +179,27 @@ def render(
             _refuse({"without-cars": without_cars}, "only with --birds-eye")
         above = None if birds_eye is None else BirdsEye(metres_per_px=birds_eye, cars=not without_cars)
         has_pictures = points is None or any(each is not None for each in (pictures, slots, above))
-        asked = kinds if has_pictures else []
-        formats, too, places = points or _POINTS, also or (), every_m or 1.0
-        scaled, on = scale or 1.0, Device(device)
-        _record(stage, rig, along, places, scaled, samples, seed, on, blender, asked, told, above, formats, too, output)
+        with Bars(sys.stderr) as progress:
+            recorded = record(
+                stage,
+                output,
+                rig=rig,
+                along=along,
+                every_m=every_m or 1.0,
+                scale=scale or 1.0,
+                samples=samples,
+                seed=seed,
+                device=Device(device),
+                blender=blender,
+                pictures=kinds if has_pictures else [],
+                slots=told,
+                birds_eye=above,
+                points=[CloudFormat(kind) for kind in points or _POINTS],
+                sequences=[Sequence(kind) for kind in also or ()],
+                progress=progress,
+                announce=progress.announce,
+            )
+        _tell(recorded, also or ())
         return
     with_rig: dict[str, object] = {"along": along, "every-m": every_m, "scale": scale, "points": points, "also": also}
     _refuse({**with_rig, "birds-eye": birds_eye, "without-cars": without_cars}, "only with --rig")
@@ -229,46 +233,8 @@ def _refuse(options: "Mapping[str, object]", allowed: str) -> None:
             raise ConfigError(option, value, allowed)
 
 
-def _record(
-    stage: Path,
-    rig: str,
-    along: str | None,
-    every_m: float,
-    scale: float,
-    samples: int | None,
-    seed: int,
-    device: "Device",
-    blender: Path | None,
-    pictures: "list[Picture]",
-    slots: "list[SlotFormat] | None",
-    birds_eye: "BirdsEye | None",
-    points: tuple[str, ...],
-    also: tuple[str, ...],
-    output: Path,
-) -> None:
-    """Record the sensors of a rig along a drive."""
-    from garage2usd.recordings import CloudFormat, Sequence, record  # noqa: PLC0415 - keeps --help instant
-
-    with Bars(sys.stderr) as progress:
-        made = record(
-            stage,
-            output,
-            rig=rig,
-            along=along,
-            every_m=every_m,
-            scale=scale,
-            samples=samples,
-            seed=seed,
-            device=device,
-            blender=blender,
-            pictures=pictures,
-            slots=slots,
-            birds_eye=birds_eye,
-            points=[CloudFormat(kind) for kind in points],
-            sequences=[Sequence(kind) for kind in also],
-            progress=progress,
-            announce=progress.announce,
-        )
+def _tell(made: "Recorded", also: tuple[str, ...]) -> None:
+    """Tell the files of a recording."""
     shots = made.recording.shots
     places, sensors = len({shot.pose for shot in shots}), list(dict.fromkeys(shot.sensor.name for shot in shots))
     echo_table(

@@ -123,8 +123,9 @@ def installation_of(extras: str) -> str:
     return f"pip install {option}'{'.' if place == Path.cwd() else place}[{extras}]'"
 
 
-def on_first_use(package: str, home: Mapping[str, str]) -> Callable[[str], object]:
-    """Make the ``__getattr__`` of a package; `home` maps its public names to modules."""
+def on_first_use(package: str, modules: Mapping[str, Iterable[str]]) -> Callable[[str], object]:
+    """Make the ``__getattr__`` of a package; `modules` maps its modules to their public names."""
+    home = {name: module for module, names in modules.items() for name in names}
 
     def load(name: str) -> object:
         if name not in home:

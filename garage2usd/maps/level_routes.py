@@ -12,7 +12,6 @@ from garage2usd.driving import DesignCar, Portal, Pose, StallProof
 from garage2usd.driving.path import Path
 from garage2usd.driving.route import Route, Router
 from garage2usd.driving.turns import Steering
-from garage2usd.garage import Stall
 from garage2usd.objects.cone import KIND as CONE
 
 _NAMED = 6
@@ -92,17 +91,15 @@ class LevelRoutes:
         if not (entrances and exits):
             raise ConfigError("stall", stall, "a stall that lanes and ramps join with the street")
         lacks: Counter[str] = Counter()
-        for candidate in self._in_order() if stall is None else [self._driven[stall]]:
+        # as on the level, free stalls first
+        every = sorted((self._driven[name] for name in self._names), key=lambda stall: stall.name in self._taken)
+        for candidate in every if stall is None else [self._driven[stall]]:
             route = self.router.route(candidate, entrances=entrances, exits=exits)
             if isinstance(route, Route):
                 return route
             lacks[_lack(route)] += 1
         lack = lacks.most_common(1)[0][0] if lacks else "a garage with a stall that takes a car"
         raise ConfigError("stall", f"any of {lacks.total()}" if stall is None else stall, lack)
-
-    def _in_order(self) -> list[Stall]:
-        """Order the stalls for cars as on the level, free ones first."""
-        return sorted((self._driven[name] for name in self._names), key=lambda stall: stall.name in self._taken)
 
 
 def _lack(proof: StallProof) -> str:

@@ -141,7 +141,11 @@ class Drawing:
         unseen = self.unseen or [()] * len(self.views)
         frames = zip(self.views, self.hidden, unseen, moved, strict=True)
         jobs = [
-            {**self._frame_job(view, hide, work, digits), "unseen": list(through), "moved": _listed(place)}
+            {
+                **self._frame_job(view, hide, work, digits),
+                "unseen": list(through),
+                "moved": None if place is None else place.tolist(),
+            }
             for view, hide, through, place in frames
         ]
         order = self._order()
@@ -380,10 +384,6 @@ class _Waiting:
             self._drawing.take_data(view, files)
             for file in files:
                 file.unlink()
-
-
-def _listed(matrix: NDArray[np.float64] | None) -> list[list[float]] | None:
-    return None if matrix is None else matrix.tolist()
 
 
 @contextmanager
