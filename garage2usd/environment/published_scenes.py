@@ -19,7 +19,10 @@ _Kind = TypeVar("_Kind")
 _LINE_M, _ROUNDING_M2 = 0.005, 1e-9
 _TRACK = 0.82
 _CASE = "Case"
-_READ = (OSError, ValueError, KeyError, TypeError, IndexError, pickle.UnpicklingError, shapely.GEOSException)
+_READ = (
+    *(OSError, EOFError, ValueError, LookupError, TypeError, AttributeError),
+    *(pickle.UnpicklingError, shapely.GEOSException),
+)
 
 
 def parkbench_tasks(folder: str | Path) -> list[ParkingTask]:
