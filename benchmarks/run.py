@@ -1,7 +1,7 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
 Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, floor, optimisers, rules, circulation,
-scale, stages, levels, exports, datasets, workers, looks, lidar, unity, compiled and binding.
+scale, stages, levels, exports, datasets, workers, looks, lidar, parking, unity, compiled and binding.
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.
@@ -27,6 +27,7 @@ from levels import levels
 from lidar import lidar
 from looks import looks
 from optimisers import optimisers
+from parking import parking
 from planning import planning
 from rules import rules
 from scale import scale
@@ -59,6 +60,7 @@ def main() -> None:
         "workers": workers,
         "looks": looks,
         "lidar": lidar,
+        "parking": parking,
         "unity": unity,
         "compiled": _compiled,
         "binding": binding,

@@ -13,7 +13,7 @@ from garage2usd.environment.task import ParkingTask
 SIDE = 600
 _FINER = 2
 _FLOOR, _LINE, _STANDS, _GOAL, _CAR, _GLASS = "#e9ecef", "#ffffff", "#495057", "#2f9e44", "#1c7ed6", "#a5d8ff"
-_AGENT, _TRAIL, _PLAN, _TYRE = "#f08c00", "#1864ab", "#8ce99a", "#212529"
+_AGENT, _TRAIL, _PLAN, _TYRE = "#f08c00", "#1864ab", "#40c057", "#212529"
 _TYRE_M = 0.64, 0.22
 _PANE = ((0.0, 1.0), (0.0, -1.0), (0.7, -0.85), (0.7, 0.85))
 _ENDS = np.array([(1, 1), (1, -1), (-1, -1), (-1, 1)]) / 2
