@@ -55,7 +55,8 @@ class GarageTasks:
         Probability with which a design car stands in each empty stall, in addition to the parked cars; 0 to 1. It
         applies to paths that are proven to be clear of them all.
     tracks
-        Agents that move, in the only garage; they do not see the car. The time of the start is drawn.
+        Agents that move, in the only garage, or their table (Parquet or CSV, extra ``traffic``); they do not see the
+        car. The time of the start is drawn.
     steps
         Greatest number of steps of a task, for which agents are there.
     car
@@ -63,8 +64,8 @@ class GarageTasks:
 
     Raises
     ------
-    ConfigError
-        If a setting is not one of these.
+    ConfigError, TracksError
+        If a setting is not one of these, or a file is not such a table.
 
     Notes
     -----
@@ -82,7 +83,7 @@ class GarageTasks:
         nose: str | None = None,
         distance_m: tuple[float, float] = (2.0, 15.0),
         filled: float = 0.0,
-        tracks: Tracks | None = None,
+        tracks: Tracks | str | FilePath | None = None,
         steps: int = 400,
         car: DesignCar | None = None,
     ) -> None:
@@ -94,6 +95,10 @@ class GarageTasks:
             raise ConfigError("distance_m", distance_m, f"two ascending lengths over 0 and up to {_FURTHEST_M:g} m")
         if not 0 <= filled <= 1:
             raise ConfigError("filled", filled, "0 to 1")
+        if isinstance(tracks, str | FilePath):
+            from garage2usd.maps.track_tables import read_tracks  # noqa: PLC0415 - needs an extra
+
+            tracks = read_tracks(tracks)
         if tracks is not None and (len(sources) != 1 or tracks.duration_s < steps * STEP_S):
             allowed = f"tracks of at least {steps * STEP_S:g} s, the longest task, and a single garage"
             raise ConfigError("tracks", f"{tracks.duration_s:g} s in {len(sources)} garages", allowed)
