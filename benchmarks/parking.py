@@ -35,7 +35,8 @@ GAMMA, SHAPED = 0.98, 2.0
 LEARNT_S, LEARNING_CARS, LEARNING_STEPS, JUDGED = 600.0, 64, 150, 200
 SEEDS, UNSEEN = range(4), range(100, 102)
 """Seeds of the garages that PPO learns in, and of those in which it is judged."""
-LEARNT = {"nose": "in", "distance_m": (2.0, 8.0)}
+LEARNT = {"nose": "in", "distance_m": (1.0, 6.0)}
+TOLERANCE = 0.5, 10.0
 
 
 class Point(NamedTuple):
@@ -77,7 +78,7 @@ def parking() -> str:
 def parking_learnt() -> str:
     """Table of the learning curve of PPO, beside the planner."""
     unseen = GarageTasks([GarageConfig(seed=seed) for seed in UNSEEN], **LEARNT)
-    planner = sum(_is_parked(ParkingEnvironment(unseen), seed) for seed in range(JUDGED)) / JUDGED
+    planner = sum(_is_parked(ParkingEnvironment(unseen, tolerance=TOLERANCE), seed) for seed in range(JUDGED)) / JUDGED
     curve = learn(LEARNT_S)
     rows = [
         "## Parking-v0: a baseline that learns",
@@ -85,7 +86,8 @@ def parking_learnt() -> str:
         (
             f"PPO of stable-baselines3 {importlib.metadata.version('stable-baselines3')} on LiDAR, {LEARNING_CARS} "
             f"cars at once, one core, nose in from {LEARNT['distance_m'][0]:g} to {LEARNT['distance_m'][1]:g} m of "
-            f"path, episodes of {LEARNING_STEPS} steps, in {len(SEEDS)} default garages; rewards are shaped by the "
+            f"path to within {TOLERANCE[0]:g} m and {TOLERANCE[1]:g} degrees, {LEARNING_STEPS} steps at most, in "
+            f"{len(SEEDS)} default garages; rewards are shaped by the "
             "potential of the cost (Ng, Harada and Russell, 1999). Success and contacts are those of its last 400 "
             f"episodes while it learns, and in the last line of {JUDGED} tasks in {len(UNSEEN)} garages that it has "
             f"never seen, without noise, of which the planner solves {planner:.1%}."
@@ -190,6 +192,7 @@ def learn(seconds: float) -> list[Point]:  # noqa: C901 - classes of a package t
                 num_envs=LEARNING_CARS,
                 observation="lidar",
                 steps=LEARNING_STEPS,
+                tolerance=TOLERANCE,
                 autoreset_mode=AutoresetMode.SAME_STEP,
             )
             self.ends: list[tuple[bool, bool]] = []

@@ -86,8 +86,9 @@ class Episodes:
                 raise ConfigError(field, value, ", ".join(allowed))
         if not (len(tolerance) == 2 and min(tolerance) > 0):  # noqa: PLR2004
             raise ConfigError("tolerance", tolerance, "metres and degrees, more than 0")
-        if steps < 1:
-            raise ConfigError("steps", steps, "at least 1")
+        for field, number in (("steps", steps), ("num_envs", count)):
+            if number < 1:
+                raise ConfigError(field, number, "at least 1")
         self._source = _tasks_of(source, {**settings, "steps": steps}, settings)
         self._observation, self._is_continuous = observation, action == "continuous"
         self._is_dense, self._most, self._is_drawn = reward == "dense", steps, is_drawn

@@ -199,19 +199,19 @@ class ParkingVectorEnvironment(VectorEnv[Any, Any, Any]):
         *,
         num_envs: int = 1,
         render_mode: str | None = None,
-        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+        autoreset_mode: AutoresetMode = AutoresetMode.NEXT_STEP,
         **settings: Any,  # noqa: ANN401
     ) -> None:
-        mode = AutoresetMode(autoreset_mode)
-        if mode is AutoresetMode.DISABLED:
-            raise ConfigError("autoreset_mode", mode.value, "NextStep, SameStep")
-        self.num_envs, self.render_mode, self.metadata = num_envs, render_mode, {**_METADATA, "autoreset_mode": mode}
+        if autoreset_mode not in {AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP}:
+            raise ConfigError("autoreset_mode", autoreset_mode, "AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP")
+        self.num_envs, self.render_mode = num_envs, render_mode
+        self.metadata = {**_METADATA, "autoreset_mode": autoreset_mode}
         self._episodes = Episodes(num_envs, source, is_drawn=render_mode is not None, **settings)
         self.single_observation_space = self._episodes.single_observation_space
         self.single_action_space = self._episodes.single_action_space
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
-        self._is_same_step = mode is AutoresetMode.SAME_STEP
+        self._is_same_step = autoreset_mode is AutoresetMode.SAME_STEP
         self._randoms: list[np.random.Generator] = []
         self._is_over = np.zeros(num_envs, np.bool_)
 

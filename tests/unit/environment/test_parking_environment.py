@@ -13,7 +13,14 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
 from garage2usd.driving import DesignCar, Obstacles, Pose
 from garage2usd.driving.tracks import Agent, AgentClass, Track, Tracks
-from garage2usd.environment import PARKING_ID, GarageTasks, ParkingEnvironment, ParkingTask, reference_actions
+from garage2usd.environment import (
+    PARKING_ID,
+    GarageTasks,
+    ParkingEnvironment,
+    ParkingTask,
+    ParkingVectorEnvironment,
+    reference_actions,
+)
 
 SMALL = GarageConfig(site={"structure": "......\nE....X\n......\n"}, parking={"occupancy": 0.5})
 
@@ -210,6 +217,15 @@ def test_misuse_is_named(tasks):
 def test_bad_settings_are_named(settings, field):
     with pytest.raises(ConfigError, match=rf"^{field}: got "):
         ParkingEnvironment(**{"source": SMALL, **settings})
+
+
+def test_bad_settings_of_many_cars_are_named(tasks):
+    for field, settings in (
+        ("num_envs", {"num_envs": 0}),
+        ("autoreset_mode", {"autoreset_mode": AutoresetMode.DISABLED}),
+    ):
+        with pytest.raises(ConfigError, match=rf"^{field}: got "):
+            ParkingVectorEnvironment(tasks, **settings)
 
 
 def test_starts_lie_on_proven_paths_at_the_distance():
