@@ -165,22 +165,15 @@ class _Level:
         driven = [name for name in standing.names if level.place.path_in_whole(name) in tracked]
         self._standing, self._absent = standing.without(driven), routes.road.garage.absent_cars(car)
         self.corners = np.array([stall.corners for stall in level.stalls]).reshape(-1, 4, 2)
-        self._ways: dict[tuple[str, Nose, bool], _Way | None] = {}
-        self.around = lru_cache(maxsize=None)(self._around)
+        self.around, self.way = lru_cache(maxsize=None)(self._around), lru_cache(maxsize=None)(self._way)
 
     def _around(self, stall: Stall) -> tuple[Obstacles, Obstacles]:
         """Return what stands around a stall, and a car in each empty stall; without what the stall itself holds."""
         own = self.routes.road.garage.unseen(stall)
         return self._standing.without(own), self._absent.without(own)
 
-    def way(self, stall: Stall, nose: Nose, *, is_leaving: bool) -> _Way | None:
+    def _way(self, stall: Stall, nose: Nose, *, is_leaving: bool) -> _Way | None:
         """Return the path into a stall from as far as the street, or out of it; None if none is proven."""
-        key = stall.name, nose, is_leaving
-        if key not in self._ways:
-            self._ways[key] = self._searched(stall, nose, is_leaving=is_leaving)
-        return self._ways[key]
-
-    def _searched(self, stall: Stall, nose: Nose, *, is_leaving: bool) -> _Way | None:
         routes = self.routes
         (proof,) = prove_garage(routes.road.garage, [stall], car=self._car, noses=(nose,), most_explained=0)
         if proof.way_in is None or proof.way_out is None:
