@@ -1,11 +1,12 @@
 """Parking as a Gymnasium environment, ``garage2usd/Parking-v0``: one car, or many at once."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import gymnasium
 import numpy as np
 from gymnasium.error import ResetNeeded
+from gymnasium.spaces import Dict
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +19,7 @@ from garage2usd.environment.picture import draw_task
 from garage2usd.environment.task import ParkingTask
 
 _Source = Source | Tasks | Sequence[Source] | Sequence[ParkingTask] | None
+_Infos = Mapping[str, Any] | Sequence[Mapping[str, Any]]
 _METADATA = {"render_modes": ["rgb_array"], "render_fps": 5}
 
 
@@ -138,23 +140,23 @@ class ParkingEnvironment(gymnasium.Env[Any, Any]):
         observed = _at(self._episodes.observed(), 0)
         return observed, float(rewards[0]), bool(terminated[0]), bool(truncated[0]), self._told()
 
-    def compute_reward(
-        self, achieved_goal: ArrayLike, desired_goal: ArrayLike, info: Mapping[str, Any] | Sequence[Mapping[str, Any]]
-    ) -> Any:  # noqa: ANN401 - a number, or an array of them
-        """Return the reward of achieved and desired goals, as replay buffers with hindsight ask for it.
+    @property
+    def compute_reward(self) -> Callable[[ArrayLike, ArrayLike, _Infos], Any]:
+        """Reward of an achieved goal, a desired goal and an info, as replay buffers with hindsight ask for it.
 
-        Parameters
-        ----------
-        achieved_goal, desired_goal
-            Features as observed; shape (6,) or (n, 6).
-        info
-            Information of the step, or one for each of the n; whoever crashed or was outside has failed for any goal.
+        Goals are features as observed, of shape (6,), with the info of the step; or of shape (n, 6), with n infos, for
+        n rewards. Whoever crashed or was outside has failed for any goal.
 
-        Returns
-        -------
-        float or ndarray
-            Rewards; shape (n,) for n goals.
+        Raises
+        ------
+        AttributeError
+            If the observations are not ``"kinematics"``, which alone have goals.
         """
+        if "desired_goal" not in (self.observation_space.spaces if isinstance(self.observation_space, Dict) else {}):
+            raise AttributeError("compute_reward: only observations of kinematics have goals")
+        return self._reward_of
+
+    def _reward_of(self, achieved_goal: ArrayLike, desired_goal: ArrayLike, info: _Infos) -> Any:  # noqa: ANN401
         told = [info] if isinstance(info, Mapping) else list(info)
         failed = np.array([bool(each.get("is_crashed")) or bool(each.get("is_outside")) for each in told])
         rewards = self._episodes.reward(achieved_goal, desired_goal, failed)

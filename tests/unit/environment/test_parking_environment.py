@@ -22,6 +22,7 @@ from garage2usd.environment import (
     reference_actions,
 )
 
+OTHERS = ("lidar", "occupancy")
 SMALL = GarageConfig(site={"structure": "......\nE....X\n......\n"}, parking={"occupancy": 0.5})
 
 
@@ -129,6 +130,8 @@ def test_rewards_are_those_of_the_documentation():
     assert environment.compute_reward(achieved, goals, infos) == pytest.approx([-cost / 100, -0.5], abs=1e-6)
     sparse = ParkingEnvironment([empty_task()], reward="sparse", steps=50)
     assert sparse.compute_reward(achieved, goals, infos) == pytest.approx([-0.01, -0.51])
+    # libraries take an environment that computes rewards for one whose observations have goals
+    assert not any(hasattr(ParkingEnvironment([empty_task()], observation=each), "compute_reward") for each in OTHERS)
 
 
 def ended(task, actions, **settings):
