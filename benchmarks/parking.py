@@ -187,9 +187,9 @@ def learn(seconds: float) -> list[Point]:  # noqa: C901 - classes of a package t
         """The vector environment as stable-baselines3 takes one; `ends` are success and contact of its episodes."""
 
         def __init__(self, seeds: range) -> None:
-            tasks = GarageTasks([GarageConfig(seed=seed) for seed in seeds], **LEARNT)
+            self.tasks = GarageTasks([GarageConfig(seed=seed) for seed in seeds], **LEARNT)
             self.cars = ParkingVectorEnvironment(
-                tasks,
+                self.tasks,
                 num_envs=LEARNING_CARS,
                 observation="lidar",
                 steps=LEARNING_STEPS,
@@ -239,7 +239,7 @@ def learn(seconds: float) -> list[Point]:  # noqa: C901 - classes of a package t
     cars, unseen = Cars(SEEDS), Cars(UNSEEN)
     random, begun = np.random.default_rng(0), 0.0
     for _ in range(JUDGED):
-        cars.cars._episodes._source.draw(random)  # noqa: SLF001 - all paths are searched before the clock runs
+        cars.tasks.draw(random)  # all paths are searched before the clock runs
     curve: list[Point] = []
 
     class Watch(BaseCallback):  # type: ignore[misc]

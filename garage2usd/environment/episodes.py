@@ -1,7 +1,7 @@
 """Episodes of parking, many at once: tasks, actions, observations, rewards and ends."""
 
-from collections.abc import Mapping, Sequence
-from typing import Any, Protocol, cast
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, cast
 
 import numpy as np
 from gymnasium import spaces
@@ -18,6 +18,8 @@ from garage2usd.environment.task import ParkingTask
 from garage2usd.native import elementary
 
 Flags = NDArray[np.bool_]
+Tasks = Source | GarageTasks | Sequence[Source] | Sequence[ParkingTask] | None
+"""Garages, tasks of garages or a list of tasks, from which tasks are drawn; None for the default garage."""
 SCALES = np.array([20.0, 20.0, FASTEST_M_S, FASTEST_M_S, 1.0, 1.0])
 """Metres, metres a second and 1 that a feature of 1 stands for."""
 DISCRETE = np.array([(push, turn) for push in (-1.0, 0.0, 1.0) for turn in (-1.0, -0.5, 0.0, 0.5, 1.0)])
@@ -25,24 +27,6 @@ DISCRETE = np.array([(push, turn) for push in (-1.0, 0.0, 1.0) for turn in (-1.0
 _BOUND = 10.0
 _STEPS_PER_REWARD = 100.0
 _FAR_M, _TURN_WEIGHT, _STANDS_M_S = 30.0, 0.1, 0.3
-
-
-class Tasks(Protocol):
-    """Tasks that are drawn one by one, such as `GarageTasks`."""
-
-    def draw(self, random: np.random.Generator) -> ParkingTask:
-        """Draw a task."""
-        ...
-
-
-class _ListedTasks:
-    """Tasks of a list, each as probable as the others."""
-
-    def __init__(self, tasks: Sequence[ParkingTask]) -> None:
-        self._tasks = tasks
-
-    def draw(self, random: np.random.Generator) -> ParkingTask:
-        return self._tasks[int(random.integers(len(self._tasks)))]
 
 
 class Episodes:
@@ -67,7 +51,7 @@ class Episodes:
     def __init__(
         self,
         count: int,
-        source: Source | Tasks | Sequence[Source] | Sequence[ParkingTask] | None,
+        source: Tasks,
         *,
         observation: str = "kinematics",
         action: str = "continuous",
@@ -89,7 +73,7 @@ class Episodes:
         for field, number in (("steps", steps), ("num_envs", count)):
             if number < 1:
                 raise ConfigError(field, number, "at least 1")
-        self._source = _tasks_of(source, {**settings, "steps": steps}, settings)
+        self._draw = _drawing(source, steps, settings)
         self._observation, self._is_continuous = observation, action == "continuous"
         self._is_dense, self._most, self._is_drawn = reward == "dense", steps, is_drawn
         self._near_m, self._cos = tolerance[0], float(np.cos(np.radians(tolerance[1])))
@@ -107,7 +91,7 @@ class Episodes:
 
     def begin(self, number: int, random: np.random.Generator, task: ParkingTask | None = None) -> None:
         """Begin an episode of a car, of a given or drawn task."""
-        task = task or self._source.draw(random)
+        task = task or self._draw(random)
         self.tasks[number] = task
         self.simulation.place(number, task)
         one = slice(number, number + 1)
@@ -214,18 +198,18 @@ def _between(achieved: ArrayLike, desired: ArrayLike) -> tuple[Floats, Floats, F
     return np.hypot(apart[..., 0], apart[..., 1]), cos, np.hypot(apart[..., 2], apart[..., 3])
 
 
-def _tasks_of(source: Any, settings: Mapping[str, Any], given: Mapping[str, Any]) -> Tasks:  # noqa: ANN401
-    """Return the tasks of a source."""
-    listed = list(source) if isinstance(source, Sequence) and not isinstance(source, str) else None
-    is_tasks = bool(listed) and all(isinstance(each, ParkingTask) for each in listed or ())
-    if is_tasks or hasattr(source, "draw"):
-        if given:
-            raise ConfigError(next(iter(given)), given[next(iter(given))], "left out beside finished tasks")
-        return cast("Tasks", source) if listed is None else _ListedTasks(listed)
-    if listed == []:
+def _drawing(source: Tasks, steps: int, settings: Mapping[str, Any]) -> Callable[[np.random.Generator], ParkingTask]:
+    """Return the function that draws the tasks of a source."""
+    listed = list(source) if isinstance(source, Sequence) and not isinstance(source, str) else [source]
+    if not listed:
         raise ConfigError("source", source, "at least one garage or task")
-    garages = listed or [GarageConfig() if source is None else source]
-    return GarageTasks(garages, **settings)
+    tasks = [each for each in listed if isinstance(each, ParkingTask)]
+    if len(tasks) < len(listed) and not isinstance(source, GarageTasks):
+        garages = cast("list[Source]", [GarageConfig() if each is None else each for each in listed])
+        return GarageTasks(garages, steps=steps, **settings).draw
+    for field, value in settings.items():
+        raise ConfigError(field, value, "left out beside finished tasks")
+    return source.draw if isinstance(source, GarageTasks) else lambda random: tasks[int(random.integers(len(tasks)))]
 
 
 def _box(count: int) -> spaces.Box:

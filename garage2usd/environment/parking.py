@@ -14,11 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 from garage2usd.common.errors import ConfigError
 from garage2usd.driving import Pose
 from garage2usd.environment.episodes import Episodes, Tasks
-from garage2usd.environment.garage_tasks import Source
 from garage2usd.environment.picture import draw_task
 from garage2usd.environment.task import ParkingTask
 
-_Source = Source | Tasks | Sequence[Source] | Sequence[ParkingTask] | None
 _Infos = Mapping[str, Any] | Sequence[Mapping[str, Any]]
 _METADATA = {"render_modes": ["rgb_array"], "render_fps": 5}
 
@@ -29,9 +27,8 @@ class ParkingEnvironment(gymnasium.Env[Any, Any]):
     Parameters
     ----------
     source
-        Garages, as of `GarageTasks`, or one of them; or a list of `ParkingTask`, such as those of published scenes; or
-        an object with a method ``draw``, such as `GarageTasks`, which several environments may share. The default
-        garage if left out.
+        Garages, as of `GarageTasks`, or one of them; or `GarageTasks`, which several environments may share; or a list
+        of `ParkingTask`, such as those of published scenes. The default garage if left out.
     observation
         ``"kinematics"``, ``"lidar"`` or ``"occupancy"``.
     action
@@ -103,7 +100,7 @@ class ParkingEnvironment(gymnasium.Env[Any, Any]):
 
     metadata = _METADATA
 
-    def __init__(self, source: _Source = None, *, render_mode: str | None = None, **settings: Any) -> None:  # noqa: ANN401
+    def __init__(self, source: Tasks = None, *, render_mode: str | None = None, **settings: Any) -> None:  # noqa: ANN401
         self.render_mode = render_mode
         self._episodes = Episodes(1, source, is_drawn=render_mode is not None, **settings)
         self.observation_space = self._episodes.single_observation_space
@@ -197,7 +194,7 @@ class ParkingVectorEnvironment(VectorEnv[Any, Any, Any]):
 
     def __init__(
         self,
-        source: _Source = None,
+        source: Tasks = None,
         *,
         num_envs: int = 1,
         render_mode: str | None = None,
