@@ -21,6 +21,7 @@ from garage2usd.environment import (
     ParkingVectorEnvironment,
     reference_actions,
 )
+from garage2usd.maps.track_tables import write_track_parquet
 
 OTHERS = ("lidar", "occupancy")
 SMALL = GarageConfig(site={"structure": "......\nE....X\n......\n"}, parking={"occupancy": 0.5})
@@ -252,11 +253,11 @@ def test_starts_lie_on_proven_paths_at_the_distance():
                 assert (axle_to_mouth < axle_to_rear) == (nose == "in")
 
 
-def crossing(speed_m_s):
+def crossing(speed_m_s, prim=""):
     """A van that drives along +X through the middle of the open scene, from 30 m away."""
     time_s = np.arange(0.0, 100.05, 0.1)
     still = np.zeros(len(time_s))
-    agent = Agent("van", AgentClass.VAN, 5.0, 2.0, 2.0)
+    agent = Agent("van", AgentClass.VAN, 5.0, 2.0, 2.0, prim=prim)
     x = -30 + speed_m_s * time_s
     track = Track(
         agent, time_s, x, still, still - 3.0, still - np.pi / 2, still, still + speed_m_s, still, still,
@@ -275,6 +276,21 @@ def test_agents_of_tracks_move_at_their_times():
     assert 44 * 0.2 < 26.6 / 3 <= 45 * 0.2
     assert _among(empty_task(), crossing(3.0), 0.0, 401, 1).sizes_m.size == 0  # on another level
     assert _among(empty_task(), crossing(3.0), 10.0, 401, 0) is None  # it stands on the start
+
+
+def test_cars_that_tracks_move_do_not_stand_there_too(tasks, tmp_path):
+    def standing(task):
+        return {task.obstacles.names[owner] for owner in task.obstacles.owner.tolist()}
+
+    before = [standing(tasks.draw(np.random.default_rng(seed))) for seed in range(6)]
+    moved = min(name for name in set.intersection(*before) if "Car_" in name)
+    write_track_parquet(tmp_path / "tracks.parquet", crossing(0.0, prim=moved))
+    among = GarageTasks([SMALL], tracks=tmp_path / "tracks.parquet")
+    assert [standing(among.draw(np.random.default_rng(seed))) for seed in range(6)] == [
+        names - {moved} for names in before
+    ]
+    with pytest.raises(ConfigError, match=r"^tracks: got '100 s in 1 garages'; allowed: tracks of at least 120 s"):
+        GarageTasks([SMALL], tracks=crossing(0.0), steps=600)
 
 
 def test_pictures_show_car_goal_and_walls(tasks):
