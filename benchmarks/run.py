@@ -1,7 +1,7 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
 Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, floor, optimisers, rules, circulation,
-scale, stages, levels, exports, datasets, workers, looks, lidar, parking, parking_learnt, unity, compiled and
+scale, stages, levels, exports, datasets, workers, looks, lidar, parking, parking_learnt, unity, traffic, compiled and
 binding.
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
@@ -33,6 +33,7 @@ from planning import planning
 from rules import rules
 from scale import scale
 from stage import stages
+from traffic import traffic
 from unity import unity
 from waiting import waiting
 
@@ -64,6 +65,7 @@ def main() -> None:
         "parking": parking,
         "parking_learnt": parking_learnt,
         "unity": unity,
+        "traffic": traffic,
         "compiled": _compiled,
         "binding": binding,
     }

@@ -332,8 +332,8 @@ def _reference(column: int, phase: Vectors) -> Vectors:
     """An angle of the reference stride between its keys, by trigonometric interpolation; degrees."""
     keys = REFERENCE_DEG[:-1, column]
     shares = np.fft.rfft(keys) / len(keys)
-    waves = np.exp(2j * np.pi * np.asarray(phase)[..., None] * np.arange(len(shares)))
-    return np.asarray(2 * (waves @ shares).real - shares[0].real)
+    waves = np.polyval(shares[::-1], np.exp(2j * np.pi * np.asarray(phase)))
+    return np.asarray(2 * waves.real - shares[0].real)
 
 
 def _pitch(phase: Vectors) -> Vectors:

@@ -36,6 +36,8 @@ _BROUGHT = {
     "mcap": ("traffic", "MCAP"),
     "mcap_protobuf": ("traffic", "MCAP's support of protobuf"),
     "google": ("traffic", "protobuf"),
+    "av": ("video", "PyAV"),
+    "playwright": ("video", "Playwright"),
     "ezdxf": ("cad", "ezdxf"),
     "ifcopenshell": ("cad", "IfcOpenShell"),
 }
