@@ -90,8 +90,9 @@ def parking_learnt() -> str:
             f"path to within {TOLERANCE[0]:g} m and {TOLERANCE[1]:g} degrees, {LEARNING_STEPS} steps at most, in "
             f"{len(SEEDS)} default garages; rewards are shaped by the "
             "potential of the cost (Ng, Harada and Russell, 1999). Success and contacts are those of its last 400 "
-            f"episodes while it learns, and in the last line of {JUDGED} tasks in {len(UNSEEN)} garages that it has "
-            f"never seen, without noise, of which the planner solves {planner:.1%}."
+            f"episodes while it learns, and in the last line of the first {JUDGED} of {LEARNING_CARS} cars' tasks that "
+            f"end in {len(UNSEEN)} garages that it has never seen, without noise, of which the planner solves "
+            f"{planner:.1%}."
         ),
         "",
         "| steps | processor seconds | success | contact |",
