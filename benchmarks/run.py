@@ -1,7 +1,8 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
 Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, floor, optimisers, rules, circulation,
-scale, stages, levels, exports, datasets, workers, looks, lidar, unity, traffic, compiled and binding.
+scale, stages, levels, exports, datasets, workers, looks, lidar, parking, parking_learnt, unity, traffic, compiled and
+binding.
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.
@@ -27,6 +28,7 @@ from levels import levels
 from lidar import lidar
 from looks import looks
 from optimisers import optimisers
+from parking import parking, parking_learnt
 from planning import planning
 from rules import rules
 from scale import scale
@@ -60,6 +62,8 @@ def main() -> None:
         "workers": workers,
         "looks": looks,
         "lidar": lidar,
+        "parking": parking,
+        "parking_learnt": parking_learnt,
         "unity": unity,
         "traffic": traffic,
         "compiled": _compiled,

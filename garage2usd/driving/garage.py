@@ -165,6 +165,7 @@ def prove_garage(
     *,
     car: DesignCar | None = None,
     limits: Limits | None = None,
+    noses: Sequence[Nose] = tuple(Nose),
     with_all_taken_only: bool = False,
     most_explained: int | None = None,
     progress: Progress = silent,
@@ -179,6 +180,8 @@ def prove_garage(
         Stalls to prove; the default is all.
     car, limits
         The car, and the limits of its manoeuvres.
+    noses
+        Orientations that a parked car may have, the preferred one first.
     with_all_taken_only
         True to reject manoeuvres that need other stalls to be empty.
     most_explained
@@ -194,10 +197,9 @@ def prove_garage(
     Notes
     -----
     Each other stall holds its parked car, or else `car` in its middle. If no manoeuvres are found, the search is
-    repeated with the parked cars only. Nose in is tried before nose out, and driving on before backing out of a dead
-    end.
+    repeated with the parked cars only. Driving on is tried before backing out of a dead end.
     """
-    prover = _Prover(garage, car or DesignCar(), limits or Limits())
+    prover = _Prover(garage, car or DesignCar(), limits or Limits(), noses)
     asked = garage.stalls if stalls is None else tuple(stalls)
     proofs, failed = [], 0
     for done, stall in enumerate(asked):
@@ -213,8 +215,8 @@ def prove_garage(
 class _Prover:
     """Prover of a garage's stalls, with shared caches."""
 
-    def __init__(self, garage: DrivenGarage, car: DesignCar, limits: Limits) -> None:
-        self.car, self.limits = car, limits
+    def __init__(self, garage: DrivenGarage, car: DesignCar, limits: Limits, noses: Sequence[Nose]) -> None:
+        self.car, self.limits, self.noses = car, limits, noses
         self.garage = garage
         self.as_it_stands = garage.standing
         self.full = garage.standing.joined(garage.absent_cars(car))
@@ -252,7 +254,7 @@ class _Prover:
             for backing in (False, True):
                 if backing and not self._has_backing(stall):
                     continue
-                for nose in Nose:
+                for nose in self.noses:
                     ways = self._ways(stall, nose, obstacles, self.limits, backing=backing, find=find)
                     if ways.into and ways.out:
                         return StallProof(stall.name, nose, ways.into, ways.out, obstacles is full, backing)
@@ -283,7 +285,7 @@ class _Prover:
     def _ways_without(self, stall: Stall, name: str, obstacles: Obstacles) -> tuple[Manoeuvre, ...]:
         """Search both manoeuvres coarsely with one obstacle removed; empty if either is missing."""
         limits = replace(self.limits, is_thorough=False)
-        for nose in Nose:
+        for nose in self.noses:
             ways = self._ways(stall, nose, obstacles.without([name]), limits, backing=True, find=find_way_by_steps)
             if ways.into and ways.out:
                 return ways.into, ways.out

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -133,6 +133,15 @@ class Path:
     def reversed(self) -> "Path":
         """Return the path backwards in time, over the same ground."""
         return Path(self.end, tuple(piece.reversed() for piece in reversed(self.pieces)))
+
+    def rest(self, arc_m: float) -> "Path":
+        """Return the path from a distance on, of at most its length."""
+        number = int(np.clip(np.searchsorted(self._ends, arc_m, side="right") - 1, 0, len(self.pieces) - 1))
+        first = self.pieces[number]
+        rest_m = float(self._ends[number + 1]) - arc_m
+        bend_per_m = first.end_per_m + (first.start_per_m - first.end_per_m) * rest_m / first.length_m
+        cut = replace(first, length_m=rest_m, start_per_m=bend_per_m)
+        return Path(self.pose_at(arc_m), (cut, *self.pieces[number + 1 :]))
 
     def at(self, arc_m: ArrayLike) -> PathPoints:
         """Evaluate points at distances from the path's start, shape (n,), in any order; exact to rounding."""

@@ -158,6 +158,8 @@ class Ground:
         them.
     people
         Number of people who hold each cell.
+    claims
+        Number of cars that wait for people to leave each cell; nobody else walks onto it.
     """
 
     def __init__(self, raster: Raster) -> None:
@@ -165,6 +167,7 @@ class Ground:
         self.owner = np.zeros(raster.size, dtype=np.int32)
         self._held = np.zeros(raster.size, dtype=np.int16)
         self.people = np.zeros(raster.size, dtype=np.int16)
+        self.claims = np.zeros(raster.size, dtype=np.int16)
 
     def of_cars(self, layer: int) -> Floats:
         """Return the middles (x, z) of the cells of a layer that cars hold; shape (n, 2)."""

@@ -495,9 +495,15 @@ class People:
         walker.box = low_x, low_z, high_x, high_z
 
     def _is_free(self, walker: Walker, first: int, last: int, *, slack_m: float = 0.0) -> bool:
-        """Return True if no car holds some slices, and no other person is close."""
+        """Return True if no car holds some slices or waits for them, and no other person is close.
+
+        Who is on ground that a car waits for may walk on over it.
+        """
+        ground = self._ground
+        is_within = any(ground.claims[walker.cells[number]].any() for number in range(walker.freed, walker.held))
         for number in range(first, last + 1):
-            if (self._ground.owner[walker.cells[number]] > 0).any():
+            cells = walker.cells[number]
+            if (ground.owner[cells] > 0).any() or (not is_within and ground.claims[cells].any()):
                 return False
         return not any(self._close(walker, walker.walk.marks[2 * first : 2 * last + 3], slack_m=slack_m))
 

@@ -30,6 +30,8 @@ _YIELD_STEPS = 40
 """Steps after which a car that lets others go first goes on all the same, as where one comes from each side."""
 _AT_ONCE_M = 3.0
 """Two cars come to a junction at once if the second is within this distance of the place where it would reserve it."""
+_CLAIM_STEPS = 20
+"""Steps after which a car that waits for people claims the ground, so that they leave it and nobody else enters it."""
 _NEAR_M, _AT_END_M = 0.002, 1e-6
 
 
@@ -53,6 +55,8 @@ class Driver:
         Slice at whose end it waits until this is None again.
     came_at, yields_at
         Steps at which it came to the ground that it wants next, and at which it began to let others go first.
+    claimed
+        Cells that it has claimed from people.
     samples
         Step, distance, speed and state at each step.
     """
@@ -70,6 +74,7 @@ class Driver:
     barrier: int | None = None
     came_at: int = -1
     yields_at: int = -1
+    claimed: Cells | None = None
     samples: list[tuple[int, float, float, int]] = field(default_factory=list)
 
     @property
@@ -236,8 +241,11 @@ class Simulation:
         speed, way = driver.speed_m_s, driver.way_m
         if driver.held < trip.slices and self.step >= driver.retry_at:
             wanted_m = way + speed * speed / (2 * _BRAKING_M_S2) + _AHEAD_M
+            self._claim(driver, None)
             if not self._extend(driver, wanted_m):
                 driver.retry_at = self.step + _RETRY_STEPS
+                if 0 <= driver.waits_since < self.step - _CLAIM_STEPS and driver.barrier is None:
+                    self._claim(driver, trip.cells_between(driver.held, trip.groups[driver.held] + 1))
         held_m = trip.length_m if driver.held == trip.slices else driver.held * SLICE_M
         stop = trip.stops[driver.next_stop]
         speed_to = min(speed + settings.acceleration_m_s2 * STEP_S, trip.limit_at(way + speed * STEP_S))
@@ -268,8 +276,19 @@ class Simulation:
             driver.waits_since = -1
         driver.samples.append((self.step, way_to, speed_to, int(state)))
 
+    def _claim(self, driver: Driver, cells: Cells | None) -> None:
+        """Claim ground from people in place of what a car has claimed before; nothing where cars hold it too."""
+        if driver.claimed is not None:
+            self.ground.claims[driver.claimed] -= 1
+        owner = None if cells is None else self.ground.owner[cells]
+        is_open = owner is not None and bool(((owner == 0) | (owner == driver.number)).all())
+        driver.claimed = np.unique(cells) if is_open and cells is not None else None
+        if driver.claimed is not None:
+            self.ground.claims[driver.claimed] += 1
+
     def leave_ground(self, driver: Driver) -> None:
         """Release all ground of a car."""
+        self._claim(driver, None)
         trip = driver.trip
         for number in range(driver.freed, driver.held):
             self.ground.release((trip.cells if number == driver.held - 1 else trip.left)[number])

@@ -51,6 +51,9 @@ import gymnasium
 environment = gymnasium.make("garage2usd.environment:garage2usd/Lanes-v0")
 environment.reset(seed=1)
 environment.step(environment.unwrapped.action_space.sample())
+cars = gymnasium.make_vec("garage2usd/Parking-v0", num_envs=2, vectorization_mode="vector_entry_point")
+cars.reset(seed=1)
+cars.step(cars.action_space.sample())
 """
 EXPORTS = ("garage.xodr", "garage.xosc", "garage.yaml")
 GARAGE = (

@@ -11,9 +11,11 @@ import numpy as np
 from garage2usd.config import BayConfig, PlanConfig, SiteConfig
 from garage2usd.driving import path as paths
 from garage2usd.driving.car import DesignCar, Pose
-from garage2usd.driving.obstacles import Scene
+from garage2usd.driving.obstacles import Obstacles, Scene
 from garage2usd.driving.turns import Steering, joining_pieces
 from garage2usd.driving.way_search import Task, reeds_shepp_words, search
+from garage2usd.environment.simulation import Simulation
+from garage2usd.environment.task import ParkingTask
 from garage2usd.native import elementary, using
 from garage2usd.planning import find_optimum, plan_lanes
 from garage2usd.site import make_site
@@ -60,6 +62,23 @@ def plan_and_drive():
         path = paths.Path(start, pieces)
         path.at([0.0, 5.0, path.length_m])
         path.over_middle_m(DesignCar(), np.array([[0.0, -1.0, 0.0, 0.0, -9.0, 9.0, -9.0, 9.0, 1.5]]), far_cost=2.0)
+    park(Obstacles(("wall",), np.zeros(1, np.int64), wall))
+
+
+def park(walls):
+    """Drive cars onto a wall among agents, of which one has gone, and look around; and one where nothing stands."""
+    start, goal = Pose(0.0, 0.0, 0.3), Pose(4.0, -9.0, 1.0)
+    moving, sizes = np.array([[(3.0, -3.0, 1.0), (np.nan, np.nan, np.nan)]]), np.full((2, 2), 1.5)
+    nothing = walls.kept(np.zeros(1, bool))
+    cars = Simulation(3)
+    cars.place(0, ParkingTask("open", DesignCar(), start, goal, nothing))
+    cars.place(1, ParkingTask("wall", DesignCar(), start, goal, walls))
+    cars.place(2, ParkingTask("agents", DesignCar(), start, goal, walls, moving=moving, sizes_m=sizes))
+    cars.touching()
+    for _ in range(30):
+        cars.drive(np.array([(2.0, 0.0), (2.0, 0.1), (-2.0, -0.2)]), np.array([True, True, True]))
+        cars.ranges_m()
+        cars.occupancy()
 
 
 if __name__ == "__main__":

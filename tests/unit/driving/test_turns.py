@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from garage2usd.driving import Pose
+from garage2usd.driving import Gear, Pose
+from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.turns import Steering, joining_pieces
 
 STEERING = Steering(curvature_per_m=0.218, sharpness_per_m2=0.278)
@@ -45,3 +46,18 @@ def test_about_turns_lead_to_either_side(side, heading):
     # the shortest turns by a half, to the side on which the end lies
     assert followed(start, found[0])[2] - heading == pytest.approx(-side * math.pi, abs=1e-3)
     assert sum(piece.length_m for piece in found[0]) < 22.0
+
+
+def test_the_rest_of_a_path_is_the_path_from_there_on():
+    start = Pose(0.0, 0.0, 0.3)
+    forward = next(iter(joining_pieces(start, Pose(4.0, -19.0, 0.2), STEERING)))
+    path = Path(start, (*forward, Piece(Gear.REVERSE, 3.0, 0.1, -0.2)))
+    for arc_m in np.linspace(0.0, path.length_m, 23).tolist():
+        rest = path.rest(arc_m)
+        assert rest.length_m == pytest.approx(path.length_m - arc_m)
+        along = np.linspace(0.0, rest.length_m, 50)
+        found, whole = rest.at(along), path.at(arc_m + along)
+        assert found.x_m == pytest.approx(whole.x_m, abs=1e-9)
+        assert found.z_m == pytest.approx(whole.z_m, abs=1e-9)
+        assert found.yaw_rad == pytest.approx(whole.yaw_rad, abs=1e-9)
+        assert found.curvature_per_m[:-1] == pytest.approx(whole.curvature_per_m[:-1], abs=1e-9)

@@ -1,15 +1,13 @@
-"""The decision process as a Gymnasium environment; importing this module registers ``garage2usd/Lanes-v0``.
-
-Requires the extra ``gymnasium``. ``gymnasium.make("garage2usd.environment:garage2usd/Lanes-v0", config=...)`` imports
-the module itself.
-"""
+"""The decision process as a Gymnasium environment, ``garage2usd/Lanes-v0``."""
 
 from typing import Any
 
+import gymnasium
 import numpy as np
+from gymnasium import spaces
+from gymnasium.error import InvalidAction, ResetNeeded
 from numpy.typing import NDArray
 
-from garage2usd.common.package import of_extra
 from garage2usd.config import GarageConfig
 from garage2usd.planning.decision import (
     Action,
@@ -26,13 +24,6 @@ from garage2usd.planning.decision import (
 from garage2usd.planning.score import evaluate, is_feasible
 from garage2usd.site.levels import level_number, make_level_sites
 from garage2usd.structure.grid import Cell, Structure
-
-with of_extra("garage2usd.environment"):
-    import gymnasium
-    from gymnasium import spaces
-    from gymnasium.error import InvalidAction, ResetNeeded
-
-ENVIRONMENT_ID = "garage2usd/Lanes-v0"
 
 _CAR = "@"
 
@@ -201,7 +192,3 @@ def _observation_space(process: DecisionProcess) -> spaces.Dict:
     if process.parameters.sees_distances:
         seen["distances"] = spaces.Box(0, max(process.site.shape), (4,), np.int32)
     return spaces.Dict(seen)
-
-
-if ENVIRONMENT_ID not in gymnasium.registry:
-    gymnasium.register(ENVIRONMENT_ID, entry_point="garage2usd.environment:LanesEnvironment")
