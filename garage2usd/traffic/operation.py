@@ -141,6 +141,7 @@ class Operation:
             raster=self._raster,
             lanes=self._lanes,
             keeps_left=self._planner.keeps_left,
+            doors=[walkways.door_places for walkways in self.walkers.levels],
         )
 
     def run(self, settings: TrafficConfig, *, seed: int = 0, progress: Progress = silent) -> Tracks:

@@ -25,6 +25,8 @@ _LIMIT_STEP_M = 0.1
 _NODES_A_SLICE = 3
 _IN_LINE = 0.995
 _SAME_M, _SAME_RAD = 2e-3, 1e-3
+_DOOR_CLEAR_M = 1.2
+"""Distance of a waiting car from the place in front of the door of a stair core."""
 _OWN_HALF_M = 0.05
 """Least distance of a waiting car from the middle of an aisle for two-way traffic."""
 _ABREAST_M = 2.1
@@ -84,6 +86,8 @@ class Trip:
         The lane graph of each level.
     keeps_left
         True where traffic keeps to the left.
+    doors
+        Places (x, z) in front of the doors of stair cores of each level, which a waiting car keeps clear of.
 
     Attributes
     ----------
@@ -112,8 +116,9 @@ class Trip:
         raster: Raster,
         lanes: Sequence[LaneGraph],
         keeps_left: bool = False,
+        doors: Sequence[Floats] = (),
     ) -> None:
-        self.path, self.car, self.stretches, self._lanes = path, car, tuple(stretches), lanes
+        self.path, self.car, self.stretches, self._lanes, self._doors = path, car, tuple(stretches), lanes, doors
         self._raster, self.keeps_left = raster, keeps_left
         self._spans = tuple(spans)
         motion = timed(path, settings, car=car, spans=spans)
@@ -278,6 +283,15 @@ class Trip:
                         aside - self.car.width_m / 2 + width_m / 2 >= _ABREAST_M
                     )
                 found[own[here]] = True
+            if each.level < len(self._doors):
+                for door in self._doors[each.level]:
+                    away = door - middle[own]
+                    run, right = (
+                        (away * ahead[own]).sum(axis=1),
+                        away[:, 1] * ahead[own][:, 0] - away[:, 0] * ahead[own][:, 1],
+                    )
+                    beside = np.maximum(np.abs(np.stack([run, right])) - [[half], [self.car.width_m / 2]], 0.0)
+                    found[own[np.hypot(*beside) < _DOOR_CLEAR_M]] = False
         return found
 
     def states(self, ways: Floats) -> NDArray[np.float64]:

@@ -77,6 +77,7 @@ class Walkways:
             doors = [level.lanes.nodes[number].position for number in level.street_portals]
         entries = {door: self._nearest(door, _TO_DOOR_M, short_m=_BEFORE_DOOR_M) for door in dict.fromkeys(doors)}
         self._doors = [(door, entry) for door, entry in entries.items() if entry is not None]
+        self.door_places = np.array([self._free[entry] for _, entry in self._doors]).reshape(-1, 2)
         self._fields = [dijkstra(self._graph, indices=entry, return_predecessors=True) for _, entry in self._doors]
         self._wide_fields: list[tuple[Floats, NDArray[np.int32]]] = []
         self._walks: dict[tuple[int, bool], Floats | None] = {}
