@@ -132,9 +132,12 @@ class RayScene:
     def of_objects(self, ids: Collection[int]) -> "RayScene":
         """Select the surfaces of some objects."""
         kept = np.isin(self.instance, list(ids))
+        used, corners = np.unique(self.triangles[kept], return_inverse=True)
         return replace(
             self,
-            triangles=self.triangles[kept],
+            vertices_m=self.vertices_m[used],
+            coordinates=self.coordinates[used],
+            triangles=corners.reshape(-1, 3).astype(np.int32),
             instance=self.instance[kept],
             class_id=self.class_id[kept],
             surface=self.surface[kept],
@@ -166,6 +169,13 @@ class RayScene:
                 at = (self.coordinates[corners] * weights[:, :, None]).sum(axis=1)
                 through[own] = ~_are_opaque(sampled(mask, at), self.surfaces[number])
         return through
+
+    @cached_property
+    def bounds_m(self) -> NDArray[np.float64]:
+        """Least and greatest corner of the triangles; float64, shape (2, 3)."""
+        used = self.vertices_m[self.triangles.ravel()]
+        bounds: NDArray[np.float64] = np.stack([used.min(axis=0), used.max(axis=0)])
+        return bounds
 
     @cached_property
     def _caster(self) -> RayCaster:
