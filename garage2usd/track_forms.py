@@ -164,5 +164,36 @@ def write_tracks(
     return published[-1], *published[:-1]
 
 
+def write_predictions(path: Path, tracks: Tracks, garage: BuiltGarage) -> int:
+    """Write the prediction tasks of tracks to a Parquet table, or to a new folder of ScenarioNet; return their number.
+
+    Raises
+    ------
+    ConfigError
+        If the folder exists.
+    OutputError
+        If it cannot be written; it appears whole or not at all.
+    MissingExtraError
+        If a table needs an extra that is not installed.
+    """
+    from garage2usd.maps import prediction_tasks as forms  # noqa: PLC0415 - tracks do without it
+
+    tasks = forms.prediction_tasks(tracks)
+    is_table = path.suffix.lower() == ".parquet"
+    if is_table:
+        require("prediction tasks as a table", ["pyarrow"], extra="traffic")
+        check_file(path)
+    elif path.exists():
+        raise ConfigError("predictions", str(path), "a table that ends in .parquet, or a new folder")
+    with staging_folder(path) as staging:
+        draft = staging / path.name
+        if is_table:
+            forms.write_prediction_table(draft, tasks)
+        else:
+            forms.write_prediction_scenarios(draft, tasks, garage)
+        publish_at({draft: path})
+    return len(tasks)
+
+
 def _beside(place: Path, suffix: str) -> Path:
     return place.with_name(f"{place.name[: -len(suffix)]}{_BESIDE[suffix]}")
