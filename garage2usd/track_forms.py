@@ -114,9 +114,14 @@ def check_tracks_file(path: str | Path) -> str:
         raise ConfigError("output", str(path), f"a path that ends in {', '.join(TRACK_SUFFIXES)}")
     check_name(place, of_layer=suffix in _LAYERS)
     check_file(place, with_it=[_beside(place, suffix)] if suffix in _BESIDE else [])
+    require_form(suffix)
+    return suffix
+
+
+def require_form(suffix: str) -> None:
+    """Check that the packages for the form of an extension are installed; raise MissingExtraError if not."""
     if suffix in _OF_EXTRA:
         require(f"tracks as {suffix}", [_OF_EXTRA[suffix]], extra="traffic")
-    return suffix
 
 
 def write_tracks(
