@@ -1,7 +1,7 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
 Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, floor, optimisers, rules, circulation,
-scale, stages, levels, exports, datasets, workers, looks, lidar, unity, compiled and binding.
+scale, stages, levels, exports, datasets, workers, living, looks, lidar, unity, compiled and binding.
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.
@@ -25,6 +25,7 @@ from exports import exports
 from floor_use import floor_use
 from levels import levels
 from lidar import lidar
+from living import living
 from looks import looks
 from optimisers import optimisers
 from planning import planning
@@ -57,6 +58,7 @@ def main() -> None:
         "exports": exports,
         "datasets": datasets,
         "workers": workers,
+        "living": living,
         "looks": looks,
         "lidar": lidar,
         "unity": unity,

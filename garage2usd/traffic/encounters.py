@@ -13,7 +13,7 @@ from garage2usd.driving.tracks import AgentClass, AgentState, Floats, Track, Tra
 _STEP_S = 0.2
 _NEAR_M, _REACH_M, _SAME_FLOOR_M = 2.0, 25.0, 1.5
 _MOVES_M_S, _STILL_M_S = 0.2, 1e-6
-_WAIT_S = 1.0
+_WAIT_S, _SHORTEST_S = 1.0, 1e-6
 
 
 class Encounters(NamedTuple):
@@ -64,8 +64,9 @@ def encounters(tracks: Tracks) -> Encounters:
 
 
 def _going(track: Track, times_s: Floats) -> _Going:
-    around = track.at(times_s - _STEP_S / 2), track.at(times_s + _STEP_S / 2)
-    velocity = np.nan_to_num((around[1] - around[0])[:, [0, 2]] / _STEP_S)
+    ends_s = np.clip(times_s + np.array([[-_STEP_S], [_STEP_S]]) / 2, track.time_s[0], track.time_s[-1])
+    lasting_s = np.maximum(ends_s[1] - ends_s[0], _SHORTEST_S)
+    velocity = (track.at(ends_s[1]) - track.at(ends_s[0]))[:, [0, 2]] / lasting_s[:, None]
     before = np.clip(np.searchsorted(track.time_s, times_s, side="right") - 1, 0, len(track) - 1)
     return _Going(track, track.at(times_s)[:, :4], velocity, track.state[before] == AgentState.PARKED)
 
