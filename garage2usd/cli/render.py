@@ -148,6 +148,9 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     type=click.FloatRange(0.001, 1),
     help="With --rig: a bird's-eye view at each place too, of 600 x 600 pixels that are M metres wide.",
 )
+@click.option(
+    "--flow", is_flag=True, default=None, help="With --rig: the optical flow of each picture to the next pose too."
+)
 @click.option("--without-cars", is_flag=True, default=None, help="With --birds-eye: it looks through parked cars.")
 @click.option(
     "--output",
@@ -183,6 +186,7 @@ def render(
     points: tuple[str, ...] | None,
     also: tuple[str, ...] | None,
     birds_eye: float | None,
+    flow: bool | None,
     without_cars: bool | None,
     output: Path,
 ) -> None:
@@ -238,12 +242,13 @@ def render(
             asked,
             told,
             above,
+            bool(flow),
             formats,
             too,
             output,
         )
         return
-    in_traffic = {"tracks": tracks, "ego": ego, "every-s": every_s, "between": between}
+    in_traffic = {"tracks": tracks, "ego": ego, "every-s": every_s, "between": between, "flow": flow}
     _refuse(in_traffic, "only with --rig")
     with_rig: dict[str, object] = {"along": along, "every-m": every_m, "scale": scale, "points": points, "also": also}
     _refuse({**with_rig, "birds-eye": birds_eye, "without-cars": without_cars}, "only with --rig")
@@ -304,6 +309,7 @@ def _record(
     pictures: "list[Picture]",
     slots: "list[SlotFormat] | None",
     birds_eye: "BirdsEye | None",
+    flow: bool,  # noqa: FBT001 - one of the command's options
     points: tuple[str, ...],
     also: tuple[str, ...],
     output: Path,
@@ -327,6 +333,7 @@ def _record(
             pictures=pictures,
             slots=slots,
             birds_eye=birds_eye,
+            flow=flow,
             points=[CloudFormat(kind) for kind in points],
             sequences=[Sequence(kind) for kind in also],
             progress=progress,

@@ -14,6 +14,7 @@ from garage2usd.config.outputs import DriveConfig
 from garage2usd.reading.labels import read_labels
 from garage2usd.reading.whole_garage import open_garage
 from garage2usd.recordings.birds_eye import check_birds_eye, ego_mask
+from garage2usd.recordings.flow import write_flow
 from garage2usd.recordings.own_drive import AVP
 from garage2usd.recordings.scene import EGO_FOLDER, POINTS_FOLDER, Scene
 from garage2usd.recordings.sequences import Sequence, check_sequences, write_sequence
@@ -82,6 +83,7 @@ def record(  # noqa: PLR0915 - all steps of a recording, in order
     pictures: Collection[Picture] = tuple(Picture),
     slots: Collection[SlotFormat] | None = None,
     birds_eye: BirdsEye | None = None,
+    flow: bool = False,
     points: Collection[CloudFormat] = tuple(CloudFormat),
     sequences: Collection[Sequence] = (),
     settings: DriveConfig | None = None,
@@ -121,6 +123,8 @@ def record(  # noqa: PLR0915 - all steps of a recording, in order
     birds_eye
         Settings of additional bird's-eye views at each pose, with masks of free space and of the vehicle; None for
         none.
+    flow
+        True to write the optical flow of each picture to that of the next pose, as `garage2usd.recordings.flow` does.
     points
         File formats of the LiDARs' point clouds.
     sequences
@@ -170,7 +174,7 @@ def record(  # noqa: PLR0915 - all steps of a recording, in order
         from garage2usd.recordings.sweeps import Sweeps  # noqa: PLC0415 - pictures do not need its extra
 
         sweeps = Sweeps(opened, scene.labels, way, chosen, formats, seed)
-    needed = {*(() if slots is None and birds_eye is None else NEEDED), *scene.needed(kinds)}
+    needed = {*(() if slots is None and birds_eye is None and not flow else NEEDED), *scene.needed(kinds)}
     drawn = with_needed(kinds, needed)
     count = samples or default_samples(view.size_px for view in scene.views)
     key = scene.key(path, drawn, samples=count, seed=seed, device=drawn_on)
@@ -187,6 +191,8 @@ def record(  # noqa: PLR0915 - all steps of a recording, in order
             visible = drawing.draw(work, progress, announce)
             views = [replace(view, facts=drawing.facts(view)) for view in views]
             made += _write_calibrations(chosen, finished)
+            flowing, views = write_flow(scene, views, finished) if flow else ([], views)
+            made += flowing
             if scene.birds_eye is not None:
                 made.append(scene.birds_eye.write_masks(finished, chosen.body))
         if sweeps is not None and formats:

@@ -130,6 +130,19 @@ class Scene:
             unseen=self.unseen(),
         )
 
+    def moves(self, number: int) -> dict[int, Matrix]:
+        """Return the motion of each moving object from a pose to the next, by its id, in the stage's axes."""
+        before, after = (self._way.poses[each] for each in (number, number + 1))
+        moves = {}
+        if self._way.has_vehicle:
+            moves[self._ego_id] = after.vehicle_to_world @ np.linalg.inv(before.vehicle_to_world)
+        agents, times_s = self._way.agents, np.array([before.time_s, after.time_s])
+        if agents is not None:
+            for instance, (owner, _) in agents.shown(number).items():
+                first, last = agents.model_places(owner, times_s, self._way.to_stage)
+                moves[instance] = last @ np.linalg.inv(first)
+        return moves
+
     def slot_labels(self, finished: Path) -> SlotLabels:
         """Return the labels of parking slots: the target stall is free, and in traffic each that no car is in."""
         views = self.views

@@ -5,6 +5,7 @@ import json
 from collections import defaultdict
 
 import numpy as np
+import OpenEXR
 import pytest
 from support.recorded_traffic import EGO, TOP, Recorded, middle_of
 from support.sensor_judges import HAS_SENSOR_JUDGES, run_judge
@@ -117,12 +118,14 @@ def test_pictures_show_agents_where_they_are_at_their_time(tmp_path):
         samples=1,
         pictures=[Picture.DEPTH, Picture.INSTANCE],
         slots=[SlotFormat.JSON],
+        flow=True,
     )
     table = json.loads(recorded.made.frames.read_text())
     assert table["traffic"]["ego"] == ""
     agents = {agent["id"]: agent for agent in table["traffic"]["agents"]}
     assert EGO in {agent["name"] for agent in agents.values()}
-    pixels = defaultdict(int)
+    assert ["flow" in frame for frame in table["frames"]] == [True] * 5 + [False]
+    pixels, flows = defaultdict(int), []
     for frame in table["frames"]:
         files = {kind: recorded.made.folder / file for kind, file in frame["files"].items()}
         depth_m, ids = read_depth(files["depth"]), read_ids(files["instance"])
@@ -146,8 +149,35 @@ def test_pictures_show_agents_where_they_are_at_their_time(tmp_path):
             assert (own[:, 1] > there.y - 0.05).all()
             assert (own[:, 1] < there.y + high + 0.3).all()
             pixels[agent["class"]] += len(own)
+            if "flow" in frame and agent["class"] == "car" and track.time_s[-1] > frame["time_s"] + 0.5:
+                flows += judged_flow(recorded, frame, agent["name"], own, ids == number)
+        if "flow" in frame:
+            still = read_flow(recorded.made.folder / frame["flow"])[~np.isin(ids, [*agents]) & np.isfinite(depth_m)]
+            assert np.abs(still).max() < 1e-2
     slots = json.loads((recorded.made.folder / "slots.json").read_text())
     assert slots["frames"][0]["slots"]
     assert all(slot["occupied"] in {True, False} for frame in slots["frames"] for slot in frame["slots"])
+    assert max(flows) > 3.0  # pixels
     assert pixels["car"] > 60
     assert pixels["person"] > 10
+
+
+def read_flow(path):
+    with OpenEXR.File(str(path), separate_channels=True) as file:
+        return np.stack([np.array(file.channels()[name].pixels) for name in "UV"], axis=-1)
+
+
+def judged_flow(recorded, frame, name, places, mask):
+    """Lengths of the flow of a car, which is that of its body in the layer of the tracks that USD plays."""
+    before, after = (recorded.placed(name, frame["time_s"] + seconds) for seconds in (0.0, 0.5))
+    move = after @ np.linalg.inv(before)
+    to_camera = np.array(frame["world_to_camera"]) @ np.vstack([move[:3], [0, 0, 0, 1]])
+    moved = places @ to_camera[:3, :3].T + to_camera[:3, 3]
+    (focal_x, _, across), (_, focal_y, down), _ = np.array(frame["intrinsics"])
+    pixels = np.stack([focal_x * moved[:, 0], focal_y * moved[:, 1]], axis=1) / moved[:, 2:] + (across, down)
+    rows, columns = np.nonzero(mask)
+    expected = pixels - np.stack([columns + 0.5, rows + 0.5], axis=1)
+    flow = read_flow(recorded.made.folder / frame["flow"])[mask]
+    ahead = moved[:, 2] > 1.0
+    assert flow[ahead] == pytest.approx(expected[ahead], abs=0.3)
+    return np.linalg.norm(expected[ahead], axis=1).tolist()
