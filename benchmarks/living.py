@@ -21,7 +21,7 @@ from garage2usd.render.drawing import Drawing
 __all__ = ["living"]
 
 RECIPE = "samples/recipes/living.toml"
-GARAGES = 3
+GARAGES = 2
 PARTS: dict[str, tuple[Any, str]] = {
     "traffic: the run, tracks, prediction tasks, figures": (scene, "operate"),
     "sensors: pictures by Blender": (Drawing, "draw"),

@@ -18,7 +18,8 @@ from garage2usd.recordings.flow import write_flow
 from garage2usd.recordings.own_drive import AVP
 from garage2usd.recordings.scene import EGO_FOLDER, POINTS_FOLDER, Scene
 from garage2usd.recordings.sequences import Sequence, check_sequences, write_sequence
-from garage2usd.recordings.way import Traffic, Way
+from garage2usd.recordings.traffic import Traffic
+from garage2usd.recordings.way import Way
 from garage2usd.render import Picture, SlotFormat
 from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
 from garage2usd.render.devices import CPU, Device, default_samples, find_device

@@ -1,7 +1,7 @@
 """Agents of tracks around a recording: where each is at the times of the poses, its models and labels."""
 
 import zlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -252,32 +252,3 @@ def vehicle_places(track: Track, times_s: Floats) -> Matrix:
         car_to_y_up(track.at(np.clip(times_s, track.time_s[0], track.time_s[-1]))) @ to_axle @ CAR_FROM_VEHICLE
     )
     return places
-
-
-def pose_times(
-    tracks: Tracks, ego: str, every_s: float, between_s: tuple[float, float] | None
-) -> tuple[Track | None, Floats]:
-    """Choose the times of a recording's poses: multiples of a step at which the ego is there and is not parked.
-
-    Raises
-    ------
-    ConfigError
-        If the ego is not a car of the tracks, or no time is left.
-    """
-    begins_s, ends_s = between_s or (0.0, tracks.duration_s)
-    times: Floats = np.round(np.arange(np.ceil(begins_s / every_s - 1e-9), ends_s / every_s + 1e-9) * every_s, 6)
-    track = None
-    if ego:
-        cars = {each.agent.name: each for each in tracks if each.agent.kind is not AgentClass.PERSON}
-        track = cars.get(ego)
-        if track is None:
-            raise ConfigError("ego", ego, f"avp, or a car of the tracks: {_some([*cars])}")
-        times = times[(times >= track.time_s[0]) & (times <= track.time_s[-1])]
-        times = times[track.sampled(times).state != AgentState.PARKED]
-    if not len(times):
-        raise ConfigError("between", between_s, f"times at which {ego or 'the tracks'} can be recorded")
-    return track, times
-
-
-def _some(names: Sequence[str]) -> str:
-    return ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "")  # noqa: PLR2004

@@ -18,7 +18,8 @@ from garage2usd.recordings.scene import POINTS_FOLDER
 from garage2usd.recordings.way import Way
 from garage2usd.sensors.formats.nuscenes_boxes import ATTRIBUTES, ObjectBox, spread_points
 from garage2usd.sensors.formats.recording import Shot
-from garage2usd.sensors.rays.lidar import MovedScene, joined, measure, ray_times_s
+from garage2usd.sensors.rays.lidar import measure, ray_times_s
+from garage2usd.sensors.rays.moved_scene import MovedScene, joined
 from garage2usd.sensors.rays.point_cloud import CloudFormat, PointCloud, write_cloud
 from garage2usd.sensors.rays.ray_scene import RayScene, read_ray_scene
 from garage2usd.sensors.rig.poses import VehiclePose

@@ -13,7 +13,7 @@ from garage2usd.driving.tracks import AgentState
 from garage2usd.reading.labels import Labels
 from garage2usd.sensors.formats.nuscenes_scenes import GlobalFrame, Stretch
 from garage2usd.sensors.formats.nuscenes_tables import BOXED, Record, Tables, place_fields, token_of
-from garage2usd.sensors.rays.lidar import MovedScene
+from garage2usd.sensors.rays.moved_scene import MovedScene
 from garage2usd.sensors.rays.point_cloud import PointCloud
 from garage2usd.sensors.rays.ray_scene import RayScene
 

@@ -1,106 +1,23 @@
-"""LiDAR simulation: the rays of a sweep, a car that moves through the scene, and the point cloud of the returns."""
+"""LiDAR simulation: the rays of a sweep, and the point cloud of the returns."""
 
 import math
 import zlib
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Any, Self
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.common.randomness import Step, generator
-from garage2usd.scenes.surfaces import SurfaceLook
+from garage2usd.sensors.rays.moved_scene import MovedScene
 from garage2usd.sensors.rays.point_cloud import PointCloud
-from garage2usd.sensors.rays.ray_scene import RayHits, RayScene
+from garage2usd.sensors.rays.ray_scene import RayScene
 from garage2usd.sensors.rays.reflectance import returned
 from garage2usd.sensors.rig.sensors import Lidar, SolidStateLidar, SpinningLidar
 
 _PRISM_RPM = 7294.0, -4664.0
 """Speeds of the two rotating prisms of a Livox Mid-40."""
-_ROUNDING_M = 1e-3
-
-
-@dataclass(frozen=True, eq=False)
-class MovedScene:
-    """A static ray scene and moving objects, whose triangles are numbered after the scene's.
-
-    Attributes
-    ----------
-    scene
-        The static surfaces.
-    things
-        The moving objects, each in the axes of its own stage.
-    places
-        Rigid transform of each object from its stage to the scene's axes, in metres, for column vectors: float64, shape
-        (4, 4), or (rays, 4, 4) for an object that moves from ray to ray. None for an object that is not there.
-    instance, class_id, surface
-        Attributes of all triangles, as in `RayScene`.
-    surfaces
-        Looks of all surfaces.
-    """
-
-    scene: RayScene
-    things: tuple[RayScene, ...]
-    places: tuple[NDArray[np.float64] | None, ...]
-    instance: NDArray[np.int32]
-    class_id: NDArray[np.uint8]
-    surface: NDArray[np.int32]
-    surfaces: tuple[SurfaceLook, ...]
-
-    def at(self, *places: NDArray[np.float64] | None) -> Self:
-        """Return the ray scene with the moving objects at other poses."""
-        return replace(self, places=places)
-
-    def cast(self, origins_m: NDArray[Any], directions: NDArray[Any]) -> RayHits:
-        """Find the first hit of each ray; see `RayScene.cast`."""
-        hits = self.scene.cast(origins_m, directions)
-        first, origins = len(self.scene.triangles), np.broadcast_to(origins_m, np.shape(directions))
-        for thing, place in zip(self.things, self.places, strict=True):
-            if place is not None:
-                _cast_at(thing, place, origins, directions, first, hits)
-            first += len(thing.triangles)
-        return hits
-
-
-def _cast_at(
-    thing: RayScene,
-    place: NDArray[np.float64],
-    origins_m: NDArray[Any],
-    directions: NDArray[Any],
-    first: int,
-    hits: RayHits,
-) -> None:
-    """Cast the rays that pass near an object in its axes, and keep the hits that are nearer; triangles from `first`."""
-    places = np.broadcast_to(place, (len(directions), 4, 4))
-    turns, middle = places[:, :3, :3], thing.bounds_m.mean(axis=0)
-    away = turns @ middle + places[:, :3, 3] - origins_m
-    along = np.maximum(np.einsum("ij,ij->i", away, directions), 0.0)
-    apart_m = np.linalg.norm(away - along[:, None] * directions, axis=1)
-    near = np.flatnonzero(apart_m <= np.linalg.norm(np.ptp(thing.bounds_m, axis=0)) / 2 + _ROUNDING_M)
-    if not len(near):
-        return
-    begins = np.einsum("nji,nj->ni", turns[near], (origins_m - places[:, :3, 3])[near])
-    there = thing.cast(begins, np.einsum("nji,nj->ni", turns[near], np.asarray(directions)[near]))
-    is_there = there.range_m < hits.range_m[near]
-    nearer = near[is_there]
-    hits.range_m[nearer], hits.cos_incidence[nearer] = there.range_m[is_there], there.cos_incidence[is_there]
-    hits.triangle[nearer] = there.triangle[is_there] + first
-
-
-def joined(scene: RayScene, *things: RayScene) -> MovedScene:
-    """Join a ray scene and moving objects at their initial poses."""
-    all_scenes = (scene, *things)
-    firsts = np.cumsum([0, *(len(each.surfaces) for each in all_scenes)]).tolist()
-    return MovedScene(
-        scene,
-        things,
-        (np.eye(4),) * len(things),
-        np.concatenate([each.instance for each in all_scenes]),
-        np.concatenate([each.class_id for each in all_scenes]),
-        np.concatenate([each.surface + first for each, first in zip(all_scenes, firsts, strict=False)]),
-        tuple(surface for each in all_scenes for surface in each.surfaces),
-    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -171,13 +171,6 @@ class RayScene:
         return through
 
     @cached_property
-    def bounds_m(self) -> NDArray[np.float64]:
-        """Least and greatest corner of the triangles; float64, shape (2, 3)."""
-        used = self.vertices_m[self.triangles.ravel()]
-        bounds: NDArray[np.float64] = np.stack([used.min(axis=0), used.max(axis=0)])
-        return bounds
-
-    @cached_property
     def _caster(self) -> RayCaster:
         return ray_caster(self.vertices_m, self.triangles)
 
