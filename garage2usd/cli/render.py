@@ -344,7 +344,7 @@ def _record(
     places, sensors = len({shot.pose for shot in shots}), list(dict.fromkeys(shot.sensor.name for shot in shots))
     echo_table(
         [
-            ("places", f"{places} in {shots[-1].time_s:.1f} s"),
+            ("places", f"{places} in {shots[-1].time_s - shots[0].time_s:.1f} s"),
             ("sensors", ", ".join(sensors)),
             ("frames", str(len(shots))),
             ("files", ", ".join(dict.fromkeys(kind for shot in shots for kind in shot.files))),

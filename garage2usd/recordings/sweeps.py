@@ -53,6 +53,7 @@ class Sweeps:
         self.stage, self.labels = stage, labels
         self._way, self._rig = way, rig
         self._formats, self._seed = formats, seed
+        self._moved: _Moving | None = None
 
     @property
     def described(self) -> str:
@@ -134,8 +135,8 @@ class Sweeps:
     def _moving(self, work: Path) -> "_Moving | None":
         """Read the moving vehicle, which LiDARs mounted elsewhere see, and the agents of the traffic."""
         sees_vehicle = self._way.has_vehicle and any(lidar.mount != "vehicle" for lidar in self._rig.lidars)
-        if self._way.agents is None and not sees_vehicle:
-            return None
+        if self._moved is not None or (self._way.agents is None and not sees_vehicle):
+            return self._moved
         path = work / "stage_of_lidars.usdc"
         path.unlink(missing_ok=True)
         models = self._way.agents.models if self._way.agents else []
@@ -145,7 +146,8 @@ class Sweeps:
         ids = [self.labels.ids[EGO_PATH], *(self.labels.ids[model.path] for model in models)]
         things = [every.of_objects([number]) for number in ids]
         whole = (replace(thing, instance=self.labels.instances_of(thing.instance)) for thing in things)
-        return _Moving(self._way, joined(self.solids, *whole), ids)
+        self._moved = _Moving(self._way, joined(self.solids, *whole), ids)
+        return self._moved
 
     def traffic_at(self, work: Path) -> Callable[[int], tuple[MovedScene, list[ObjectBox]]] | None:
         """Return the surfaces and the boxes of agents at a pose by its number; None without traffic."""

@@ -129,6 +129,11 @@ class Way:
     def _take(self, traffic: Traffic, along: str | None, settings: DriveConfig) -> None:
         """Follow the ego through the traffic, or stand in it without an ego."""
         tracks, ego = traffic.tracks, traffic.ego
+        foreign = [
+            track.agent.prim for track in tracks if track.agent.prim and not self.stage.GetPrimAtPath(track.agent.prim)
+        ]
+        if foreign:
+            raise ConfigError("tracks", foreign[0], "cars of this stage, as the tracks must be those of its garage")
         if ego == AVP:
             begins_s, _ = traffic.between_s or (0.0, 0.0)
             tracks = with_own_drive(tracks, self.garage, settings, along=along, begins_s=begins_s)

@@ -1,6 +1,7 @@
 """Recordings in traffic: agents are where the tracks have them, also at the time of each ray of a sweep."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,10 +16,12 @@ from garage2usd.as_built.garage import garage_as_made
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.outputs import DriveConfig
+from garage2usd.config.traffic import TrafficConfig
 from garage2usd.driving.tracks import AgentState
 from garage2usd.recordings import Traffic, record
 from garage2usd.recordings.own_drive import AVP, with_own_drive
 from garage2usd.sensors.rig.rig import rig_from_mapping
+from garage2usd.traffic import Operation
 
 CENTIMETRE, MILLIMETRE = 0.01, 0.001
 WHEEL_M = 0.75
@@ -184,6 +187,55 @@ def test_what_cannot_be_recorded_in_traffic_is_named(recorded, tmp_path, changes
         record(recorded.stage, tmp_path / "out", rig=rig, traffic=traffic)
     assert refused.value.field == field
     assert allowed in refused.value.allowed
+
+
+def test_tracks_of_another_garage_are_refused(recorded, tmp_path):
+    strange = replace(
+        recorded.by_name["car_900"], agent=replace(recorded.by_name["car_900"].agent, prim="/Garage/Car_9")
+    )
+    traffic = Traffic(replace(recorded.tracks, tracks=(recorded.by_name[EGO], strange)), EGO)
+    with pytest.raises(ConfigError, match="/Garage/Car_9"):
+        record(
+            recorded.stage, tmp_path / "out", rig=rig_from_mapping({"name": "own", "sensors": [TOP]}), traffic=traffic
+        )
+
+
+@pytest.mark.soak
+def test_ten_runs_are_recorded_where_their_tracks_are(recorded, tmp_path):
+    """Points of moving cars lie within their boxes at the time of the ray, by the tracks alone."""
+    operation, total = Operation(recorded.garage), 0
+    rig = rig_from_mapping({"name": "own", "sensors": [{**TOP, "azimuth_steps": 360}]})
+    for seed in range(10):
+        tracks = operation.run(TrafficConfig(minutes=2.0, arrivals_per_hour=150), seed=seed)
+        by_name = {track.agent.name: track for track in tracks}
+        ego = max(by_name, key=lambda name: (by_name[name].state == AgentState.DRIVES).sum())
+        begin = float(by_name[ego].time_s[np.argmax(by_name[ego].state == AgentState.DRIVES)]) + 3.0
+        traffic = Traffic(tracks, ego, 0.5, (begin, begin + 4.0))
+        made = record(recorded.stage, tmp_path / str(seed), rig=rig, traffic=traffic)
+        table = json.loads(made.frames.read_text())
+        agents = {agent["id"]: agent for agent in table["traffic"]["agents"]}
+        assert len({agent["name"] for agent in agents.values()}) == len(agents)
+        for sweep, states in zip(table["sweeps"], table["traffic"]["states"], strict=True):
+            for state in states:
+                there = middle_of(by_name[agents[state["id"]]["name"]], sweep["time_s"])
+                place = np.array(state["agent_to_world"])[:3, 3]
+                assert place == pytest.approx((there.x, there.y, there.z), abs=CENTIMETRE)
+            with np.load(made.folder / sweep["files"]["npz"]) as cloud:
+                to_world = np.array(sweep["sensor_to_world"])
+                for number, agent in agents.items():
+                    own = np.flatnonzero(cloud["instance"] == number)
+                    if len(own) and agent["class"] == "car":
+                        track = by_name[agent["name"]]
+                        points = cloud["points_m"][own] @ to_world[:3, :3].T + to_world[:3, 3]
+                        x, y, z, yaw, pitch = track.at(sweep["time_s"] + cloud["time_s"][own].astype(float)).T
+                        away = points - np.stack([x, y, z], axis=1)
+                        ahead = -away[:, 0] * np.sin(yaw) - away[:, 2] * np.cos(yaw)
+                        side = away[:, 0] * np.cos(yaw) - away[:, 2] * np.sin(yaw)
+                        level = np.isfinite(x) & (np.abs(pitch) < 1e-3)
+                        assert (np.abs(ahead[level]) < track.agent.length_m / 2 + CENTIMETRE).all()
+                        assert (np.abs(side[level]) < track.agent.width_m / 2 + 0.25).all()  # mirrors
+                        total += int(level.sum())
+    assert total > 1000
 
 
 def test_options_of_traffic_belong_to_tracks(recorded):
