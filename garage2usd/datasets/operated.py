@@ -12,8 +12,6 @@ from garage2usd.common.settings import Settings
 from garage2usd.config.traffic import TrafficConfig
 from garage2usd.driving.tracks import Tracks
 from garage2usd.track_forms import write_predictions, write_tracks
-from garage2usd.traffic import Operation
-from garage2usd.traffic.encounters import encounters
 
 _DIGITS = 3
 
@@ -57,6 +55,9 @@ def operate(
     tuple
         The tracks, and the traffic fields of the garage's manifest row.
     """
+    from garage2usd.traffic import Operation  # noqa: PLC0415 - slow to import, and not always needed
+    from garage2usd.traffic.encounters import encounters  # noqa: PLC0415 - as above
+
     garage = garage_of_file(stage)
     tracks = replace(Operation(garage).run(settings, seed=seed), source=stage.name)
     for form in config.forms:
