@@ -81,6 +81,9 @@ if [ ! -e "$stamp" ]; then
         judge sensor_judges "faster-coco-eval==1.8.0" "mcap-ros2-support==0.6.0" "nuscenes-devkit==1.2.0" \
             "open3d==0.20.0" "panopticapi-lite==0.2.0" "pycocotools==2.0.11" "pypcd4==1.5.1" &
         sensor_judges=$!
+        # tracks of traffic; nothing is drawn, so that it downloads no models
+        judge metadrive "metadrive-simulator==0.4.3" &
+        metadrive=$!
         # SimReady assets, by NVIDIA's validator, which brings a usd-core of its own
         judge simready "simready-foundation-tier-core==2026.8.0" "simready-validate==2026.8.0" &
         simready=$!
@@ -101,6 +104,7 @@ if [ ! -e "$stamp" ]; then
         "$npm" install --silent --no-package-lock --no-audit --no-fund --prefix garage2usd/view/web
         wait "$judges"
         wait "$sensor_judges"
+        wait "$metadrive"
         wait "$simready"
     fi
     touch "$stamp"

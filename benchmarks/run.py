@@ -1,7 +1,7 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
 Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, floor, optimisers, rules, circulation,
-scale, stages, levels, exports, datasets, workers, living, looks, lidar, unity, compiled and binding.
+scale, stages, levels, exports, datasets, workers, living, looks, lidar, unity, traffic, compiled and binding.
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.
@@ -32,6 +32,7 @@ from planning import planning
 from rules import rules
 from scale import scale
 from stage import stages
+from traffic import traffic
 from unity import unity
 from waiting import waiting
 
@@ -62,6 +63,7 @@ def main() -> None:
         "looks": looks,
         "lidar": lidar,
         "unity": unity,
+        "traffic": traffic,
         "compiled": _compiled,
         "binding": binding,
     }

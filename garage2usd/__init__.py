@@ -42,27 +42,19 @@ __all__ = [
     "record",
 ]
 
-_HOME = {
-    "ConfigError": "common.errors",
-    "Build": "pipeline",
-    "Garage": "garage_model",
-    "Garage2UsdError": "common.errors",
-    "GarageConfig": "config",
-    "GenerationError": "common.errors",
-    "Optimum": "planning.optimum",
-    "Structure": "structure.grid",
-    "UnreachableStallError": "common.errors",
-    "build": "pipeline",
-    "check": "garage_sources",
-    "drive": "garage_sources",
-    "export": "exports",
-    "find_optimum": "planning.optimum",
-    "generate": "pipeline",
-    "import_layout": "imports",
-    "load_config": "config",
-    "record": "recordings",
+_MODULES = {
+    "common.errors": ("ConfigError", "Garage2UsdError", "GenerationError", "UnreachableStallError"),
+    "config": ("GarageConfig", "load_config"),
+    "exports": ("export",),
+    "garage_model": ("Garage",),
+    "garage_sources": ("check", "drive"),
+    "imports": ("import_layout",),
+    "pipeline": ("Build", "build", "generate"),
+    "planning.optimum": ("Optimum", "find_optimum"),
+    "recordings": ("record",),
+    "structure.grid": ("Structure",),
 }
-__getattr__ = on_first_use(__name__, _HOME)
+__getattr__ = on_first_use(__name__, _MODULES)
 
 
 def __dir__() -> list[str]:

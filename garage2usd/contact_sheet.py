@@ -220,7 +220,11 @@ def _rendered(
         pictures=(Picture.COLOUR,),
         device=device,
     )
-    return [_opened(drawn.folder / Picture.COLOUR / f"{name}.png") for name in drawn.names]
+    pictures = []
+    for name in drawn.names:
+        with Image.open(drawn.folder / Picture.COLOUR / f"{name}.png") as picture:
+            pictures.append(picture.convert("RGB"))
+    return pictures
 
 
 def _captioned(level: _Level, inside: Image.Image, above: Image.Image) -> Image.Image:
@@ -244,11 +248,6 @@ def _over(layout: Layout, size_px: tuple[int, int]) -> tuple[tuple[float, float,
     far_m = _ROOM * max(width_m / 2 / _HALF_WIDTH, depth_m / 2 / half_height) + height_m
     x, z = float(width_m / 2), float(depth_m / 2)
     return (x, float(far_m), z + _LEAN * float(far_m)), (x, 0.0, z)
-
-
-def _opened(path: Path) -> Image.Image:
-    with Image.open(path) as picture:
-        return picture.convert("RGB")
 
 
 def _exposed(picture: Image.Image) -> Image.Image:

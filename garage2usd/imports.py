@@ -21,7 +21,7 @@ from garage2usd.common.progress import Progress, silent
 from garage2usd.config import GarageConfig
 from garage2usd.config.fittings import CEILING_ROOM_M
 from garage2usd.driving import StallProof, prove_stalls
-from garage2usd.garage.levels import LevelPlace, level_places, places_at
+from garage2usd.garage.levels import level_places, places_at
 from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.layout.surveyed import FloorAbove, LevelPart, SurveyedFloor, lay_out_survey
 from garage2usd.layout.surveyed.heights import LEAST_SLAB_M, level_config
@@ -35,7 +35,7 @@ from garage2usd.report import make_report
 from garage2usd.structure.building import Building
 from garage2usd.survey.lots import in_lots
 from garage2usd.survey.reader import read_building
-from garage2usd.survey.survey import Alignment, Survey, SurveyedStall, Unplaced
+from garage2usd.survey.survey import Alignment, Survey, Unplaced
 from garage2usd.survey.surveyed_building import SurveyedBuilding, SurveyedLevel, aligned_building
 from garage2usd.view.thumbnails import draw_pictures
 
@@ -164,7 +164,10 @@ def _laid_out(
         replace(
             with_ramps_inside(level.survey, own),
             lanes=lanes_to_landings(level.survey.lanes, own.gates) if own.gates else level.survey.lanes,
-            stalls=_numbered(level.survey.stalls, place) if len(levels) > 1 else level.survey.stalls,
+            # numbers do not begin with the name of their level, which the whole garage adds
+            stalls=tuple(replace(stall, number=place.own_name(stall.number)) for stall in level.survey.stalls)
+            if len(levels) > 1
+            else level.survey.stalls,
         )
         for level, own, place in zip(levels, ramps, places_at(floors_m), strict=True)
     ]
@@ -226,11 +229,6 @@ def _floors_m(levels: Sequence[SurveyedLevel], config: GarageConfig) -> tuple[li
         needed = f"{least_m:.2f} m or more leave room for cars"
         remarks = [f"floors that are {near_m:.2f} m apart in the source are placed {placed_m:g} m apart: {needed}"]
     return [place.floor_m for place in level_places(len(levels), config.building.storey_m)], remarks
-
-
-def _numbered(stalls: Sequence[SurveyedStall], place: LevelPlace) -> tuple[SurveyedStall, ...]:
-    """Return stalls with numbers that do not begin with the name of their level, which it adds in the whole garage."""
-    return tuple(replace(stall, number=place.own_name(stall.number)) for stall in stalls)
 
 
 def _have_street(levels: Sequence[SurveyedLevel], ramps: Sequence[LevelRamps]) -> list[bool]:

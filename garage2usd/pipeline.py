@@ -291,7 +291,9 @@ def written(
             told.append(f"{place.name}, its labels and {len(drawn)} pictures")
         with _timed(seconds, "check") as told:
             judged = judge()
-            told.append("too many stalls" if judged is None else _counted(judged))
+            told.append(
+                "too many stalls" if judged is None else f"{sum(len(each.findings) for each in judged)} findings"
+            )
         facts = staging / f"{path.stem}_report.json"
         unmet = None if judged is None else [each.unmet for each in judged]
         write_report(facts, report(seconds=seconds, unmet=unmet))
@@ -344,7 +346,8 @@ def _generate(
             if not attempt:
                 raise
             break
-        unreached = _unreached(garage, may_turn_back=is_given)
+        # routes on a single level are proven earlier, when its lane graph is built
+        unreached = unreached_stalls(garage.joined, may_turn_back=is_given) if garage.building.links else []
         if not unreached:
             return garage, seconds
         tight.append(garage)
@@ -355,7 +358,7 @@ def _generate(
         raise ConfigError("tape", tape, f"ramps and lanes without {lack}")
     # routes on which cars turn back at once will do if the design car has room for them
     for garage in tight:
-        if _is_driven_through(garage):
+        if DrivePlanner(garage_as_made(garage, source="a layout", kind="layout")).is_driven_through():
             return garage, seconds
     place, tried = config.building.place, len(tight)
     if place is not None:
@@ -504,22 +507,9 @@ def _driven(layout: Layout, config: GarageConfig, bay: BayConfig, progress: Prog
     return layout
 
 
-def _unreached(garage: Garage, *, may_turn_back: bool) -> list[str]:
-    """Return the stalls that cars cannot reach over the ramps, or from which they cannot reach the street.
-
-    The routes on each level are proven earlier, when its lane graph is built.
-    """
-    return unreached_stalls(garage.joined, may_turn_back=may_turn_back) if garage.building.links else []
-
-
 def _unreached_in_words(stalls: list[str]) -> str:
     named = ", ".join(stalls[:_NAMED_STALLS]) + (", ..." if len(stalls) > _NAMED_STALLS else "")
     return f"stalls without a way from the street and to it: {named}"
-
-
-def _is_driven_through(garage: Garage) -> bool:
-    """Return True if the design car can drive from the street to the lowest level and back."""
-    return DrivePlanner(garage_as_made(garage, source="a layout", kind="layout")).is_driven_through()
 
 
 def _judged(garage: Garage) -> tuple[Judged, ...] | None:
@@ -528,10 +518,6 @@ def _judged(garage: Garage) -> tuple[Judged, ...] | None:
         return None
     found = [judged_layout(level.layout, level.config) for level in garage.levels]
     return tuple(Judged(tuple(findings), unmet) for findings, unmet in found)
-
-
-def _counted(judged: Sequence[Judged]) -> str:
-    return f"{sum(len(each.findings) for each in judged)} findings"
 
 
 @contextmanager

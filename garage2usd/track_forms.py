@@ -58,10 +58,12 @@ def _scenario(path: Path, asked: _Asked) -> tuple[Path, ...]:
 
 
 def _floating_car_data(path: Path, asked: _Asked) -> tuple[Path, ...]:
-    from garage2usd.maps.floating_car_data import write_floating_car_data  # noqa: PLC0415 - for this form only
+    from garage2usd.maps import floating_car_data as data  # noqa: PLC0415 - for this form only
 
-    write_floating_car_data(path, asked.tracks)
-    return ()
+    data.write_floating_car_data(path, asked.tracks)
+    types = _beside(path, ".fcd.xml")
+    data.write_vehicle_types(types, asked.tracks)
+    return (types,)
 
 
 def _osi(path: Path, asked: _Asked) -> tuple[Path, ...]:
@@ -89,7 +91,7 @@ _WRITERS: dict[str, _Write] = {
     ".pkl": _scenario_net,
 }
 _OF_EXTRA = {".parquet": "pyarrow", ".csv": "pyarrow", ".xosc": "scenariogeneration", ".mcap": "osi3"}
-_BESIDE = {".csv": ".json", ".xosc": ".xodr"}
+_BESIDE = {".csv": ".json", ".xosc": ".xodr", ".fcd.xml": ".types.xml"}
 """Extensions of files that are written beside those of a form."""
 TRACK_SUFFIXES = tuple(_WRITERS)
 """Extensions of the files that `write_tracks` writes: Parquet and CSV tables, USD layers, OpenSCENARIO scenarios,
@@ -139,8 +141,8 @@ def write_tracks(
     path
         The file: ``.parquet`` or ``.csv`` a table with a row for each sample (a CSV has a ``.json`` of the same stem
         beside it), ``.usda`` or ``.usdc`` a layer to put over the stage, ``.xosc`` an OpenSCENARIO 1.3 scenario with a
-        ``.xodr`` map of the same stem beside it, ``.fcd.xml`` SUMO's floating car data, ``.mcap`` ground truth of ASAM
-        OSI, ``.pkl`` ScenarioNet's dictionary.
+        ``.xodr`` map of the same stem beside it, ``.fcd.xml`` SUMO's floating car data with the types of agents in an
+        ``.types.xml`` beside it, ``.mcap`` ground truth of ASAM OSI, ``.pkl`` ScenarioNet's dictionary.
     tracks
         The tracks.
     garage

@@ -212,8 +212,7 @@ def _is_on(floors: NDArray[np.float64], place: NDArray[np.float64]) -> bool:
 
 
 def _crossed(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.float64]:
-    crossed: NDArray[np.float64] = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
-    return crossed
+    return one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
 
 
 def _of_levels(stalls: Sequence[Stall], levels: Sequence[FoundLevel], faults: list[Fault]) -> Iterator[Stall]:

@@ -42,8 +42,7 @@ class PlacedPieces(NamedTuple):
     @property
     def have_area(self) -> NDArray[np.bool_]:
         """True for each piece that is more than a line or a point; bool, shape (pieces,)."""
-        has_area: NDArray[np.bool_] = self.counts >= _LEAST_CORNERS
-        return has_area
+        return self.counts >= _LEAST_CORNERS
 
     @property
     def footprints(self) -> Grounds:

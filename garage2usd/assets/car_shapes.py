@@ -1,13 +1,13 @@
 """Shapes of the catalogue's bodies: side views, and designs of lamps, grilles and wheels."""
 
-import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from importlib import resources
 from typing import Any
 
 from pydantic import TypeAdapter
+
+from garage2usd.common.documents import shipped_toml
 
 _BASES = {"plain_van"}
 """Bodies in the file that are only bases of others."""
@@ -145,9 +145,8 @@ class SideView:
 
 def _side_views() -> dict[str, SideView]:
     """Read the shapes of all bodies; a body may be based on one that precedes it in the file."""
-    text = resources.files(__package__).joinpath("car_shapes.toml").read_text(encoding="utf-8")
     fields: dict[str, dict[str, Any]] = {}
-    for name, given in tomllib.loads(text).items():
+    for name, given in shipped_toml("garage2usd.assets", "car_shapes").items():
         of_base = fields.get(given.pop("base", ""), {})
         if "roof_at" in given:
             given["roof"] = _roof(*given.pop("roof_at"))

@@ -337,14 +337,12 @@ class Shell:
         back = [min(self.roof_rear, 0.86 * length), min(self.deck, 0.88 * length), 0.9 * length, self._last]
         knots = [self._first, 0.12 * length, self.cowl, self.roof_front, *back]
         bow = np.interp(s, knots, [front, 0.06, 0.07, 0.05, -0.03, -0.03, -0.02, -rear])
-        z: NDArray[np.float64] = (s - length / 2)[:, None] - bow[:, None] * (1 - (2 * x / self.body.width_m) ** 2)
-        return z
+        return (s - length / 2)[:, None] - bow[:, None] * (1 - (2 * x / self.body.width_m) ** 2)
 
     def _set_back(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
         """Setback in Z of the ends above and below their bumpers; shape (n, points of a half ring)."""
         nose, tail = self._end_weights(s)
-        step: NDArray[np.float64] = np.outer(nose, _NOSE_SETBACK_M) - np.outer(tail, _TAIL_SETBACK_M)
-        return step
+        return np.outer(nose, _NOSE_SETBACK_M) - np.outer(tail, _TAIL_SETBACK_M)
 
     def _end_weights(self, s: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Weights of nose and tail at points: 1 at the end, falling to 0."""
@@ -355,8 +353,7 @@ class Shell:
         """Height of the sill and of the bumpers' lower edges."""
         length = self.body.length_m
         lift = 0.07 * np.clip(1 - s / (0.08 * length), 0, 1) + 0.11 * np.clip(1 - (length - s) / (0.07 * length), 0, 1)
-        height: NDArray[np.float64] = self.shape.clearance_m + lift
-        return height
+        return self.shape.clearance_m + lift
 
     def _bottom(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
         """Height of the side's lower edge: the sill, raised above the wheels."""

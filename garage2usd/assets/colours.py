@@ -2,7 +2,6 @@
 
 import io
 from functools import lru_cache
-from pathlib import Path
 
 import numpy as np
 from PIL import Image
@@ -49,7 +48,11 @@ def mean_colour(texture: Texture) -> Rgb:
     if isinstance(texture, OwnTexture):
         pixels = own_pixels(texture, TextureQuality.LOW).convert("RGBA")
     else:
-        file = io.BytesIO(texture.data) if isinstance(texture, StoredTexture) else _shipped(texture)
+        file = (
+            io.BytesIO(texture.data)
+            if isinstance(texture, StoredTexture)
+            else texture_folder(TextureQuality.LOW) / texture
+        )
         with Image.open(file) as picture:
             pixels = picture.convert("RGBA")
     *channels, opacity = np.asarray(pixels).reshape(-1, 4).T
@@ -57,10 +60,6 @@ def mean_colour(texture: Texture) -> Rgb:
     counts = (np.bincount(channel, weights, minlength=len(_LINEAR)) for channel in channels)
     red, green, blue = (round(float(count @ _LINEAR) / max(float(count.sum()), 1.0), _PLACES) for count in counts)
     return red, green, blue
-
-
-def _shipped(name: str) -> Path:
-    return texture_folder(TextureQuality.LOW) / name
 
 
 @lru_cache(maxsize=16)

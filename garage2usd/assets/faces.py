@@ -1,7 +1,8 @@
 """Polygon faces of boxes, solids of revolution, frames, rings and lofts."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -9,6 +10,8 @@ from numpy.typing import ArrayLike
 from garage2usd.assets.mesh import Face
 
 _STRAIGHT = 1e-9
+_SIDE_OF_RODS = (0.31, 0.17, 0.93)
+"""A direction across rods that lie along none."""
 
 
 def moved(faces: Sequence[Face], by: ArrayLike) -> list[Face]:
@@ -230,3 +233,38 @@ def limb_faces(
         other = np.cross(along, across)
         rings.append(point + np.outer(np.cos(angles) * width, across) + np.outer(np.sin(angles) * depth, other))
     return loft_faces(rings)
+
+
+def faces_of(pieces: Iterable[Mapping[str, Any]], *, side: float = 1.0) -> list[Face]:
+    """Make the faces of the pieces that a table describes, in its order.
+
+    Parameters
+    ----------
+    pieces
+        Tables with a ``box`` of two corners; the rings (half X, half Z, Y, Z) of a ``loft`` of rectangles; the points
+        of a ``tube`` with its ``radius_m`` and ``segments``; the ends and the radius (X, Y, Z, X, Y, Z, R) of some
+        ``rods``; the rings (X, Y, Z, width and, where it differs, depth) of a ``limb`` with its ``segments`` and
+        ``side``; or ``pieces`` that are made once for each of some ``sides``.
+    side
+        Factor on the X of rods and limbs.
+    """
+    faces: list[Face] = []
+    for piece in pieces:
+        match piece:
+            case {"pieces": inner, "sides": sides}:
+                faces += [face for each in sides for face in faces_of(inner, side=each)]
+            case {"box": (low, high)}:
+                faces += box_faces(low, high)
+            case {"loft": rings}:
+                faces += loft_faces([rectangle_ring(x, depth, y=y, z=z) for x, depth, y, z in rings])
+            case {"tube": points, "radius_m": radius_m, "segments": segments}:
+                faces += tube_faces(points, radius_m, segments=segments)
+            case {"rods": rods}:
+                for *ends, radius_m in rods:
+                    places = [(side * x, y, z) for x, y, z in (ends[:3], ends[3:])]
+                    faces += limb_faces(places, [radius_m] * 2, side=_SIDE_OF_RODS, segments=8)
+            case {"limb": rings, **more}:
+                points = [(side * x, y, z) for x, y, z, *_ in rings]
+                widths, *depths = zip(*(radii for _, _, _, *radii in rings), strict=True)
+                faces += limb_faces(points, widths, *depths, **more)
+    return faces

@@ -71,6 +71,8 @@ class Figure(NamedTuple):
         Materials of skin and hair.
     has_long_hair
         True if the hair falls down the back.
+    head
+        Factor on the size of the head; the heads of children are larger than those of adults for their stature.
     """
 
     height_m: float
@@ -83,6 +85,17 @@ class Figure(NamedTuple):
     skin: str
     hair: str
     has_long_hair: bool = False
+    head: float = 1.0
+
+    @property
+    def skeleton(self) -> Skeleton:
+        """Joints of the person at rest."""
+        return skeleton_of(self.height_m, 0.098 if self.is_woman else 0.109)
+
+    @property
+    def top_m(self) -> float:
+        """Height of the top of the skull."""
+        return self.height_m * (HIPS + CHIN_Y + _HEAD * self.head)
 
 
 class SkinnedFigure(NamedTuple):
@@ -110,7 +123,7 @@ class SkinnedFigure(NamedTuple):
 
 def skinned_figure(figure: Figure) -> SkinnedFigure:
     """Make a person at rest with a skeleton and the weights of its joints."""
-    skeleton, pieces = _skeleton(figure), _pieces(figure)
+    skeleton, pieces = figure.skeleton, _pieces(figure)
     parts, weights = [], []
     for name, (material, collider, covers) in pieces.items():
         part = _part(name, [face for faces, _ in covers for face in faces], material, collider)
@@ -127,7 +140,7 @@ def skinned_figure(figure: Figure) -> SkinnedFigure:
 
 def figure_asset(figure: Figure, pose: Pose) -> Asset:
     """Make a person that faces +Z in a pose, with the lower foot on y = 0 below the hips."""
-    skeleton, turns = _skeleton(figure), pose.turns()
+    skeleton, turns = figure.skeleton, pose.turns()
     pieces = _pieces(figure)
 
     def posed(piece: _Piece, hips_m: Vectors) -> list[Face]:
@@ -155,13 +168,9 @@ def figure_asset(figure: Figure, pose: Pose) -> Asset:
     return Asset(tuple(parts))
 
 
-def _skeleton(figure: Figure) -> Skeleton:
-    return skeleton_of(figure.height_m, 0.098 if figure.is_woman else 0.109)
-
-
 def _pieces(figure: Figure) -> dict[str, tuple[str, Collider | None, list[_Piece]]]:
     """Faces at rest and their skin by the name of the part, with its material and collider."""
-    body = _Body(figure, _skeleton(figure))
+    body = _Body(figure, figure.skeleton)
     is_dress, is_shirt = figure.outfit is Outfit.DRESS, figure.outfit is Outfit.SHIRT
     legs = _legs(body, is_bare=is_dress)
     bare_arms = _arms(body, 2, 6, thinner=0.82) if is_shirt else []
@@ -212,8 +221,7 @@ class _Body(NamedTuple):
 
 def _wrists(skeleton: Skeleton) -> Vectors:
     way = np.array([hanging(0.0, -side * INWARDS_DEG) for side in SIDES])
-    wrists: Vectors = skeleton.rest_m[[4, 6]] + skeleton.height_m * FOREARM * way
-    return wrists
+    return skeleton.rest_m[[4, 6]] + skeleton.height_m * FOREARM * way
 
 
 def _part(name: str, faces: list[Face], material: str, collider: Collider | None = None) -> Part:
@@ -223,8 +231,7 @@ def _part(name: str, faces: list[Face], material: str, collider: Collider | None
 def _ramp(values: Vectors, start: float, end: float) -> Vectors:
     """Smooth step from 0 at `start` to 1 at `end`."""
     share = np.clip((values - start) / (end - start), 0.0, 1.0)
-    stepped: Vectors = share * share * (3 - 2 * share)
-    return stepped
+    return share * share * (3 - 2 * share)
 
 
 def _weights(points: Vectors, **shares: Vectors | float) -> Vectors:
@@ -447,14 +454,14 @@ _HEAD_RINGS = [
 def _headed(body: _Body, points: Sequence[tuple[float, float, float]]) -> list[Vectors]:
     """Convert points of the head from shares of its half width, its height above the chin, and its half depth."""
     neck = body.trunk([(0.0, NECK_Y, NECK_Z)])[0]
-    of_head = np.array([_HEAD_X, _HEAD, _HEAD_Z])
+    of_head = body.figure.head * np.array([_HEAD_X, _HEAD, _HEAD_Z])
     chin = np.array([0.0, CHIN_Y - NECK_Y, 0.012])
     return [neck + body.unit_m * (np.array(point) * of_head + chin) for point in points]
 
 
 def _head(body: _Body) -> list[Face]:
     """Neck of a person, and skull with chin, nose and ears."""
-    unit = body.unit_m
+    unit, large = body.unit_m, body.unit_m * body.figure.head
     neck = [
         *body.trunk([(0.0, NECK_Y - 0.03, NECK_Z - 0.002), (0.0, NECK_Y, NECK_Z)]),
         *_headed(body, [(0.0, 0.25, -0.2)]),
@@ -462,15 +469,15 @@ def _head(body: _Body) -> list[Face]:
     faces = limb_faces(neck, _scaled([0.040, 0.0335, 0.032], unit), _scaled([0.036, 0.034, 0.034], unit))
     skull = _headed(body, [(0.0, y, z) for y, _, _, z in _HEAD_RINGS])
     widths, depths = (
-        [unit * size * row[column] for row in _HEAD_RINGS] for column, size in ((1, _HEAD_X), (2, _HEAD_Z))
+        [large * size * row[column] for row in _HEAD_RINGS] for column, size in ((1, _HEAD_X), (2, _HEAD_Z))
     )
     faces += limb_faces(skull, widths, depths, segments=16)
     nose = _headed(body, [(0.0, 0.36, 0.93), (0.0, 0.40, 1.02), (0.0, 0.56, 0.92)])
-    faces += limb_faces(nose, _scaled([0.009, 0.0085, 0.004], unit), _scaled([0.006, 0.011, 0.005], unit), segments=8)
+    faces += limb_faces(nose, _scaled([0.009, 0.0085, 0.004], large), _scaled([0.006, 0.011, 0.005], large), segments=8)
     for ear in SIDES:
         line = _headed(body, [(ear * 0.98, 0.34, -0.08), (ear * 1.03, 0.44, -0.10), (ear * 1.02, 0.58, -0.12)])
         faces += limb_faces(
-            line, _scaled([0.003, 0.005, 0.003], unit), _scaled([0.005, 0.010, 0.007], unit), segments=8
+            line, _scaled([0.003, 0.005, 0.003], large), _scaled([0.005, 0.010, 0.007], large), segments=8
         )
     return faces
 
@@ -490,12 +497,12 @@ def _hair(body: _Body) -> list[Face]:
             *rows[1:],
         ]
         rows[4:7] = [(0.34, 1.08, 0.72, -0.48), (0.50, 1.10, 0.82, -0.36), (0.66, 1.12, 0.94, -0.24)]
-    unit = body.unit_m
+    large = body.unit_m * body.figure.head
     points = _headed(body, [(0.0, y, z) for y, _, _, z in rows])
     return limb_faces(
         points,
-        [unit * _HEAD_X * row[1] for row in rows],
-        [unit * _HEAD_Z * row[2] for row in rows],
+        [large * _HEAD_X * row[1] for row in rows],
+        [large * _HEAD_Z * row[2] for row in rows],
         segments=16,
     )
 

@@ -316,8 +316,7 @@ def _foot(holds: _Footholds, path: tuple[Vectors, ...]) -> _Foot:
 def _standing_phase(held: _Footholds, gone: Vectors) -> Vectors:
     """Phase of a foot on the floor; it rests at `_LANDED` while the person stands."""
     before, after = np.minimum(gone - held.under_on, 0.0), np.maximum(gone - held.under_off, 0.0)
-    phase: Vectors = _LANDED + before / held.stride_on + after / held.stride_off
-    return phase
+    return _LANDED + before / held.stride_on + after / held.stride_off
 
 
 def _load(held: _Footholds, gone: Vectors) -> Vectors:
@@ -332,8 +331,8 @@ def _reference(column: int, phase: Vectors) -> Vectors:
     """An angle of the reference stride between its keys, by trigonometric interpolation; degrees."""
     keys = REFERENCE_DEG[:-1, column]
     shares = np.fft.rfft(keys) / len(keys)
-    waves = np.exp(2j * np.pi * np.asarray(phase)[..., None] * np.arange(len(shares)))
-    return np.asarray(2 * (waves @ shares).real - shares[0].real)
+    waves = np.polyval(shares[::-1], np.exp(2j * np.pi * np.asarray(phase)))
+    return np.asarray(2 * waves.real - shares[0].real)
 
 
 def _pitch(phase: Vectors) -> Vectors:

@@ -48,13 +48,11 @@ class Pose(NamedTuple):
 
     def placed(self, points: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
         """Move points of the pose's axes to those of the asset; shapes (n, 3)."""
-        moved: NDArray[np.float64] = points.astype(np.float64) @ self.turn + self[:3]
-        return moved
+        return points.astype(np.float64) @ self.turn + self[:3]
 
     def taken_back(self, points: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
         """Move points of the asset's axes to those of the pose; shapes (n, 3)."""
-        moved: NDArray[np.float64] = (points.astype(np.float64) - self[:3]) @ self.turn.T
-        return moved
+        return (points.astype(np.float64) - self[:3]) @ self.turn.T
 
 
 class Collider(StrEnum):
@@ -282,8 +280,7 @@ def area_vectors(corners: NDArray[np.float64], counts: NDArray[np.int64]) -> NDA
     """Newell's normal of each face, with twice the area as its length; float64, shape (F, 3)."""
     starts = np.cumsum(counts) - counts
     relative = corners - np.repeat(corners[starts], counts, axis=0)
-    vectors: NDArray[np.float64] = np.add.reduceat(np.cross(relative[previous_corners(counts)], relative), starts)
-    return vectors
+    return np.add.reduceat(np.cross(relative[previous_corners(counts)], relative), starts)
 
 
 def _corner_normals(

@@ -1,8 +1,11 @@
 """Properties of materials for LiDAR, radar and ultrasonic sensors, in the terms of SimReady's non-visual materials."""
 
+import fnmatch
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from garage2usd.assets.materials import MATERIALS, Material, Touch
+from garage2usd.common.documents import shipped_toml
 
 _BARE_METALLIC = 0.5
 
@@ -34,46 +37,17 @@ BASE_OF_TOUCH = {
 }
 """Base substance by class of friction."""
 _PAINTED = frozenset({Touch.COATING, Touch.STEEL})
-_BASES = {
-    "asphalt_repair": "asphalt",
-    "brass": "brass",
-    "cabinet_glass": "clear_glass",
-    "cardboard": "cardboard",
-    "ceiling_insulation": "fiberglass",
-    "daylight": "none",
-    "floor_asphalt": "asphalt",
-    "floor_asphalt_patched": "asphalt",
-    "glass": "clear_glass",
-    "glass_dark": "clear_glass",
-    "hose": "fabric",
-    "lamp_dead": "plexiglass",
-    "lamp_front": "plexiglass",
-    "lamp_rear": "plexiglass",
-    "lamp_front_lit": "plexiglass",
-    "lamp_rear_lit": "plexiglass",
-    "mirror": "mirror",
-    "rim": "aluminum",
-    "screen_glow": "clear_glass",
-    "seat_black": "leather",
-    "seat_grey": "fabric",
-    "seat_tan": "leather",
-    "sign_blue": "aluminum",
-    "sign_ring": "aluminum",
-    "soft_top": "fabric",
-    "tube_glow": "plexiglass",
-    "wood_pallet": "wood",
-    **{
-        key: base
-        for prefix, base in {"cloth": "fabric", "skin": "skin", "hair": "fur_hair", "leather": "leather"}.items()
-        for key in MATERIALS
-        if key.startswith(f"{prefix}_")
-    },
-}
-"""Base substance of materials whose friction class does not determine it; the sky behind doors has none."""
-_TRANSPARENT = frozenset({"cabinet_glass", "glass", "glass_dark"})
-_PLATES = frozenset(key for key in MATERIALS if key.startswith("number_plate"))
-_RETROREFLECTIVE = _PLATES | {"sign_blue", "sign_ring"}
-_BARE = frozenset({"service_steel", "steel_galvanised"})
+
+
+def _keys(patterns: Iterable[str]) -> frozenset[str]:
+    return frozenset(key for pattern in patterns for key in fnmatch.filter(MATERIALS, pattern))
+
+
+_GIVEN = shipped_toml("garage2usd.assets", "non_visual")
+_BASES = {key: base for base, patterns in _GIVEN["bases"].items() for key in _keys(patterns)}
+"""Base substance of materials whose friction class does not determine it."""
+_TRANSPARENT, _RETROREFLECTIVE, _BARE = (_keys(_GIVEN[name]) for name in ("transparent", "retroreflective", "bare"))
+_PLATES = _keys(["number_plate*"])
 
 
 def _non_visual(key: str, material: Material) -> NonVisual:

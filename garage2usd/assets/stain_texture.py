@@ -1,5 +1,4 @@
 """Textures of stains, dirt and the repairs of old asphalt: colour, and amount as alpha."""
-# Over 300 lines: all kinds of stains and repairs are drawn by the same few shapes.
 
 from collections.abc import Callable
 
@@ -117,8 +116,7 @@ def _filthy(rng: np.random.Generator, worn: Field) -> Field:
     """Heavy dirt, with spills between the tracks that end before the border."""
     rows, columns = worn.shape
     spilt = ramp(clouds(rng, (rows, columns), (4, 4), 5), 0.5, 0.68) * _inside((rows, columns), 0.2)
-    filth: Field = np.minimum(1.5 * worn + 0.22 * spilt * ramp(worn, 0.0, 0.1), 0.82)
-    return filth
+    return np.minimum(1.5 * worn + 0.22 * spilt * ramp(worn, 0.0, 0.1), 0.82)
 
 
 def _places(shape: tuple[int, int]) -> tuple[Field, Field]:
@@ -129,8 +127,7 @@ def _places(shape: tuple[int, int]) -> tuple[Field, Field]:
 
 
 def _length(down: Field, across: Field) -> Field:
-    length: Field = np.sqrt(down * down + across * across)
-    return length
+    return np.sqrt(down * down + across * across)
 
 
 def _from_middle(shape: tuple[int, int]) -> Field:
@@ -186,8 +183,7 @@ def _crack(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
         lines = np.maximum(lines, strength * ramp(np.abs(column - place), 1.6, 0.4))
     broken = ramp(noise(rng, (rows, 1), (9, 1)), 0.1, 0.4)
     ends = ramp(down, 0.02, 0.25) * ramp(down, 0.98, 0.7)
-    cracks: Field = lines * broken * ends * _inside(shape, 0.02)
-    return cracks
+    return lines * broken * ends * _inside(shape, 0.02)
 
 
 def _tyre(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
@@ -254,26 +250,18 @@ _DRAWERS: dict[str, Callable[[np.random.Generator, tuple[int, int]], Field]] = {
 
 def bake_repairs(rng: np.random.Generator) -> NDArray[np.uint8]:
     """Draw the texture of asphalt repairs; uint8, shape (rows, columns, 4)."""
-    side = CELLS_ACROSS * _CELL_PIXELS
-    pixels = np.zeros((side, side, 4), dtype=np.uint8)
-    pixels[:, :, :3] = _BITUMEN_RGB
+    pixels = _sheet(_BITUMEN_RGB)
     for mark, cells in REPAIR_CELLS.items():
         for number, cell in enumerate(cells):
-            left, top, width, height = (int(value * _CELL_PIXELS) for value in cell)
-            window = pixels[top : top + height, left : left + width]
-            shape = height, width
+            window = _window(pixels, cell)
+            shape = _shape(window)
             if mark == "seam":
-                window[:, :, 3] = _levels(_seam(rng, shape))
+                window[:, :, 3] = _alpha(_seam(rng, shape))
                 continue
             inside, border = _sealed_patch(rng, shape)
             window[border <= inside, :3] = _NEW_RGB if number % 2 else _OLD_RGB
-            window[:, :, 3] = _levels(np.maximum(inside, border))
+            window[:, :, 3] = _alpha(np.maximum(inside, border))
     return pixels
-
-
-def _levels(share: Field) -> NDArray[np.uint8]:
-    levels: NDArray[np.uint8] = np.clip(np.rint(share * 255), 0, 255).astype(np.uint8)
-    return levels
 
 
 def _seam(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
@@ -289,8 +277,7 @@ def _seam(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
     forked = ramp(np.abs(column - branch) - 0.8 * half, 0.8, -0.8) * (row > start) * (row < end)
     ends = ramp(row / rows, 0.01, 0.03) * ramp(row / rows, 0.99, 0.97)
     inside = ramp(np.minimum(column, columns - 1.0 - column), 1.0, 4.0)
-    seam: Field = 0.74 * np.maximum(lines, forked) * ends * inside
-    return seam
+    return 0.74 * np.maximum(lines, forked) * ends * inside
 
 
 def _sealed_patch(rng: np.random.Generator, shape: tuple[int, int]) -> tuple[Field, Field]:

@@ -8,7 +8,6 @@ import shapely
 from numpy.typing import NDArray
 
 from garage2usd.as_built.level import BuiltLevel
-from garage2usd.as_built.solids import Solid
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
 from garage2usd.garage import LaneEdge, Point, Stall, StallKind, StallUse
 from garage2usd.objects import CAR_LABELS
@@ -99,15 +98,13 @@ def _blocked(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
     for edge in level.lanes.edges:
         way = _Way(level, edge)
         for solid in level.solids.at(way.strip(max(edge.width_m / 2 - _TOUCH_M, _TOUCH_M))):
-            if solid.label in _MAY_STAND_ON_LANES or solid.name in seen or _is_parked(solid, level):
+            if solid.label in _MAY_STAND_ON_LANES or solid.name in seen:
+                continue
+            if solid.label in CAR_LABELS and level.stall_grounds.home_of(solid.footprint) is not None:
                 continue
             seen.add(solid.name)
             message = f"a {solid.kind} stands on the lane {level.lanes.edge_name(edge)}"
             yield Miss(solid.name, solid.centre, message, things=(solid.name,))
-
-
-def _is_parked(solid: Solid, level: BuiltLevel) -> bool:
-    return solid.label in CAR_LABELS and level.stall_grounds.home_of(solid.footprint) is not None
 
 
 def _serving_edges(level: BuiltLevel, stalls: Iterable[Stall]) -> Iterator[tuple[LaneEdge, list[Stall]]]:

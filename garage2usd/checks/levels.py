@@ -220,5 +220,4 @@ def _distances(
     normals = np.cross(second - first, third - first)
     share = (normals * directions).sum(axis=1)
     far = ((first - origins) * normals).sum(axis=1) / np.where(share == 0.0, np.inf, share)
-    distances: NDArray[np.float64] = np.where(hit >= 0, far, np.inf)
-    return distances
+    return np.where(hit >= 0, far, np.inf)

@@ -1,6 +1,7 @@
 """Rules of single stalls: their size, and no objects in them but one car."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,57 +24,24 @@ _BELONGS = {*CAR_LABELS, "traffic_cone", "wheel_stop", "charger", "speed_bump", 
 """Semantic classes allowed in a stall, or covered by another rule."""
 
 
-@BOOK.rule("stall-width", "stall_width", asks="a stall that cars park in is wide enough")
-def _width(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
-    return _short(_sized(level), profile.stall_width, "width_m", "narrow")
+def _add_size_rules(prefix: str, subject: str, stalls_of: Callable[[BuiltLevel], list[Stall]]) -> None:
+    """Add the rules that stalls are as wide and as long as two clauses of the profile want."""
+    for side, enough, word in (("width", "wide", "narrow"), ("length", "long", "short")):
+        name = f"{prefix}stall_{side}"
+        find = partial(_short, stalls_of, name, f"{side}_m", word)
+        BOOK.rule(name.replace("_", "-"), name, asks=f"{subject} is {enough} enough")(find)
 
 
-@BOOK.rule("stall-length", "stall_length", asks="a stall that cars park in is long enough")
-def _length(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
-    return _short(_sized(level), profile.stall_length, "length_m", "short")
-
-
-@BOOK.rule("parallel-stall-width", "parallel_stall_width", asks="a parallel stall is wide enough")
-def _parallel_width(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
-    return _short(_sized(level, parallel=True), profile.parallel_stall_width, "width_m", "narrow")
-
-
-@BOOK.rule("parallel-stall-length", "parallel_stall_length", asks="a parallel stall is long enough")
-def _parallel_length(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
-    return _short(_sized(level, parallel=True), profile.parallel_stall_length, "length_m", "short")
-
-
-@BOOK.rule("compact-stall-width", "compact_stall_width", asks="a stall for compact cars is wide enough")
-def _compact_width(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
-    return _short(_sized(level, compact=True), profile.compact_stall_width, "width_m", "narrow")
-
-
-@BOOK.rule("compact-stall-length", "compact_stall_length", asks="a stall for compact cars is long enough")
-def _compact_length(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
-    return _short(_sized(level, compact=True), profile.compact_stall_length, "length_m", "short")
-
-
-@BOOK.rule("compact-share", "compact_share", asks="no more stalls than a share are for compact cars")
-def _compact_share(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
-    clause, stalls = profile.compact_share, level.parking_stalls
-    compact = [stall for stall in stalls if stall.is_compact]
-    if clause and compact and (share := 100 * len(compact) / len(stalls)) > clause.amount + ROUNDING_M:
-        message = "too many of the stalls are for compact cars"
-        yield Miss(compact[0].name, compact[0].centre, message, share, clause.amount)
-
-
-@BOOK.rule("motorcycle-stall-width", "motorcycle_stall_width", asks="a stall for motorcycles is wide enough")
-def _motorcycle_width(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
-    return _short(_for_motorcycles(level), profile.motorcycle_stall_width, "width_m", "narrow")
-
-
-@BOOK.rule("motorcycle-stall-length", "motorcycle_stall_length", asks="a stall for motorcycles is long enough")
-def _motorcycle_length(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
-    return _short(_for_motorcycles(level), profile.motorcycle_stall_length, "length_m", "short")
-
-
-def _for_motorcycles(level: BuiltLevel) -> list[Stall]:
-    return [stall for stall in level.stalls if stall.use is StallUse.MOTORCYCLE]
+def _short(
+    stalls_of: Callable[[BuiltLevel], list[Stall]], name: str, side: str, word: str, level: BuiltLevel, profile: Profile
+) -> Iterator[Miss]:
+    clause: Length | None = getattr(profile, name)
+    if clause is None:
+        return
+    for stall in stalls_of(level):
+        measured = getattr(stall, side)
+        if measured < clause.amount - ROUNDING_M:
+            yield Miss(stall.name, stall.centre, f"the stall is too {word}", measured, clause.amount)
 
 
 def _sized(level: BuiltLevel, *, parallel: bool = False, compact: bool = False) -> list[Stall]:
@@ -85,13 +53,25 @@ def _sized(level: BuiltLevel, *, parallel: bool = False, compact: bool = False) 
     ]
 
 
-def _short(stalls: Iterable[Stall], clause: Length | None, side: str, word: str) -> Iterator[Miss]:
-    if clause is None:
-        return
-    for stall in stalls:
-        measured = getattr(stall, side)
-        if measured < clause.amount - ROUNDING_M:
-            yield Miss(stall.name, stall.centre, f"the stall is too {word}", measured, clause.amount)
+def _for_motorcycles(level: BuiltLevel) -> list[Stall]:
+    return [stall for stall in level.stalls if stall.use is StallUse.MOTORCYCLE]
+
+
+_add_size_rules("", "a stall that cars park in", _sized)
+_add_size_rules("parallel_", "a parallel stall", partial(_sized, parallel=True))
+_add_size_rules("compact_", "a stall for compact cars", partial(_sized, compact=True))
+
+
+@BOOK.rule("compact-share", "compact_share", asks="no more stalls than a share are for compact cars")
+def _compact_share(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
+    clause, stalls = profile.compact_share, level.parking_stalls
+    compact = [stall for stall in stalls if stall.is_compact]
+    if clause and compact and (share := 100 * len(compact) / len(stalls)) > clause.amount + ROUNDING_M:
+        message = "too many of the stalls are for compact cars"
+        yield Miss(compact[0].name, compact[0].centre, message, share, clause.amount)
+
+
+_add_size_rules("motorcycle_", "a stall for motorcycles", _for_motorcycles)
 
 
 @BOOK.rule("stall-overlap", asks="stalls do not overlap", in_surveys=Severity.INFO)

@@ -16,6 +16,7 @@ from garage2usd.cli.options import (
     echo_table,
     end_incomplete,
     log_steps,
+    output_option,
     profile_option,
     seed_option,
 )
@@ -64,14 +65,8 @@ _COLUMNS_NAMED = 3
     help="How many levels are planned and laid out at a time; one a core. The files do not depend on it.",
 )
 @click.option("--verbose", is_flag=True, help="Say on stderr what each step decides and how long it takes.")
-@click.option(
-    "--output",
-    "-o",
-    metavar="FILE",
-    type=click.Path(path_type=Path),
-    default="garage.usdz",
-    show_default=True,
-    help="The stage: .usda, .usdc or .usdz. Its folder is made; files of that name are replaced.",
+@output_option(
+    "The stage: .usda, .usdc or .usdz. Its folder is made; files of that name are replaced.", default="garage.usdz"
 )
 @click.pass_context
 def build(

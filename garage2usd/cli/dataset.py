@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.options import INPUT_FILE, echo_notices, echo_table
+from garage2usd.cli.options import INPUT_FILE, echo_notices, echo_table, output_option
 from garage2usd.common.errors import DataSetError
 
 if TYPE_CHECKING:
@@ -19,13 +19,7 @@ _HEADS = ("quantity", "published", "data set", "distance")
 
 @click.command(short_help="Make a data set of many garages, or verify one.")
 @click.argument("recipe", required=False, type=INPUT_FILE)
-@click.option(
-    "--output",
-    "-o",
-    metavar="FOLDER",
-    type=click.Path(file_okay=False, path_type=Path),
-    help="Where the data set goes.",
-)
+@output_option("Where the data set goes.", metavar="FOLDER", file_okay=False)
 @click.option("--count", metavar="N", type=click.IntRange(1), help="How many garages, in place of the recipe's count.")
 @click.option(
     "--workers", metavar="N", type=click.IntRange(1, 4096), help="How many processes work on it here; one a core."
@@ -119,15 +113,7 @@ def _verify(folder: Path, *, workers: int | None, scheduler: str | None) -> None
     type=INPUT_FILE,
     help="Published figures (TOML) to compare with.  [default: those of the package]",
 )
-@click.option(
-    "--output",
-    "-o",
-    "outputs",
-    metavar="FILE",
-    type=click.Path(path_type=Path),
-    multiple=True,
-    help="The comparison as a table (.json) or a picture (.png, .svg); may be repeated.",
-)
+@output_option("The comparison as a table (.json) or a picture (.png, .svg); may be repeated.", several=True)
 def compare(*, folder: Path, figures: Path | None, outputs: tuple[Path, ...]) -> None:
     """Compare the data set in FOLDER with published figures of real garages.
 

@@ -6,7 +6,7 @@ import time
 
 import click
 
-from garage2usd.cli.options import echo_table
+from garage2usd.cli.options import count_option, echo_table
 from garage2usd.common.errors import Garage2UsdError
 from garage2usd.common.package import VERSION
 from garage2usd.common.system import HAS_EMBREE, in_words
@@ -17,14 +17,7 @@ _DIGITS = 12
 
 
 @click.command(short_help="Check this installation and print a report.")
-@click.option(
-    "--seeds",
-    metavar="N",
-    type=click.IntRange(1, 1000),
-    default=3,
-    show_default=True,
-    help="How many garages are made, of the seeds from 1 on.",
-)
+@count_option("--seeds", 1000, 3, "How many garages are made, of the seeds from 1 on.")
 def doctor(*, seeds: int) -> None:
     """Check this installation and print a report: packages, compiled loops, rays, Blender and small garages.
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.options import INPUT_FILE, drive_options, echo_notices, seed_option
+from garage2usd.cli.options import INPUT_FILE, drive_options, echo_notices, output_option, seed_option
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -27,13 +27,9 @@ _TRAJECTORY_FORMATS, _ANIMATION_FORMATS = (".csv", ".json"), (".usda", ".usdc")
 @click.command(short_help="Prove that a car gets into each stall and out again.")
 @click.argument("path", required=False, type=INPUT_FILE)
 @seed_option
-@click.option(
-    "--output",
-    "-o",
-    metavar="FILE",
-    type=click.Path(path_type=Path),
-    help="Write the ways: .json with poses and moves, .usda or .usdc as curves to put over the stage. With --stall the "
-    "trajectory: .csv or .json; with --animate .usda or .usdc.",
+@output_option(
+    "Write the ways: .json with poses and moves, .usda or .usdc as curves to put over the stage. With --stall the "
+    "trajectory: .csv or .json; with --animate .usda or .usdc."
 )
 @drive_options("With --stall", "Drive from an entrance to this stall, park, and drive to an exit")
 @click.option("--animate", is_flag=True, help="With --stall: write the car in time, to put over the stage.")
@@ -140,6 +136,8 @@ def _drive_to(
     click.echo(f"{'nose':>12}  {route.nose.value}")
     click.echo(f"{'seconds':>12}  {states.time_s[-1]:.1f}")
     click.echo(f"{'fastest':>12}  {abs(states.speed_m_s).max():.2f} m/s")
+    for aisle in driven.narrow_aisles:
+        click.echo(f"{'in the middle':>12}  of {aisle}, too narrow for two cars")
     if not route.is_full:
         click.echo(f"{route.stall}: only while the stalls that are empty now stay empty")
 

@@ -6,23 +6,18 @@ from pathlib import Path
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.options import INPUT_FILE, drive_options, echo_notices, echo_table, end_incomplete
+from garage2usd.cli.options import INPUT_FILE, drive_options, echo_notices, echo_table, end_incomplete, output_option
 
 
 @click.command(short_help="Export a stage as a map, a scene or a grid.")
 @click.argument("path", type=INPUT_FILE)
-@click.option(
-    "--output",
-    "-o",
-    "outputs",
-    metavar="FILE",
-    type=click.Path(path_type=Path),
-    multiple=True,
-    required=True,
-    help="A file: .add.xml for the stalls as parking areas of SUMO with the map of their network beside it, .dxf for a "
+@output_option(
+    "A file: .add.xml for the stalls as parking areas of SUMO with the map of their network beside it, .dxf for a "
     "drawing, .geojson for GeoJSON, .glb for a scene, .osm for a Lanelet2 map, .osm.xml for OpenStreetMap, .xodr for "
     "an OpenDRIVE map, .xosc for an OpenSCENARIO scenario with the map it names beside it, .yaml for a robot's "
     "occupancy grid with its picture beside it, and the masks that maps.grid asks for; may be repeated.",
+    several=True,
+    required=True,
 )
 @click.option(
     "--config",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.options import INPUT_FILE, echo_notices, echo_table, profile_option, seed_option
+from garage2usd.cli.options import INPUT_FILE, echo_notices, echo_table, output_option, profile_option, seed_option
 from garage2usd.common.errors import printable
 
 if TYPE_CHECKING:
@@ -30,14 +30,8 @@ _MOST_NAMED = 20
 @profile_option("The standard whose clauses apply, in place of the configuration's")
 @click.option("--level", metavar="NAME", help="Import this level alone, by its name in SOURCE, such as -1.")
 @click.option("--no-proofs", is_flag=True, help="Do not prove for each stall that a car drives in and out.")
-@click.option(
-    "--output",
-    "-o",
-    metavar="FILE",
-    type=click.Path(path_type=Path),
-    default="garage.usdz",
-    show_default=True,
-    help="The stage: .usda, .usdc or .usdz. Its folder is made; files of that name are replaced.",
+@output_option(
+    "The stage: .usda, .usdc or .usdz. Its folder is made; files of that name are replaced.", default="garage.usdz"
 )
 def import_layout(
     *,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.options import INPUT_FILE, Numbers, Size, echo_table
+from garage2usd.cli.options import INPUT_FILE, Numbers, Size, count_option, device_option, echo_table
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -39,29 +39,9 @@ _RECIPE_KEYS = {"garage", "groups", "make", "shards", "splits"}
     show_default=True,
     help="With --contact-sheet: width and height in pixels of each of the two pictures of a garage or level.",
 )
-@click.option(
-    "--samples",
-    metavar="N",
-    type=click.IntRange(1, 65536),
-    default=4,
-    show_default=True,
-    help="With --contact-sheet: samples of each pixel.",
-)
-@click.option(
-    "--columns",
-    metavar="N",
-    type=click.IntRange(1, 100),
-    default=3,
-    show_default=True,
-    help="With --contact-sheet: garages in a row, or levels.",
-)
-@click.option(
-    "--device",
-    type=click.Choice(["auto", "cpu", "gpu"]),
-    default="auto",
-    show_default=True,
-    help="With --contact-sheet: what draws them.",
-)
+@count_option("--samples", 65536, 4, "With --contact-sheet: samples of each pixel.")
+@count_option("--columns", 100, 3, "With --contact-sheet: garages in a row, or levels.")
+@device_option("With --contact-sheet: what draws them.")
 def look(
     *,
     config: Path | None,

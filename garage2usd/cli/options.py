@@ -72,6 +72,33 @@ def profile_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., An
     return click.option("--profile", metavar="NAME|FILE", shell_complete=_profiles, help=f"{text}: {names}.")
 
 
+def output_option(
+    text: str,
+    *,
+    metavar: str = "FILE",
+    several: bool = False,
+    required: bool = False,
+    default: str | None = None,
+    **checks: bool,
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Option for what a command writes, or for several files; `text` describes it, and `checks` are click.Path's."""
+    names, kind = ["--output", "-o", *(["outputs"] if several else [])], click.Path(path_type=Path, **checks)
+    more: dict[str, Any] = {} if default is None else {"default": default, "show_default": True}
+    return click.option(*names, metavar=metavar, type=kind, multiple=several, required=required, help=text, **more)
+
+
+def count_option(name: str, most: int, default: int, text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Option for a number from 1 to `most`; `text` describes it."""
+    kind = click.IntRange(1, most)
+    return click.option(name, metavar="N", type=kind, default=default, show_default=True, help=text)
+
+
+def device_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Option for the device that renders; `text` describes it."""
+    kind = click.Choice(["auto", "cpu", "gpu"])
+    return click.option("--device", type=kind, default="auto", show_default=True, help=text)
+
+
 def drive_options(where: str, stall: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Options that select a drive; `where` and `stall` begin the help of the portals and of the stall."""
     number = click.IntRange(min=1)

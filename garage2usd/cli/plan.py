@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.options import INPUT_FILE, echo_table, seed_option
+from garage2usd.cli.options import INPUT_FILE, echo_table, output_option, seed_option
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -36,14 +36,10 @@ _ROUNDING = 1e-6
 )
 @click.option("--tracks", metavar="FILE", type=INPUT_FILE, help="Draw tracks of cars and people: .parquet or .csv.")
 @seed_option
-@click.option(
-    "--output",
-    "-o",
-    "outputs",
-    metavar="FILE",
-    type=click.Path(dir_okay=False, path_type=Path),
-    multiple=True,
-    help="The picture, .svg or .png; may be repeated.  [default: PATH's name with _plan.svg, in this folder]",
+@output_option(
+    "The picture, .svg or .png; may be repeated.  [default: PATH's name with _plan.svg, in this folder]",
+    several=True,
+    dir_okay=False,
 )
 def plan(
     *,

@@ -9,15 +9,13 @@ import click
 from click.shell_completion import CompletionItem
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.options import INPUT_FILE, Place, Several, Size, Span, echo_table
+from garage2usd.cli.options import INPUT_FILE, Place, Several, Size, Span, device_option, echo_table, output_option
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from garage2usd.recordings import Traffic
-    from garage2usd.render import Device, Picture, SlotFormat
-    from garage2usd.sensors.rays.birds_eye import BirdsEye
+    from garage2usd.recordings import Recorded, Traffic
 
 _PICTURES = ("colour", "depth", "normals", "instance", "semantic", "semantic_preview")
 _POINTS = ("pcd", "bin", "npz")
@@ -64,13 +62,7 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     show_default=True,
     help="Seed of the samples, not of the garage.",
 )
-@click.option(
-    "--device",
-    type=click.Choice(["auto", "cpu", "gpu"]),
-    default="auto",
-    show_default=True,
-    help="What draws the colour: auto takes a GPU where Blender finds one.",
-)
+@device_option("What draws the colour: auto takes a GPU where Blender finds one.")
 @click.option(
     "--blender",
     metavar="PROGRAM",
@@ -153,15 +145,7 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     "--flow", is_flag=True, default=None, help="With --rig: the optical flow of each picture to the next pose too."
 )
 @click.option("--without-cars", is_flag=True, default=None, help="With --birds-eye: it looks through parked cars.")
-@click.option(
-    "--output",
-    "-o",
-    metavar="FOLDER",
-    type=click.Path(file_okay=False, path_type=Path),
-    default="dataset",
-    show_default=True,
-    help="Folder of the data set.",
-)
+@output_option("Folder of the data set.", metavar="FOLDER", default="dataset", file_okay=False)
 def render(
     *,
     stage: Path,
@@ -217,6 +201,8 @@ def render(
     kinds = [Picture(kind) for kind in pictures or _PICTURES]
     told = None if slots is None else [SlotFormat(each) for each in slots]
     if rig is not None:
+        from garage2usd.recordings import CloudFormat, Sequence, record  # noqa: PLC0415 - only with a rig
+
         own = {"camera": cameras or None, "frames": frames, "at": at_m, "look-at": look_at_m, "size": size}
         _refuse(own, "without --rig, which has its own")
         if along is None or tracks is not None:
@@ -226,28 +212,29 @@ def render(
             _refuse({"without-cars": without_cars}, "only with --birds-eye")
         above = None if birds_eye is None else BirdsEye(metres_per_px=birds_eye, cars=not without_cars)
         has_pictures = points is None or any(each is not None for each in (pictures, slots, above))
-        asked = kinds if has_pictures else []
-        formats, too, places = points or _POINTS, also or (), every_m or 1.0
-        scaled, on = scale or 1.0, Device(device)
-        _record(
-            stage,
-            rig,
-            along,
-            places,
-            traffic,
-            scaled,
-            samples,
-            seed,
-            on,
-            blender,
-            asked,
-            told,
-            above,
-            bool(flow),
-            formats,
-            too,
-            output,
-        )
+        with Bars(sys.stderr) as progress:
+            recorded = record(
+                stage,
+                output,
+                rig=rig,
+                along=along,
+                every_m=every_m or 1.0,
+                traffic=traffic,
+                scale=scale or 1.0,
+                samples=samples,
+                seed=seed,
+                device=Device(device),
+                blender=blender,
+                pictures=kinds if has_pictures else [],
+                slots=told,
+                birds_eye=above,
+                flow=bool(flow),
+                points=[CloudFormat(kind) for kind in points or _POINTS],
+                sequences=[Sequence(kind) for kind in also or ()],
+                progress=progress,
+                announce=progress.announce,
+            )
+        _tell(recorded, also or ())
         return
     in_traffic = {"tracks": tracks, "ego": ego, "every-s": every_s, "between": between, "flow": flow}
     _refuse(in_traffic, "only with --rig")
@@ -296,50 +283,8 @@ def _traffic(
     return Traffic(read_tracks(tracks), ego or "", every_s or 0.5, between)
 
 
-def _record(
-    stage: Path,
-    rig: str,
-    along: str | None,
-    every_m: float,
-    traffic: "Traffic | None",
-    scale: float,
-    samples: int | None,
-    seed: int,
-    device: "Device",
-    blender: Path | None,
-    pictures: "list[Picture]",
-    slots: "list[SlotFormat] | None",
-    birds_eye: "BirdsEye | None",
-    flow: bool,  # noqa: FBT001 - one of the command's options
-    points: tuple[str, ...],
-    also: tuple[str, ...],
-    output: Path,
-) -> None:
-    """Record the sensors of a rig along a drive."""
-    from garage2usd.recordings import CloudFormat, Sequence, record  # noqa: PLC0415 - keeps --help instant
-
-    with Bars(sys.stderr) as progress:
-        made = record(
-            stage,
-            output,
-            rig=rig,
-            along=along,
-            every_m=every_m,
-            traffic=traffic,
-            scale=scale,
-            samples=samples,
-            seed=seed,
-            device=device,
-            blender=blender,
-            pictures=pictures,
-            slots=slots,
-            birds_eye=birds_eye,
-            flow=flow,
-            points=[CloudFormat(kind) for kind in points],
-            sequences=[Sequence(kind) for kind in also],
-            progress=progress,
-            announce=progress.announce,
-        )
+def _tell(made: "Recorded", also: tuple[str, ...]) -> None:
+    """Tell the files of a recording."""
     shots = made.recording.shots
     places, sensors = len({shot.pose for shot in shots}), list(dict.fromkeys(shot.sensor.name for shot in shots))
     echo_table(

@@ -22,8 +22,10 @@ _SHOWN = 8
 @click.option("--minutes", type=float, metavar="MINUTES", help="Duration; 25 unless the settings say otherwise.")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Seed of the run.")
 @click.option("--hour", type=float, metavar="HOUR", help="Hour of the day at the start, 0 to 24.")
-@click.option("--arrivals-per-hour", type=float, metavar="NUMBER", help="Mean number of cars that arrive in an hour.")
-@click.option("--people/--no-people", default=None, help="Let drivers walk between their cars and the stair cores.")
+@click.option(
+    "--arrivals-per-hour", type=float, metavar="NUMBER", help="Mean number of cars that arrive in an hour, and leave."
+)
+@click.option("--people/--no-people", default=None, help="Let people walk between their cars and the stair cores.")
 @click.option(
     "--output",
     "-o",
@@ -57,12 +59,13 @@ def traffic(
     predictions: Path | None,
     outputs: tuple[Path, ...],
 ) -> None:
-    """Operate a garage for some minutes: cars arrive, look for a stall, park, stay and leave; drivers walk.
+    """Operate a garage for some minutes: cars arrive, look for a stall, park, stay and leave; people walk.
 
     PATH is a stage, the report of a build, or a configuration with a structure. Arrivals are a Poisson process whose
     rate follows the occupancy by hour of the day. Cars keep to their side of two-way aisles, drive only over ground
-    that they have reserved, and wait where they block nobody, so that no two touch. The settings are those of
-    `[traffic]`.
+    that they have reserved, and wait where they block nobody, so that no two touch. At junctions they yield by the
+    country's rule. The settings are those of `[traffic]`, among them the shares of cars that wait for a stall,
+    double-park or use an accessible stall, of cars with passengers, of children who run and of shopping trolleys.
 
     \b
     Examples:

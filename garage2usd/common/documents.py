@@ -10,6 +10,7 @@ import tomllib
 import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from importlib import resources
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -96,6 +97,11 @@ def read_toml(path: Path, *, field: str) -> dict[str, Any]:
         raise ConfigError(field, str(path), f"TOML ({error})") from None
 
 
+def shipped_toml(package: str, name: str) -> dict[str, Any]:
+    """Read a TOML file that is shipped beside the modules of a package, such as ``garage2usd.assets``."""
+    return tomllib.loads((resources.files(package) / f"{name}.toml").read_text(encoding="utf-8"))
+
+
 def read_json(path: Path, *, field: str, max_bytes: int) -> Any:  # noqa: ANN401 - whatever JSON holds
     """Read a JSON file; raises `ConfigError` as `read_text`, and for invalid JSON, NaN and infinity included."""
     text = read_text(path, field=field, max_bytes=max_bytes)
@@ -176,8 +182,7 @@ def _array(data: bytes) -> NDArray[Any]:
     shape, is_by_columns, dtype = _HEADERS[npy_format.read_magic(file)](file)  # type: ignore[no-untyped-call]
     if dtype.kind not in "iuf":
         raise ValueError(f"it holds {dtype}")
-    array: NDArray[Any] = np.frombuffer(file.read(), dtype).reshape(shape, order="F" if is_by_columns else "C")
-    return array
+    return np.frombuffer(file.read(), dtype).reshape(shape, order="F" if is_by_columns else "C")
 
 
 def _refuse(constant: str) -> NoReturn:

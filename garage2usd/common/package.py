@@ -36,6 +36,8 @@ _BROUGHT = {
     "mcap": ("traffic", "MCAP"),
     "mcap_protobuf": ("traffic", "MCAP's support of protobuf"),
     "google": ("traffic", "protobuf"),
+    "av": ("video", "PyAV"),
+    "playwright": ("video", "Playwright"),
     "ezdxf": ("cad", "ezdxf"),
     "ifcopenshell": ("cad", "IfcOpenShell"),
 }
@@ -121,8 +123,9 @@ def installation_of(extras: str) -> str:
     return f"pip install {option}'{'.' if place == Path.cwd() else place}[{extras}]'"
 
 
-def on_first_use(package: str, home: Mapping[str, str]) -> Callable[[str], object]:
-    """Make the ``__getattr__`` of a package; `home` maps its public names to modules."""
+def on_first_use(package: str, modules: Mapping[str, Iterable[str]]) -> Callable[[str], object]:
+    """Make the ``__getattr__`` of a package; `modules` maps its modules to their public names."""
+    home = {name: module for module, names in modules.items() for name in names}
 
     def load(name: str) -> object:
         if name not in home:

@@ -133,11 +133,8 @@ def blender_places(environment: Mapping[str, str]) -> list[Path]:
     else:
         patterns = ("/opt/blender*/blender", "/usr/local/blender*/blender", "/snap/bin/blender", "/usr/bin/blender")
         found = [path for pattern in patterns for path in Path("/").glob(pattern[1:])]
-    return sorted(dict.fromkeys(found), key=lambda path: (_numbers(str(path)), str(path)), reverse=True)
-
-
-def _numbers(text: str) -> list[int]:
-    return [int(digits) for digits in re.findall(r"\d+", text)]
+    versions = {path: [int(digits) for digits in re.findall(r"\d+", str(path))] for path in found}
+    return sorted(versions, key=lambda path: (versions[path], str(path)), reverse=True)
 
 
 def run_in_child(command: Callable[[], object], *, passed_on: Iterable[int], begin: Callable[[], None]) -> int:

@@ -5,6 +5,8 @@ from collections.abc import Collection
 from enum import StrEnum
 from typing import NamedTuple
 
+from garage2usd.common.documents import shipped_toml
+
 
 class Channel(StrEnum):
     """Quantity that a texture map, or one channel of it, stores."""
@@ -23,30 +25,7 @@ _NO_PAIRS = ([Channel.METALLIC, Channel.OCCLUSION], [Channel.ROUGHNESS, Channel.
 """Quantities that no map has in this order, with a third one before: metal_ao is the occlusion of a metal."""
 _ALPHA = 3
 """Band of transparency."""
-_WORDS: dict[str, str] = {
-    Channel.COLOUR: "basecolor basecolour basecol albedo alb color colour col coll bc basemap maintex d b "
-    "diffuse diff dif diffusecolor diffusecolour",
-    Channel.ROUGHNESS: "roughness rough rgh r",
-    Channel.METALLIC: "metallic metalness metallness metallicness metalic metal mtl met m",
-    Channel.OCCLUSION: "ao occlusion ambientocclusion ambientocc occ mixedao mixedambientocclusion",
-    Channel.NORMAL: "normal normals nor nrm nrml norm nml n normaltangent tangentnormal tangentspacenormal",
-    _GLOSS: "gloss glossiness glossy smoothness gls",
-    _HEIGHT: "height hgt h displacement displace displ disp dp bump bmp parallax",
-    _OPACITY: "opacity alpha transparency transparent",
-    _SPECULAR: "specular spec speclevel specularlevel reflection refl reflectivity f0 ior",
-    "emission": "emissive emission emit glow e",
-    "cavity": "cavity cav",
-    "curvature": "curvature curv",
-    "translucency": "translucency translucent transmission sss subsurface scattering thickness thick",
-    "coat": "clearcoat coat",
-    "sheen": "sheen fuzz",
-    "anisotropy": "anisotropy anisotropic anisotropylevel anisotropyangle",
-    "detail": "detail details",
-    "mask": "mask idmask matid materialid colorid",
-    "position": "position worldposition",
-    "normals not of a tangent": "worldspacenormal worldspacenormals worldnormal objectspacenormal objectnormal",
-    "preview": "preview thumbnail thumb thumbs",
-}
+_WORDS: dict[str, str] = shipped_toml("garage2usd.config", "map_words")
 """Words of file names by quantity. Those of one letter count in the last place only, behind others or a dash."""
 _UP, _DOWN = ("gl", "ogl"), ("dx", "d3d")
 _MEANING = {word: meaning for meaning, words in _WORDS.items() for word in words.split()}

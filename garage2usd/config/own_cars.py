@@ -353,7 +353,7 @@ def _axles(path: Path, placed: Sequence[NDArray[np.float64]], facts: _Facts, len
             raise ConfigError(f"{FIELD}.{path.stem}.wheelbase_m", known[0], f"axles within {length_m:.2f} m")
         return tuple(known)
     # a part may be one wheel, or all of them
-    boxes = [box for points in placed for box in (_box(points), *_pieces(points))]
+    boxes = [box for points in placed for box in (_Box(points.min(axis=0), points.max(axis=0)), *_pieces(points))]
     wheels: dict[tuple[int, int], _Box] = {}
     for box in sorted(filter(_is_wheel, boxes), key=lambda box: box.high[1] - box.low[1]):
         x, _, z = (box.low + box.high) / 2
@@ -373,10 +373,6 @@ class _Box(NamedTuple):
 
     low: NDArray[np.float64]
     high: NDArray[np.float64]
-
-
-def _box(points: NDArray[np.float64]) -> _Box:
-    return _Box(points.min(axis=0), points.max(axis=0))
 
 
 def _is_wheel(box: _Box) -> bool:

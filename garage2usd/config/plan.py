@@ -5,6 +5,7 @@ from typing import Literal, NamedTuple
 
 from pydantic import Field
 
+from garage2usd.common.documents import shipped_toml
 from garage2usd.common.settings import Settings
 from garage2usd.config.site import SquareIndex
 
@@ -102,55 +103,14 @@ class SarsaParameters(NamedTuple):
     starts: int
 
 
-# 'paper' has the values of the prototype, as the paper gives none; 'tuned' was tuned on the gates G1 to G3 of
-# benchmarks/gates.py, and measured on other gates too
-_PAPER = SarsaParameters(
-    alpha=0.1,
-    gamma=0.95,
-    epsilon_start=1.0,
-    epsilon_min=0.01,
-    epsilon_decay=0.999,
-    epsilon_refresh=0.3,
-    patience_episodes=100,
-    turn_back_penalty=2.0,
-    interval_penalty=2.0,
-    min_run_squares=3,
-    wheeling_penalty=0.5,
-    loop_reward=0.0,
-    step_penalty=0.4,
-    failure_penalty=20.0,
-    window_radius_squares=2,
-    sees_distances=True,
-    masks_actions=False,
-    archives_prefixes=False,
-    revisit_rate=0.0,
-    max_steps_per_square=2,
-    starts=1,
-)
-_TUNED = _PAPER._replace(
-    gamma=0.9,
-    epsilon_min=0.05,
-    epsilon_decay=0.997,
-    turn_back_penalty=0.5,
-    interval_penalty=0.5,
-    min_run_squares=4,
-    wheeling_penalty=2.0,
-    step_penalty=0.1,
-    failure_penalty=10.0,
-    window_radius_squares=1,
-    sees_distances=False,
-    masks_actions=True,
-    archives_prefixes=True,
-    revisit_rate=0.7,
-    starts=4,
-)
-_PRESETS = {"paper": _PAPER, "tuned": _TUNED}
+_GIVEN = shipped_toml("garage2usd.config", "sarsa")
+_PRESETS = {name: SarsaParameters(**{**_GIVEN["paper"], **given}) for name, given in _GIVEN.items()}
 _STARTS_ALONE = 12
 """Starts of the preset 'tuned' without hill climbing, which otherwise evens out differences between starts on small
 sites."""
 
 # the agent over aisles starts with values learned on small sites, so that it explores less and learns in smaller steps
-_AISLES = _TUNED._replace(alpha=0.03, gamma=0.9, epsilon_start=0.3, epsilon_min=0.1, revisit_rate=0.9)
+_AISLES = _PRESETS["tuned"]._replace(alpha=0.03, gamma=0.9, epsilon_start=0.3, epsilon_min=0.1, revisit_rate=0.9)
 
 
 class PlanConfig(Settings):

@@ -173,7 +173,7 @@ def _read(folder: str, stamps: tuple[tuple[str, int, int], ...]) -> _Contents:
         if role in found:
             above = _above([*found[role], *(path for path, _ in others.get(role, ()))], place)
             pictures = [
-                NamedPicture(path, path.relative_to(above).as_posix(), _without_role(path.stem)) for path in found[role]
+                NamedPicture(path, path.relative_to(above).as_posix(), _divided(path.stem)[1]) for path in found[role]
             ]
             of_role = sizes.get(role, _RoleSizes())
             choice = choose_maps(pictures, field=f"{FIELD}.{role}", normals=of_role.normal)
@@ -261,10 +261,6 @@ def _divided(name: str) -> tuple[Role | None, str]:
             if not (found[1].isupper() and rest[:1].isalpha()):
                 return role, rest
     return None, name
-
-
-def _without_role(stem: str) -> str:
-    return _divided(stem)[1]
 
 
 def _set(role: Role, choice: MapChoice, sizes: _RoleSizes) -> TextureSet:

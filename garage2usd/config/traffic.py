@@ -4,7 +4,7 @@ import math
 from enum import StrEnum
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, field_validator
 
 from garage2usd.common.settings import Settings
 
@@ -41,18 +41,43 @@ class TrafficConfig(Settings):
     stay_spread: float = Field(0.7, ge=0.0, le=2.0)
     """Standard deviation of the logarithm of the stays."""
     arrivals_per_hour: float | None = Field(None, ge=0.0, le=3600.0)
-    """Mean number of arrivals per hour, from which the stays follow by Little's law; if left out, arrivals follow from
+    """Mean number of arrivals per hour. The mean stay is then such that as many of the cars present at the start leave
+    per hour (Little's law), counting at least half of the occupancy of that hour. If left out, arrivals follow from
     the stays and the occupancy."""
+    permits: float = Field(0.02, ge=0.0, le=1.0)
+    """Share of the arriving cars that have a permit for accessible stalls, which they prefer."""
+    waits_for_stall: float = Field(0.0, ge=0.0, le=1.0)
+    """Share of the arriving cars that wait on the aisle for a stall whose car is about to leave, where there is one."""
+    double_parks: float = Field(0.0, ge=0.0, le=1.0)
+    """Share of the arriving cars that stop on an aisle for a minute or so on their way."""
+    wrong_way: float = Field(0.0, ge=0.0, le=1.0)
+    """Share of the arriving cars that drive against a one-way aisle, where that leads to their stalls."""
     people: bool = True
-    """True if drivers walk between their cars and the stair cores."""
+    """True if people walk between their cars and the stair cores."""
+    people_in_car: tuple[float, float, float, float] = (0.66, 0.23, 0.07, 0.04)
+    """Shares of cars with one, two, three and four people, 1.5 on average as in Mobilität in Deutschland 2017; those of
+    a car walk together."""
+    running_children: float = Field(0.05, ge=0.0, le=1.0)
+    """Share of cars with passengers of which one is a child who runs across the aisle."""
+    trolleys: float = Field(0.0, ge=0.0, le=1.0)
+    """Share of drivers who bring their shopping to the car in a trolley, and take it back to the stair core."""
+    loose_trolleys: float = Field(0.2, ge=0.0, le=1.0)
+    """Share of these trolleys that roll away while they are unloaded."""
+
+    @field_validator("people_in_car")
+    @classmethod
+    def _are_shares(cls, shares: tuple[float, ...]) -> tuple[float, ...]:
+        if min(shares) < 0 or not math.isclose(sum(shares), 1.0, abs_tol=1e-6):
+            raise ValueError("four shares of at least 0 whose sum is 1")
+        return shares
 
     def occupancy(self, hour: float) -> float:
         """Return the mean occupancy at an hour of the day, linear between the table's hours."""
         table = _OCCUPANCY[self.day]
         return float(np.interp(hour, [*table], [*table.values()], period=_HOURS))
 
-    def mean_stay_minutes(self, capacity: int) -> float:
-        """Return the mean of the stays in a garage of some capacity."""
+    def mean_stay_minutes(self, present: int, capacity: int) -> float:
+        """Return the mean of the stays of some cars that are present at the start, in a garage of some capacity."""
         if self.arrivals_per_hour:
-            return 60.0 * capacity * self.occupancy(self.hour) / self.arrivals_per_hour
+            return 60.0 * max(present, capacity * self.occupancy(self.hour) / 2, 1.0) / self.arrivals_per_hour
         return self.stay_minutes * math.exp(self.stay_spread**2 / 2)

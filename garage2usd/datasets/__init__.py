@@ -26,20 +26,15 @@ __all__ = [
     "verify_dataset",
 ]
 
-_HOME = {
-    "Comparison": "comparison",
-    "DataSet": "making",
-    "Fault": "verification",
-    "PublishedFigures": "published",
-    "Recipe": "recipe",
-    "compare_dataset": "comparison",
-    "load_recipe": "recipe",
-    "make_dataset": "making",
-    "read_published": "published",
-    "verify_dataset": "verification",
+_MODULES = {
+    "comparison": ("Comparison", "compare_dataset"),
+    "making": ("DataSet", "make_dataset"),
+    "published": ("PublishedFigures", "read_published"),
+    "recipe": ("Recipe", "load_recipe"),
+    "verification": ("Fault", "verify_dataset"),
 }
 # each worker imports this package, and needs little of it
-__getattr__ = on_first_use(__name__, _HOME)
+__getattr__ = on_first_use(__name__, _MODULES)
 
 
 def __dir__() -> list[str]:

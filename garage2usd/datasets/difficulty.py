@@ -247,8 +247,7 @@ def midranks(values: ArrayLike, quantiles: ArrayLike) -> NDArray[np.float64]:
     part = np.divide(asked - known[below], gap, out=np.zeros_like(asked), where=gap > 0)
     places = np.where(after > first, (first + after - 1) / 2, below + np.clip(part, 0, 1) * (above - below))
     places = np.where(asked > known[-1], len(known) - 1, places)
-    shares: NDArray[np.float64] = places / (len(known) - 1)
-    return shares
+    return places / (len(known) - 1)
 
 
 def _level(score: float | None, terciles: tuple[float, float]) -> Level | None:

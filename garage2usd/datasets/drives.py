@@ -12,12 +12,13 @@ from garage2usd.common.errors import ConfigError
 from garage2usd.common.randomness import Step, generator
 from garage2usd.common.settings import Settings
 from garage2usd.config.outputs import DriveConfig
-from garage2usd.driving.tracks import AgentClass, AgentState, Tracks
+from garage2usd.driving.tracks import AgentState, Tracks
 from garage2usd.recordings import AVP, CloudFormat, Device, Traffic, check_recording, record
 from garage2usd.recordings import Sequence as SequenceFormat
 from garage2usd.render import Picture, SlotFormat
 from garage2usd.sensors.rays.birds_eye import BirdsEye
 from garage2usd.sensors.rig.rig import RIG_NAMES, Rig, read_rig
+from garage2usd.stage.agent_models import CARS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -182,7 +183,7 @@ def _in_traffic(config: DrivesConfig, tracks: Tracks, draw: np.random.Generator)
     driven = []
     for track in tracks:
         moves = np.flatnonzero(np.isin(track.state, (AgentState.DRIVES, AgentState.MANOEUVRES)))
-        if track.agent.kind is not AgentClass.PERSON and len(moves) * tracks.step_s >= _LEAST_DRIVE_S:
+        if track.agent.kind in CARS and len(moves) * tracks.step_s >= _LEAST_DRIVE_S:
             driven.append((track.agent.name, float(track.time_s[moves[0]])))
     chosen = [driven[place] for place in draw.permutation(len(driven))[: config.count].tolist()]
     return [Traffic(tracks, name, config.every_s, (begin, begin + config.longest_s)) for name, begin in chosen]

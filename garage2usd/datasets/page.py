@@ -6,16 +6,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from garage2usd.common.package import of_extra
 from garage2usd.datasets.charts import bars, histogram, split_colours
 from garage2usd.datasets.difficulty import Level
 from garage2usd.datasets.drawn_plan import ContourShape
-from garage2usd.datasets.variety import FIGURES, PlanFigures, Spread, Variety
+from garage2usd.datasets.variety import FIGURES, PlanFigures, Variety
 from garage2usd.layout.measures import FloorArea
 from garage2usd.structure.symmetry import cropped_cells
-from garage2usd.view.drawing import Colour, to_svg
+from garage2usd.view.drawing import to_svg
 from garage2usd.view.thumbnails import THUMBNAIL_COLOURS, draw_thumbnail
 
 with of_extra("the page of a data set"):
@@ -72,6 +71,7 @@ def write_page(
     The page is self-contained. The same plans give the same bytes with the same version of matplotlib.
     """
     variety = Variety(plans)
+    shares = variety.values("nearest_share")
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(_TEMPLATE.read_text(encoding="utf-8"))
     text = template.render(
@@ -79,12 +79,15 @@ def write_page(
         facts=facts or {},
         variety=variety,
         colours=split_colours(variety.splits),
-        median=_median(variety.values("nearest_share")),
-        spreads={words: _columns(variety, figure) for figure, words in FIGURES.items()},
+        median=float(np.median(shares)) if shares.size else None,
+        spreads={
+            words: [variety.spread(figure, split=split) for split in (None, *variety.splits)]
+            for figure, words in FIGURES.items()
+        },
         kinds=_kinds(variety),
         charts=_charts(variety),
         legend=[(_THUMBNAIL_WORDS[kind], kind) for kind in THUMBNAIL_COLOURS],
-        fills={kind: _css(colour) for kind, colour in THUMBNAIL_COLOURS.items()},
+        fills={kind: "#{:02x}{:02x}{:02x}".format(*colour) for kind, colour in THUMBNAIL_COLOURS.items()},
         sheets=[(sheet.stem, _picture(sheet)) for sheet in sheets],
         plans=[(plan, _thumbnail(plan)) for plan in _evenly(variety.plans, most_drawn)],
         number=_number,
@@ -97,11 +100,6 @@ def _evenly(plans: Sequence[PlanFigures], most: int) -> list[PlanFigures]:
     """Select at most a number of plans, evenly spaced, including first and last."""
     count = min(len(plans), most)
     return [plans[place] for place in np.linspace(0, len(plans) - 1, count).round().astype(int).tolist()]
-
-
-def _columns(variety: Variety, figure: str) -> list[Spread]:
-    """Compute the spread of a figure over all plans and over each split."""
-    return [variety.spread(figure, split=split) for split in (None, *variety.splits)]
 
 
 def _kinds(variety: Variety) -> dict[str, dict[str, list[int]]]:
@@ -148,14 +146,6 @@ def _picture(path: Path) -> str:
     """Encode a picture as a data URL."""
     kind = "png" if path.suffix.lower() == ".png" else "jpeg"
     return f"data:image/{kind};base64,{base64.b64encode(path.read_bytes()).decode()}"
-
-
-def _median(values: NDArray[np.float64]) -> float | None:
-    return float(np.median(values)) if values.size else None
-
-
-def _css(colour: Colour) -> str:
-    return "#{:02x}{:02x}{:02x}".format(*colour)
 
 
 def _number(value: Any) -> str:  # noqa: ANN401 - whatever the template has

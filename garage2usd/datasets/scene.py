@@ -25,7 +25,7 @@ from garage2usd.datasets.plans import remade
 from garage2usd.datasets.recipe import MakeConfig, Recipe
 from garage2usd.driving import StallProof, prove_stalls
 from garage2usd.exports import export
-from garage2usd.garage import LaneGraph, Stall, StallKind, StallUse
+from garage2usd.garage import LaneGraph, StallKind, StallUse
 from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.layout import Layout
 from garage2usd.planning import measured_circulation
@@ -110,11 +110,8 @@ def _nose_out(layout: Layout) -> Iterator[bool]:
     rows = layout.cars_in_stalls().tolist()
     for stall, row in zip(layout.quads, rows, strict=True):
         if row >= 0 and stall.takes_cars and stall.kind is StallKind.PERPENDICULAR:
-            yield _is_nose_out(stall, float(layout.placements.yaw_rad[row]))
-
-
-def _is_nose_out(stall: Stall, yaw_rad: float) -> bool:
-    return abs(math.remainder(yaw_rad - stall.yaw_rad, math.tau)) > math.pi / 2
+            turned_rad = math.remainder(float(layout.placements.yaw_rad[row]) - stall.yaw_rad, math.tau)
+            yield abs(turned_rad) > math.pi / 2
 
 
 def _mean_lux(layouts: Sequence[Layout]) -> float:

@@ -80,40 +80,26 @@ def measured_stalls(
     if [proof.stall for proof in proofs] != names:
         raise ConfigError("proofs", f"{len(proofs)} proofs", f"a proof for each of the {len(names)} stalls, in order")
     neighbours, lux = _occupied_neighbours(layout).tolist(), _stall_lux(layout).tolist()
-    return tuple(
-        _features(
-            proof,
-            aisle_width_m=round(layout.lane_graph.clear_aisle_m(stall.access, stall.outwards), _DIGITS),
-            occupied_neighbours=neighbours[row],
-            illuminance_lux=round(lux[row], _DIGITS),
-        )
-        for (row, stall), proof in zip(stalls, proofs, strict=True)
-    )
+    found = []
+    for (row, stall), proof in zip(stalls, proofs, strict=True):
+        aisle_m = round(layout.lane_graph.clear_aisle_m(stall.access, stall.outwards), _DIGITS)
+        found.append(StallFeatures(proof.stall, *_driven(proof), aisle_m, neighbours[row], round(lux[row], _DIGITS)))
+    return tuple(found)
 
 
-def _features(
-    proof: StallProof, *, aisle_width_m: float, occupied_neighbours: int, illuminance_lux: float
-) -> StallFeatures:
+def _driven(proof: StallProof) -> tuple[int | None, int | None, float | None, bool | None]:
+    """Return gear changes in and out, clearance, and true if clear when full; None without proven drives."""
     if proof.way_in is None or proof.way_out is None:
-        return StallFeatures(proof.stall, None, None, None, None, aisle_width_m, occupied_neighbours, illuminance_lux)
-    return StallFeatures(
-        proof.stall,
-        proof.way_in.gear_changes,
-        proof.way_out.gear_changes,
-        round(min(proof.way_in.clearance_m, proof.way_out.clearance_m), _DIGITS),
-        proof.is_full,
-        aisle_width_m,
-        occupied_neighbours,
-        illuminance_lux,
-    )
+        return None, None, None, None
+    clearance_m = round(min(proof.way_in.clearance_m, proof.way_out.clearance_m), _DIGITS)
+    return proof.way_in.gear_changes, proof.way_out.gear_changes, clearance_m, proof.is_full
 
 
 def _stall_lux(layout: Layout) -> NDArray[np.float64]:
     """Compute the illuminance in each stall's middle, without the lamps over ramps; shape (stalls,)."""
     tubes = [place for place in layout.of_kind("light") if place.square is not None]
     middles = np.array([stall.centre for stall in layout.quads]).reshape(-1, 2)
-    lux: NDArray[np.float64] = layout.illuminance.luminance_nit * direct_lux(middles, tubes)
-    return lux
+    return layout.illuminance.luminance_nit * direct_lux(middles, tubes)
 
 
 def _occupied_neighbours(layout: Layout) -> NDArray[np.int64]:

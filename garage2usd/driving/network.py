@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import chain, count
+from itertools import chain, count, product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -25,24 +25,34 @@ from garage2usd.garage import Arc, LaneKind
 from garage2usd.native import elementary
 
 if TYPE_CHECKING:
-    from garage2usd.driving.roadmap import Roadmap
+    from garage2usd.driving.roadmap import Half, Roadmap
 
 _OUTSIDE = -1
 """Stands for the outer end of a door's arc, which is no lane node."""
 _BESIDE_NODE_M = tuple(np.arange(0.0, 10.5, 1.0).tolist())
 """Distances before a node at which a turn may begin, and after it at which it may end; metres."""
+_HALF_STEPS_M = tuple(np.arange(0.0, 10.1, 0.5).tolist())
+"""Such distances of a lane before or after a short line and a door."""
 _SLIGHT_RAD, _SLIGHT_M = math.radians(20.0), (0.0, 1.0, 2.0, 4.0, 7.0)
 """Greatest angle of a slight bend, and such distances for it."""
-_SHORT_M, _DOUBLE_M = 9.0, (0.0, 2.0, 4.0, 6.0, 8.0)
-"""Greatest length of an arc that may be too short for a turn at each of its ends, and such distances for both."""
-_MOST_TESTS = 60
+_SHORT_M = 14.0
+"""Greatest length of a line that may be too short for a turn at each of its ends."""
+_MOST_TESTS = 1000
 """Greatest number of ways of a turn that are tested for collisions."""
 _MOST_ARCS = 4
 """Greatest number of arcs between a line and the start of a manoeuvre."""
 _CHANGES_M = tuple(np.arange(2.5, 16.0, 0.5).tolist())
 """Distances over which a car may change to another line, or between a line and the start of its manoeuvre; metres."""
-_OWN_MARGIN_M = 0.1
-"""Distance kept from the middle by a car that swings out in its own half."""
+_BESIDE_MIDDLE_M, _SWINGS_M = (0.1, -0.25, -0.6), (-0.3, 0.0, 0.2)
+"""Gaps between a car and the middle of its lane before any turn, and before one that leads back to a line; metres."""
+_SWUNG_M, _SWUNG_BACK_M, _DOOR_M = (
+    tuple(np.arange(*each).tolist()) for each in ((3.0, 8.1, 0.75), (5.0, 12.1, 1.0), (0.0, 8.1, 2.0))
+)
+"""Distances from a node at which such a turn is beside its line and on the other line, of lane or door."""
+_DOOR_ROOM_M = 1.0
+"""Greatest offset from the middle of a door within which a car turns; metres."""
+_MORE_COST_M = 200.0
+"""How much more a further way of a turn may cost than the first that is clear, for the room that it saves; metres."""
 _OVER_COST = 3.0
 """Cost of a metre over the middle of a two-way lane, in metres driven."""
 _QUARTER, _SAME, _DIGITS = math.pi / 2, 1e-9, 9
@@ -72,6 +82,19 @@ class _Shape(NamedTuple):
     after_m: float
     cost_m: float
     pieces: tuple[Piece, ...]
+
+
+class _Swing(NamedTuple):
+    """A pose beside a line, the way between it and a stop on the line, and how far off the stop is from a node.
+
+    `saved_m` is that distance less the length of the way.
+    """
+
+    stop: Stop
+    pose: Pose
+    pieces: tuple[Piece, ...]
+    away_m: float
+    saved_m: float
 
 
 class _Side(NamedTuple):
@@ -146,6 +169,7 @@ class Network:
         self._trees: dict[tuple[int, ...], _Tree] = {}
         self._shapes: dict[tuple[float, _Side, _Side, bool], list[_Shape]] = {}
         self._known: dict[tuple[Arc, Arc], list[_Turn]] = {}
+        self._singles: dict[tuple[Arc, Arc], list[_Turn]] = {}
         self._clear: dict[tuple[Arc, float, float], bool] = {}
 
     def led(self, pose: Pose, portals: Sequence[Portal], *, is_back: bool) -> tuple[Path, Portal] | None:
@@ -239,8 +263,13 @@ class Network:
     def _turns(self, arc: Arc, other: Arc) -> list[_Turn]:
         """Return the clear turns from the line of an arc to that of the next."""
         if (arc, other) not in self._known:
-            self._known[arc, other] = [*self._found_turns(arc, other), *self._double_turns(arc, other)]
+            self._known[arc, other] = [*self._single_turns(arc, other), *self._double_turns(arc, other)]
         return self._known[arc, other]
+
+    def _single_turns(self, arc: Arc, other: Arc) -> list[_Turn]:
+        if (arc, other) not in self._singles:
+            self._singles[arc, other] = list(self._found_turns(arc, other))
+        return self._singles[arc, other]
 
     def _found_turns(self, arc: Arc, other: Arc) -> Iterator[_Turn]:
         before = list(self._line(arc, is_forward=False))
@@ -254,6 +283,8 @@ class Network:
                 is_worse = any(one.before_m <= shape.before_m and one.after_m <= shape.after_m for one in kept)
                 if is_worse or start is None or end is None:
                     continue
+                if kept and shape.gain_m > kept[0].gain_m + _MORE_COST_M:
+                    break
                 tests += 1
                 if self.roadmap.is_clear(Path(self.pose(start), shape.pieces)):
                     kept.append(shape)
@@ -264,32 +295,81 @@ class Network:
                 return
 
     def _double_turns(self, arc: Arc, short: Arc) -> Iterator[_Turn]:
-        """Yield clear turns from the line of an arc over the next one, too short for a turn at each end, to another."""
-        if _OUTSIDE in short or self.length_m(short) > _SHORT_M:
-            return
-        before = list(self._line(arc, is_forward=False))
-        for other in self.onward[short]:
-            if other == self._beyond(short, is_forward=True):
+        """Yield clear turns from an arc's line over the next line, too short for a turn at each end, to another."""
+        over: list[tuple[Arc, float]] = []
+        for last, away_m in () if _OUTSIDE in short else self._line(short, is_forward=True):
+            if away_m + self.length_m(last) > _SHORT_M:
+                return
+            over.append((last, away_m))
+            for other in self.onward[last]:
+                if other != self._beyond(last, is_forward=True) and not self._is_chained(arc, over, other):
+                    is_fine = _OUTSIDE in arc or _OUTSIDE in other
+                    starts = list(self._swung(arc, arc[1], is_forward=False, is_fine=is_fine))
+                    ends = list(self._swung(other, other[0], is_forward=True, is_fine=is_fine))
+                    lines = [*self._line(arc, is_forward=False), *over, *self._line(other, is_forward=True)]
+                    yield from self._best_turns(starts, ends, self.roadmap.sides([each for each, _ in lines]))
+
+    def _best_turns(
+        self, starts: "Sequence[_Swing]", ends: "Sequence[_Swing]", sides: "Sequence[Half]"
+    ) -> Iterator[_Turn]:
+        """Yield the clear turns between some poses by cost, each with less room before or after it than those of less.
+
+        A cost is that of the distance at first, then of the way, then of the way with its share over the middle.
+        """
+        numbers = count()
+        waiting: list[tuple[float, int, _Swing, _Swing, tuple[Piece, ...], bool]] = []
+        for start, end in product(starts, ends):
+            apart_m = math.hypot(end.pose.x_m - start.pose.x_m, end.pose.z_m - start.pose.z_m)
+            waiting.append((apart_m - start.saved_m - end.saved_m, next(numbers), start, end, (), False))
+        heapq.heapify(waiting)
+        kept: list[_Turn] = []
+        rooms: list[tuple[float, float]] = []
+        while waiting and (not kept or waiting[0][0] <= kept[0].cost_m - sum(rooms[0]) + _MORE_COST_M):
+            gain_m, _, start, end, pieces, is_known = heapq.heappop(waiting)
+            if any(one <= start.away_m and two <= end.away_m for one, two in rooms):
                 continue
-            after = list(self._line(other, is_forward=True))
-            found = []
-            for before_m in _DOUBLE_M:
-                for after_m in _DOUBLE_M:
-                    start = self._stop_at(before, before_m, is_forward=False)
-                    end = self._stop_at(after, after_m, is_forward=True)
-                    pieces = start and end and self.roadmap.joined(self.pose(start), self.pose(end))
-                    if start and end and pieces:
-                        path = Path(self.pose(start), pieces)
-                        over_m = self.roadmap.over_middle_m(path, self.roadmap.sides([start.arc, arc, short, other]))
-                        cost_m = path.length_m + _OVER_COST * over_m
-                        found.append(
-                            (cost_m - before_m - after_m, before_m, after_m, _Turn(start, end, pieces, cost_m))
-                        )
-            kept: list[tuple[float, float]] = []
-            for _, before_m, after_m, turn in sorted(found, key=lambda each: each[:3]):
-                if not any(one <= before_m and two <= after_m for one, two in kept):
-                    kept.append((before_m, after_m))
-                    yield turn
+            if not pieces:
+                pieces = next(joining_pieces(start.pose, end.pose, self.roadmap.steerings[-1]), ())
+                gain_m = sum(piece.length_m for piece in pieces) - start.saved_m - end.saved_m
+                if pieces:
+                    heapq.heappush(waiting, (gain_m, next(numbers), start, end, pieces, False))
+                continue
+            path = Path(self.pose(start.stop), (*start.pieces, *pieces, *end.pieces))
+            if not is_known:
+                gain_m += _OVER_COST * self.roadmap.over_middle_m(path, sides)
+                heapq.heappush(waiting, (gain_m, next(numbers), start, end, pieces, True))
+            elif self.roadmap.is_clear(path):
+                rooms.append((start.away_m, end.away_m))
+                kept.append(_Turn(start.stop, end.stop, path.pieces, gain_m + sum(rooms[-1])))
+                yield kept[-1]
+
+    def _is_chained(self, arc: Arc, over: Sequence[tuple[Arc, float]], other: Arc) -> bool:
+        """Return True if a turn to a short line between lanes ends before one from it begins."""
+        if _OUTSIDE in arc or _OUTSIDE in other:
+            return False
+        away_m = dict(over)
+        ends = [turn.end for turn in self._single_turns(arc, over[0][0]) if turn.end.arc in away_m]
+        starts = [turn.start for turn in self._single_turns(over[-1][0], other) if turn.start.arc in away_m]
+        runs_m = [[away_m[stop.arc] + stop.run_m for stop in stops] for stops in (ends, starts)]
+        return all(runs_m) and min(runs_m[0]) <= max(runs_m[1])
+
+    def _swung(self, arc: Arc, node: int, *, is_forward: bool, is_fine: bool) -> "Iterator[_Swing]":
+        """Yield poses on and beside the line of an arc near its node, with the changes of line between."""
+        side, steering = self._side(arc, node), self.roadmap.steerings[-1]
+        steps_m = _HALF_STEPS_M if is_fine and not side.is_door else _BESIDE_NODE_M[::2]
+        line = list(self._line(arc, is_forward=is_forward))
+        for aside_m in self._asides(side):
+            right_m = aside_m - side.own_m
+            changed_m, pieces = self._change(-right_m if is_forward else right_m, steering)
+            for away_m in steps_m:
+                near = self._stop_at(line, away_m, is_forward=is_forward)
+                stop = self._stop_at(line, away_m + changed_m, is_forward=is_forward)
+                if near is not None and stop is not None:
+                    pose = self.pose(near)
+                    sin, cos = elementary.sin(pose.yaw_rad), elementary.cos(pose.yaw_rad)
+                    swung = Pose(pose.x_m + right_m * cos, pose.z_m - right_m * sin, pose.yaw_rad)
+                    length_m = sum(piece.length_m for piece in pieces)
+                    yield _Swing(stop, swung, pieces, away_m + changed_m, away_m + changed_m - length_m)
 
     def _stop_at(self, line: Sequence[tuple[Arc, float]], away_m: float, *, is_forward: bool) -> Stop | None:
         """Return the stop at a distance from a node on a line; None beyond the line's end."""
@@ -313,7 +393,7 @@ class Network:
 
     def _side(self, arc: Arc, node: int) -> _Side:
         if _OUTSIDE in arc:
-            return _Side(0.0, 0.0, 0.0, self.length_m(arc), is_door=True)
+            return _Side(0.0, _DOOR_ROOM_M, 0.0, self.length_m(arc), is_door=True)
         return _Side(
             self.roadmap.own_side_m(arc),
             self.roadmap.room_m(arc),
@@ -323,13 +403,14 @@ class Network:
         )
 
     def _every_shape(self, turned: float, one: _Side, two: _Side, is_plain: bool) -> Iterator[_Shape]:  # noqa: FBT001
-        ways = self._plain_turns if is_plain else self._joined_ways
+        turn = turned, one, two
+        ways = chain(self._plain_turns(*turn), self._swung_turns(*turn)) if is_plain else self._joined_ways(*turn)
         sin, cos = elementary.sin(turned), elementary.cos(turned)
-        halves = [
-            ((0.0, -1.0), (0.0, 0.0), -math.inf, -one.reach_m, one.own_m),
-            ((-sin, -cos), (0.0, 0.0), two.reach_m, math.inf, two.own_m),
+        halves: list[Half] = [
+            ((0.0, -1.0), (0.0, 0.0), (-math.inf, -one.reach_m), (-math.inf, -one.reach_m), one.own_m),
+            ((-sin, -cos), (0.0, 0.0), (two.reach_m, math.inf), (two.reach_m, math.inf), two.own_m),
         ]
-        for before_m, after_m, pieces in ways(turned, one, two):
+        for before_m, after_m, pieces in ways:
             path = Path(Pose(one.own_m, before_m, 0.0), pieces)
             cost_m = path.length_m + _OVER_COST * self.roadmap.over_middle_m(path, halves)
             yield _Shape(cost_m - before_m - after_m, before_m, after_m, cost_m, pieces)
@@ -342,9 +423,9 @@ class Network:
             end = Path(Pose(0.0, 0.0, 0.0), pieces).end
             after_m = end.x_m / -sin
             before_m = -end.z_m - after_m * cos
-            for aside_m in self._asides(one, turned):
+            for aside_m in self._asides(one):
                 in_m, changed_in = self._change(aside_m - one.own_m, steering)
-                for other_m in self._asides(two, turned):
+                for other_m in self._asides(two):
                     out_m, changed_out = self._change(two.own_m - other_m, steering)
                     # where the two lines meet, along each of them from the node
                     met_after_m = (other_m * cos - aside_m) / sin
@@ -357,12 +438,41 @@ class Network:
                             (*changed_in, *pieces, *changed_out),
                         )
 
-    def _asides(self, side: _Side, turned: float) -> list[float]:
+    def _swung_turns(self, turned: float, one: _Side, two: _Side) -> Iterator[tuple[float, float, tuple[Piece, ...]]]:
+        """Yield turns between an offset from a line and the other line, with a change to that offset and back.
+
+        A car swings out before a turn; behind a door, where it cannot, after it.
+        """
+        steering, sin, cos = self.roadmap.steerings[-1], elementary.sin(turned), elementary.cos(turned)
+        side, other = (two, one) if one.is_door else (one, two)
+        half_m = self.roadmap.half_width_m * math.copysign(1.0, side.own_m)
+        swings = [half_m + math.copysign(each, half_m) for each in _SWINGS_M]
+        asides = self._asides(side) if other.is_door else dict.fromkeys([side.own_m, *swings])
+        backs = self._asides(other) if other.is_door else [other.own_m]
+        for aside_m, back_m in product(asides, backs):
+            if abs(aside_m) > max(side.room_m, abs(side.own_m)) or side.is_door:
+                continue
+            sign = -1 if one.is_door else 1
+            changes = [(sign * (aside_m - side.own_m)), sign * (other.own_m - back_m)]
+            (changed_m, changed), (more_m, more) = (self._change(right_m, steering) for right_m in changes)
+            for near_m, far_m in product(_SWUNG_M, _DOOR_M if other.is_door else _SWUNG_BACK_M):
+                if other.is_door and far_m + more_m > other.far_m:
+                    continue
+                at, to = (near_m, aside_m, changed_m, changed), (far_m, back_m, more_m, more)
+                (before_m, in_m, first_m, first), (after_m, out_m, last_m, last) = (to, at) if one.is_door else (at, to)
+                end = Pose(out_m * cos - after_m * sin, -out_m * sin - after_m * cos, turned)
+                pieces = next(joining_pieces(Pose(in_m, before_m, 0.0), end, steering), None)
+                if pieces:
+                    yield before_m + first_m, after_m + last_m, (*first, *pieces, *last)
+
+    def _asides(self, side: _Side) -> list[float]:
         """Return the offsets to the right of a lane's middle between which a car may turn, the line's first."""
-        half_m = math.copysign(self.roadmap.half_width_m + _OWN_MARGIN_M, side.own_m)
-        outer_m = math.copysign(side.room_m, turned)
-        asides = [side.own_m, *([half_m] if abs(half_m) < abs(side.own_m) else []), 0.0, outer_m]
-        return [aside for aside in dict.fromkeys(asides) if abs(aside) <= max(side.room_m, abs(side.own_m))]
+        if side.is_door:
+            return [share * side.room_m for share in (0.0, 1.0, -1.0, 0.65, 0.3)]
+        most_m, sign = max(side.room_m, abs(side.own_m)), math.copysign(1.0, side.own_m)
+        beside = [sign * (self.roadmap.half_width_m + each) for each in _BESIDE_MIDDLE_M]
+        asides = [side.own_m, *beside, 0.0, -sign, most_m, -most_m]
+        return [each for each in dict.fromkeys(asides) if abs(each) <= most_m]
 
     def _change(self, right_m: float, steering: Steering) -> tuple[float, tuple[Piece, ...]]:
         """Return the length along a line and the pieces of the shortest change to another line to the right."""
@@ -421,7 +531,9 @@ class Network:
             if other != self._beyond(arc, is_forward=is_forward):
                 yield (arc, other) if is_forward else (other, arc)
                 if not is_forward:
-                    yield from ((each, other) for each in self.backward[other])
+                    for near, _ in self._line(other, is_forward=False):
+                        before = self._beyond(near, is_forward=False)
+                        yield from ((each, near) for each in self.backward[near] if each != before)
 
     def straight(self, arc: Arc, one_m: float, other_m: float) -> tuple[Piece, ...] | None:
         """Return the straight between two distances along an arc's line; None if it is not clear."""

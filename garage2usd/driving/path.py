@@ -11,14 +11,33 @@ from numpy.typing import ArrayLike, NDArray
 from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre
 from garage2usd.driving.obstacles import Obstacles, least_clearance
-from garage2usd.native import elementary
+from garage2usd.native import Float64s, Int64s, in_c
 
 Floats = NDArray[np.float64]
 # rounded, as eigenvalues differ in the last bits from processor to processor
 GAUSS, WEIGHTS = (np.round(each, 15) for each in np.polynomial.legendre.leggauss(12))  # type: ignore[no-untyped-call]
 """Nodes on [-1, 1] and weights of a Gauss quadrature, exact to rounding on the pieces of paths."""
+NODES = np.stack([GAUSS, WEIGHTS], axis=1)
+"""Both, as C takes them; shape (n, 2)."""
 _STEP_M = 0.1
 """Distance in metres between the poses at which the clearance of a path is evaluated."""
+_SIDE_STEP_M = 0.25
+
+
+@in_c
+def _write_points(
+    x: float, z: float, yaw: float, table: Float64s, pieces: int, nodes: Float64s, count: int,
+    numbers: Int64s, intos: Float64s, rows: int, starts: Float64s, points: Float64s,
+) -> None:  # fmt: skip
+    raise NotImplementedError
+
+
+@in_c
+def _over_middle_m(
+    x: float, z: float, yaw: float, table: Float64s, pieces: int, nodes: Float64s, count: int,
+    halves: Float64s, rows: int, length: float, width: float, overhang: float, step: float, far_cost: float,
+) -> float:  # fmt: skip
+    raise NotImplementedError
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,22 +164,13 @@ class Path:
             ]
         ).reshape(-1, 4)
 
-    @cached_property
-    def _starts(self) -> tuple[NDArray[np.complex128], Floats]:
-        """Position (x - iz) and yaw at the start of each piece."""
-        lengths, signs, curvatures, rates = self._table.T
-        turns = signs * lengths * (curvatures + rates * lengths / 2)
-        yaws = self.start.yaw_rad + np.concatenate([[0.0], np.cumsum(turns)[:-1]])
-        steps = _moved(lengths, signs, curvatures, rates, yaws)
-        places = complex(self.start.x_m, -self.start.z_m) + np.concatenate([[0.0], np.cumsum(steps)[:-1]])
-        return places, yaws
-
     def _within(self, number: NDArray[np.int64], into: Floats) -> PathPoints:
-        _, signs, curvatures, rates = self._table[number].T
-        places, yaws = self._starts[0][number], self._starts[1][number]
-        place = places + _moved(into, signs, curvatures, rates, yaws)
-        yaw = yaws + signs * into * (curvatures + rates * into / 2)
-        return PathPoints(place.real, -place.imag, yaw, curvatures + rates * into)
+        points, table = np.empty((4, len(number))), self._table
+        start = self.start.x_m, self.start.z_m, self.start.yaw_rad
+        _write_points(
+            *start, table, len(table), NODES, len(NODES), number, into, len(number), np.empty((len(table), 3)), points
+        )
+        return PathPoints(*points)
 
     def clearance_m(self, car: DesignCar, obstacles: Obstacles, *, most_m: float = 1.0) -> float:
         """Compute a lower bound of the clearance between a car and all obstacles along the path, at most `most_m`.
@@ -181,19 +191,24 @@ class Path:
         reach = math.hypot(max(body[:2]), body[2])
         tightest = np.maximum(np.abs(curvature), np.abs(curvature + rate * length))
         bulges = (length / counts[owner]) ** 2 / 8 * (tightest + np.abs(rate) * reach + tightest**2 * reach)
-        low, high = poses[:, :2].min(axis=0), poses[:, :2].max(axis=0)
-        near = obstacles.near(tuple((low + high) / 2), float((high - low).max()) / 2 + reach + most_m)
-        return least_clearance(near.met_by(car), poses, bulges, most_m)
+        return least_clearance(obstacles.met_by(car), poses, bulges, most_m)
 
+    def over_middle_m(self, car: DesignCar, halves: Floats, *, far_cost: float) -> float:
+        """Compute on how many metres a car is beyond its own half of one of some lanes.
 
-def _moved(into: Floats, signs: Floats, curvatures: Floats, rates: Floats, yaws: Floats) -> NDArray[np.complex128]:
-    """Integrate the heading of pieces up to some of their lengths by Gauss quadrature; displacements (x - iz)."""
-    moved: NDArray[np.complex128] = signs * into * elementary.turned(np.pi / 2 + yaws)
-    bends = (curvatures != 0) | (rates != 0)
-    if bends.any():
-        into, signs, curvatures, rates, yaws = (values[bends] for values in (into, signs, curvatures, rates, yaws))
-        at = into[:, None] / 2 * (1 + GAUSS)
-        heading = np.pi / 2 + yaws[:, None] + signs[:, None] * at * (curvatures[:, None] + rates[:, None] * at / 2)
-        # a sum, because a product of matrices would wake the threads of a BLAS library
-        moved[bends] = signs * into / 2 * (elementary.turned(heading) * WEIGHTS).sum(axis=1)
-    return moved
+        Parameters
+        ----------
+        car
+            The car.
+        halves
+            Direction (x, z) and start (x, z) of each lane, the runs between which it has a middle, those between which
+            no car turns, and the offset of the own half's line from the middle, to the right; shape (n, 9).
+        far_cost
+            How many times metres count where no car turns.
+        """
+        size = car.length_m, car.width_m, car.rear_overhang_m
+        start = self.start.x_m, self.start.z_m, self.start.yaw_rad
+        table = self._table
+        return _over_middle_m(
+            *start, table, len(table), NODES, len(NODES), halves, len(halves), *size, _SIDE_STEP_M, far_cost
+        )

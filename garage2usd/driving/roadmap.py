@@ -31,13 +31,15 @@ _BESIDE_M = 0.8
 _DOOR_SPOTS_M, _DOOR_SPOT_M = 12.0, 2.0
 """Length inside a door that has roadmap poses, and their spacing; metres."""
 _DIGITS = 4
-_SIDE_STEP_M = 0.5
+_FAR_COST = 8.0
+"""How many times a metre over the middle counts further than a car's length from the turns of a lane."""
 _ASIDE_COST_M, _EDGE_COST_M = 2.0, 3.0
 """Cost in metres of a spot off the lane's centre line, and of each further edge, so that paths keep to centre lines."""
 
 
-Half = tuple[Point, Point, float, float, float]
-"""Own half of a lane: direction, start, low and high run from there, and offset of its middle to the right."""
+Half = tuple[Point, Point, Point, Point, float]
+"""Own half of a lane: direction, start, the runs between which it has a middle, the runs of the grounds beside them on
+which cars turn, and offset of its line to the right."""
 
 
 class Spot(NamedTuple):
@@ -214,7 +216,7 @@ class Roadmap:
     def own_side_m(self, arc: Arc) -> float:
         """Return the offset, to the right of the middle, of a car's own half of a two-way lane; 0 on other lanes."""
         lane = self._lanes.arcs[arc]
-        if lane.one_way or lane.width_m < 2 * (self._car.width_m + 2 * _ROOM_KEPT_M):
+        if lane.one_way or not has_room_for_two(lane.width_m, self._car):
             return 0.0
         return round((-1 if self._keeps_left else 1) * lane.width_m / 4, _DIGITS)
 
@@ -255,29 +257,23 @@ class Roadmap:
         for arc in walk:
             if arc in self._along and self.own_side_m(arc):
                 along, length_m = self._along[arc]
-                low_m, high_m = self.turning_m(arc[0], arc), length_m - self.turning_m(arc[1], arc)
-                halves.append((along, self._lanes.nodes[arc[0]].position, low_m, high_m, self.own_side_m(arc)))
+                first_m, last_m = (self.turning_m(node, arc) for node in arc)
+                ends = first_m, length_m - last_m
+                turns = ends[0] if first_m else -math.inf, ends[1] if last_m else math.inf
+                halves.append((along, self._lanes.nodes[arc[0]].position, ends, turns, self.own_side_m(arc)))
         return halves
 
     def over_middle_m(self, path: Path, halves: "Sequence[Half]") -> float:
-        """Return the length of a path on which a car is beyond its own half; sampled about every half metre."""
-        halves = [half for half in halves if half[-1]]
-        if not halves or not path.pieces:
-            return 0.0
-        number = max(math.ceil(path.length_m / _SIDE_STEP_M), 1)
-        at = path.at((np.arange(number) + 0.5) * path.length_m / number)
-        turned = elementary.turned(at.yaw_rad)
-        ahead = np.stack([-turned.imag, -turned.real], axis=1)
-        middles = np.stack([at.x_m, at.z_m], axis=1) + ahead * (self._car.length_m / 2 - self._car.rear_overhang_m)
-        is_over = np.zeros(number, dtype=bool)
-        for along, start, low_m, high_m, own_m in halves:
-            away = middles - start
-            run, aside = away @ along, away @ (-along[1], along[0]) * math.copysign(1.0, own_m)
-            same = ahead @ along
-            half = self._car.width_m / 2 * same + self._car.length_m / 2 * np.sqrt(np.maximum(1 - same**2, 0.0))
-            is_here = (run > low_m) & (run < high_m) & (same > 0) & (np.abs(aside) < 2 * abs(own_m))
-            is_over |= is_here & (aside < half)
-        return float(np.count_nonzero(is_over) * path.length_m / number)
+        """Return the length of a path on which a car is beyond its own half, far from turns several times."""
+        length_m = self._car.length_m
+        rows = np.array(
+            [
+                (*along, *start, *ends, turns[0] + length_m, turns[1] - length_m, own)
+                for along, start, ends, turns, own in halves
+                if own
+            ]
+        )
+        return path.over_middle_m(self._car, rows, far_cost=_FAR_COST) if len(rows) else 0.0
 
     def turning_m(self, node: int, arc: Arc) -> float:
         """Return the reach of the ground of a junction or bend along an arc, which has no middle to keep to; else 0."""
@@ -288,7 +284,8 @@ class Roadmap:
 
     def is_clear(self, path: Path) -> bool:
         """Return True if a path keeps the margin from all obstacles."""
-        return path.clearance_m(self._car, self._standing) >= self._margin_m
+        margin_m = self._margin_m
+        return path.clearance_m(self._car, self._standing, most_m=margin_m) >= margin_m
 
     def door_spots(self, portal: Portal) -> Iterator[tuple[Spot, Pose]]:
         """Yield roadmap poses in line with the pose of cars outside a portal, up to the middle of its square."""
@@ -325,6 +322,11 @@ class Roadmap:
             for pieces in joining_pieces(start, end, steering):
                 if pieces and self.is_clear(Path(start, pieces)):
                     yield pieces
+
+
+def has_room_for_two(width_m: float, car: DesignCar) -> bool:
+    """Return True if a two-way lane is wide enough for two cars side by side, each on its own half."""
+    return width_m >= 2 * (car.width_m + 2 * _ROOM_KEPT_M)
 
 
 def _middle(car: DesignCar, pose: Pose) -> Point:

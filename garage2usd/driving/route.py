@@ -73,6 +73,7 @@ class Router:
         self._car, self._limits = car or DesignCar(), limits or Limits()
         self._standing = lru_cache(maxsize=2)(self._stood)
         self._roadmap = lru_cache(maxsize=2)(self._mapped)
+        self._through = lru_cache(maxsize=None)(self._found_through)
 
     def portals(self, kind: LaneKind) -> tuple[Portal, ...]:
         """Return the entrances or the exits, in reading order."""
@@ -132,7 +133,10 @@ class Router:
         return self._led(stall, parked, exits, None, is_full=proof.is_full, is_back=False)
 
     def through(self, entrance: Portal, exits: Sequence[Portal]) -> tuple[Path, Portal] | None:
-        """Return the shortest path found from an entrance through the garage to one of some exits."""
+        """Return the shortest path found from an entrance through the garage to one of some exits; it is kept."""
+        return self._through(entrance, tuple(exits))
+
+    def _found_through(self, entrance: Portal, exits: tuple[Portal, ...]) -> tuple[Path, Portal] | None:
         for is_full in (True, False):
             found = self._roadmap(is_full).network.through(entrance, exits)
             if found is not None:

@@ -32,6 +32,7 @@ class AgentClass(StrEnum):
     VAN = "van"
     TRUCK = "truck"
     PERSON = "person"
+    TROLLEY = "shopping_trolley"
 
 
 class AgentState(IntEnum):
@@ -153,6 +154,21 @@ class Track:
         columns = {name: np.interp(times, self.time_s, getattr(self, name)) for name in COLUMNS}
         stall = tuple((start, end, name) for start, end, name in spans if start < end)
         return Track(self.agent, **columns, state=self.state[before], level=self.level[before], stall=stall)
+
+    def axle_m(self, back_m: float) -> Floats:
+        """Return the places of a rear axle on the floor, a distance behind the middle; shape (n, 3)."""
+        along = back_m * np.cos(self.pitch_rad)
+        off = along * np.sin(self.yaw_rad), -back_m * np.sin(self.pitch_rad), along * np.cos(self.yaw_rad)
+        places: Floats = np.stack([self.x_m, self.y_m, self.z_m], axis=1) + np.stack(off, axis=1)
+        return places
+
+    def rolled_m(self, back_m: float) -> Floats:
+        """Return the way of a rear axle since the first sample, negative in reverse; shape (n,)."""
+        steps = np.diff(self.axle_m(back_m), axis=0)
+        ahead = np.stack([-np.sin(self.yaw_rad), -np.cos(self.yaw_rad)], axis=1)
+        # signed by the heading, halfway between two samples
+        signs = np.sign((steps[:, [0, 2]] * (ahead[1:] + ahead[:-1])).sum(axis=1))
+        return np.concatenate([[0.0], np.cumsum(signs * np.linalg.norm(steps, axis=1))])
 
     def rounded(self) -> "Track":
         """Return the track with the decimals of `COLUMNS`."""

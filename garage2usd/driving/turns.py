@@ -13,14 +13,13 @@ from numpy.typing import NDArray
 
 from garage2usd.driving.car import Pose
 from garage2usd.driving.manoeuvre import Gear
-from garage2usd.driving.path import GAUSS, WEIGHTS, Floats, Piece
+from garage2usd.driving.path import GAUSS, NODES, WEIGHTS, Floats, Piece
 from garage2usd.native import Float64s, elementary, in_c
 
 _MOST_RAD = 2.4
 """Greatest angle of each of the two turns."""
 _SCAN_RAD = math.radians(2.0)
 _SAME_M, _SAME_RAD = 1e-6, 1e-9
-_NODES = np.stack([GAUSS, WEIGHTS], axis=1)
 
 
 @in_c
@@ -28,6 +27,14 @@ def _write_straight(
     curvature: float, sharpness: float, nodes: Float64s, count: int, x: float, y: float,
     first: float, turned: float, straight: Float64s,
 ) -> None:  # fmt: skip
+    raise NotImplementedError
+
+
+@in_c
+def _write_roots(
+    curvature: float, sharpness: float, nodes: Float64s, count: int, x: float, y: float,
+    turned: float, samples: Float64s, rows: int, same: float, roots: Float64s,
+) -> int:  # fmt: skip
     raise NotImplementedError
 
 
@@ -48,9 +55,12 @@ class Steering:
 
     def turn(self, deflection_rad: float) -> tuple[Piece, ...]:
         """Return a forward turn with zero curvature at both ends; positive to the left."""
-        peak, arc_m = (float(value[0]) for value in self._shape(np.array([abs(deflection_rad)])))
+        size = abs(deflection_rad)
+        peak = min(math.sqrt(size * self.sharpness_per_m2), self.curvature_per_m)
         if peak == 0.0:
             return ()
+        is_full = peak == self.curvature_per_m
+        arc_m = max(size - peak**2 / self.sharpness_per_m2, 0.0) / peak if is_full else 0.0
         easing_m = peak / self.sharpness_per_m2
         peak = math.copysign(peak, deflection_rad)
         pieces = [
@@ -87,10 +97,8 @@ class Steering:
 
 
 @lru_cache(maxsize=256)
-def _scanned(
-    steering: Steering, turned_rad: float
-) -> tuple[Floats, NDArray[np.complex128], NDArray[np.complex128], NDArray[np.complex128]]:
-    """Sample the angle of the first turn for a root search; return angles, chords, rotations and the second chords.
+def _scanned(steering: Steering, turned_rad: float) -> Floats:
+    """Sample the first turn for a root search: its angle, chord, rotation, and the second chord; shape (n, 7).
 
     Nearly all paths turn by a quarter or not at all.
     """
@@ -98,7 +106,8 @@ def _scanned(
     # include the angles at which the path changes form, so that no pair of roots is missed
     steps = np.linspace(low, high, math.ceil((high - low) / _SCAN_RAD))
     scan = np.unique(np.concatenate([steps, [0.0, turned_rad]]))
-    return scan, steering.chords(scan), elementary.turned(-scan), steering.chords(turned_rad - scan)
+    columns = steering.chords(scan), elementary.turned(-scan), steering.chords(turned_rad - scan)
+    return np.column_stack([scan, *(part for column in columns for part in (column.real, column.imag))])
 
 
 def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple[Piece, ...]]:
@@ -126,25 +135,11 @@ def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple
 
 def _turning(across: complex, turned: float, steering: Steering) -> Iterator[tuple[Piece, ...]]:
     """Yield a turn, a straight and a turn that lead to a point ahead, and by an angle to the left in all."""
-    limits = steering.curvature_per_m, steering.sharpness_per_m2, _NODES, len(_NODES)
-    straight = np.zeros(2)
-
-    def straight_at(first_rad: float) -> tuple[float, float]:
-        """Return the straight between the two turns in the heading's frame; its second number is 0 at a root."""
-        _write_straight(*limits, across.real, across.imag, first_rad, turned, straight)
-        return float(straight[0]), float(straight[1])
-
-    from scipy.optimize import brentq  # noqa: PLC0415 - takes a quarter of a second, for which maps need not wait
-
-    scan, first, onto, last = _scanned(steering, turned)
-    misses = ((across - first) * onto - last).imag
-    are_met = np.abs(misses) < _SAME_M
-    roots = scan[are_met].tolist()
-    changes = (misses[:-1] * misses[1:] < 0) & ~are_met[:-1] & ~are_met[1:]
-    for one, other in zip(scan[:-1][changes].tolist(), scan[1:][changes].tolist(), strict=True):
-        roots.append(brentq(lambda first_rad: straight_at(first_rad)[1], one, other, xtol=1e-13, rtol=1e-13))
-    for root in roots:
-        straight_m = straight_at(root)[0]
+    scan = _scanned(steering, turned)
+    roots = np.empty((len(scan), 2))
+    limits = steering.curvature_per_m, steering.sharpness_per_m2, NODES, len(NODES)
+    found = _write_roots(*limits, across.real, across.imag, turned, scan, len(scan), _SAME_M, roots)
+    for root, straight_m in roots[:found].tolist():
         if straight_m >= 0:
             ahead = (Piece(Gear.FORWARD, straight_m),) if straight_m > _SAME_M else ()
             yield (*steering.turn(root), *ahead, *steering.turn(turned - root))

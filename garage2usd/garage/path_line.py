@@ -79,8 +79,7 @@ class PathLine:
     @cached_property
     def _runs(self) -> Floats:
         steps = np.diff(np.array(self.points), axis=0)
-        runs: Floats = np.concatenate([[0.0], np.cumsum(np.hypot(steps[:, 0], steps[:, 1]))])
-        return runs
+        return np.concatenate([[0.0], np.cumsum(np.hypot(steps[:, 0], steps[:, 1]))])
 
     @cached_property
     def _ways(self) -> Floats:
@@ -129,8 +128,7 @@ class PathLine:
         cuts = np.unique(np.round(np.concatenate([self._runs, [run for run, _ in profile]]), _DIGITS))
         ends = np.array([0.0, self.length_m])
         inner = cuts[(cuts > _LEAST_STEP_M) & (cuts < self.length_m - _LEAST_STEP_M)]
-        kept: Floats = np.concatenate([ends[:1], inner, ends[1:]])
-        return kept
+        return np.concatenate([ends[:1], inner, ends[1:]])
 
     def beside(self, aside_m: float, width_m: float) -> "PathLine":
         """Return the parallel line at a distance towards its turn from u to v, with a width of its own."""

@@ -203,5 +203,4 @@ class CoilLine:
 def heights_along(profile: tuple[tuple[float, float], ...], run_m: ArrayLike) -> Floats:
     """Return the heights of a profile of (distance, height) pairs at distances along a line; their shape."""
     runs, heights = zip(*profile, strict=True)
-    found: Floats = np.interp(np.asarray(run_m, dtype=np.float64), runs, heights)
-    return found
+    return np.interp(np.asarray(run_m, dtype=np.float64), runs, heights)

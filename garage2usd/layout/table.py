@@ -196,8 +196,7 @@ class StallTable(Table[PlacedStall]):
     @property
     def access_square(self) -> NDArray[np.int32]:
         """(row, col) of the lane square at each stall's entry; int32, shape (n, 2)."""
-        beyond: NDArray[np.int32] = self.square + np.array(NEIGHBOUR_STEPS, dtype=np.int32)[self.edge]
-        return beyond
+        return self.square + np.array(NEIGHBOUR_STEPS, dtype=np.int32)[self.edge]
 
     def names(self) -> list[str]:
         """Ids of all stalls."""
@@ -207,47 +206,17 @@ class StallTable(Table[PlacedStall]):
     def at(self, rows: NDArray[np.intp]) -> list[PlacedStall]:
         """Return the stalls at some rows of the table."""
         columns = (
-            self.square,
-            self.ordinal,
-            self.edge,
-            self.stall_type,
-            self.centre_m,
-            self.size_m,
-            self.yaw_rad,
-            self.use,
-            self.number,
-            self.angle_deg,
-            self.turn,
-            self.size,
+            map(tuple, self.square[rows].tolist()),
+            self.ordinal[rows].tolist(),
+            (EDGES[edge] for edge in self.edge[rows].tolist()),
+            (STALL_TYPES[stall_type] for stall_type in self.stall_type[rows].tolist()),
+            map(tuple, self.centre_m[rows].tolist()),
+            *self.size_m[rows].T.tolist(),
+            self.yaw_rad[rows].tolist(),
+            (STALL_USES[use] for use in self.use[rows].tolist()),
+            map(str, self.number[rows].tolist()),
+            self.angle_deg[rows].tolist(),
+            self.turn[rows].tolist(),
+            (STALL_SIZES[size] for size in self.size[rows].tolist()),
         )
-        return [
-            PlacedStall(
-                square=(row, col),
-                ordinal=ordinal,
-                edge=EDGES[edge],
-                stall_type=STALL_TYPES[stall_type],
-                centre_m=(x, z),
-                width_m=width,
-                length_m=length,
-                yaw_rad=yaw,
-                use=STALL_USES[use],
-                number=str(number),
-                angle_deg=angle_deg,
-                turn=turn,
-                size=STALL_SIZES[size],
-            )
-            for (
-                (row, col),
-                ordinal,
-                edge,
-                stall_type,
-                (x, z),
-                (width, length),
-                yaw,
-                use,
-                number,
-                angle_deg,
-                turn,
-                size,
-            ) in zip(*(column[rows].tolist() for column in columns), strict=True)
-        ]
+        return list(map(PlacedStall, *columns))

@@ -31,9 +31,6 @@ from garage2usd.structure.stalls import Edge, StallRow, door_edges
 if TYPE_CHECKING:
     import networkx as nx
 
-if TYPE_CHECKING:
-    import networkx as nx
-
 CEILING_THICKNESS_M = 0.25
 LEAST_FLOOR_M2 = 0.01
 """A piece with less floor around its stalls has no floor panel of its own."""

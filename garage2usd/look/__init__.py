@@ -2,42 +2,18 @@
 
 from garage2usd.assets import Finish
 from garage2usd.config.look import LookConfig
-from garage2usd.look.finishes import Axes, own_finishes
-from garage2usd.look.markings import drawn_markings, drawn_numbers, drawn_signs, paint_finishes
+from garage2usd.look.draws import drawn_look
+from garage2usd.look.finishes import own_finishes
+from garage2usd.look.markings import paint_finishes
 from garage2usd.look.surfaces import (
     ceiling_finishes,
     column_finishes,
-    drawn_ceiling,
-    drawn_columns,
-    drawn_floor,
-    drawn_lights,
-    drawn_walls,
     floor_finishes,
     light_finishes,
     wall_finishes,
 )
 
 __all__ = ["drawn_look", "finishes_of"]
-
-
-def drawn_look(look: LookConfig, seed: int) -> LookConfig:
-    """Complete a look: draw the axes in `drawn` by the seed, and keep the given ones.
-
-    Each axis has its own random generator, so that a given axis does not change the draws of the others.
-    """
-    axes = Axes(look, seed)
-    return LookConfig(
-        floor=drawn_floor(axes.of("floor")),
-        markings=drawn_markings(axes.of("markings")),
-        numbers=drawn_numbers(axes.of("numbers")),
-        columns=drawn_columns(axes.of("columns")),
-        walls=drawn_walls(axes.of("walls")),
-        ceiling=drawn_ceiling(axes.of("ceiling")),
-        lights=drawn_lights(axes.of("lights")),
-        signs=drawn_signs(axes.of("signs")),
-        textures=look.textures,
-        font=look.font,
-    )
 
 
 def finishes_of(look: LookConfig) -> dict[str, Finish]:

@@ -24,6 +24,7 @@ from garage2usd.driving.timing import Motion, timed
 from garage2usd.driving.trajectory import Trajectory
 from garage2usd.garage import LaneKind, Stall
 from garage2usd.maps.level_routes import LevelRoutes
+from garage2usd.maps.narrow_aisles import narrow_aisles
 
 _STEP_S = 0.05
 _BEYOND_FOOT_M = 2.0
@@ -53,6 +54,8 @@ class Drive:
         Motion of the car over time.
     car, settings
         The car, and the limits of its motion.
+    narrow_aisles
+        The two-way aisles in whose middle the car drives, as they are too narrow for two cars, one line for each.
     """
 
     route: Route
@@ -60,6 +63,7 @@ class Drive:
     motion: Motion
     car: DesignCar
     settings: DriveConfig
+    narrow_aisles: tuple[str, ...] = ()
 
     @cached_property
     def trajectory(self) -> Trajectory:
@@ -76,6 +80,7 @@ class Drive:
             "entrance": self.route.entrance.name if self.leg is not Leg.OUT else None,
             "exit": self.route.exit.name if self.leg is not Leg.IN else None,
             "clear_with_all_stalls_taken": self.route.is_full,
+            "narrow_aisles": list(self.narrow_aisles),
             "settings": self.settings.model_dump(mode="json"),
         }
 
@@ -216,7 +221,18 @@ class DrivePlanner:
         path = {Leg.IN: route.arrival, Leg.OUT: route.departure, Leg.BOTH: whole}[leg]
         parked_after = len(route.arrival.pieces) if leg is Leg.BOTH else None
         motion = timed(path, self._settings, car=self._car, parked_after=parked_after, spans=self.spans(parts))
-        return Drive(route, leg, motion, self._car, self._settings)
+        return Drive(route, leg, motion, self._car, self._settings, self._narrow_aisles(path.start, parts))
+
+    def _narrow_aisles(self, start: Pose, parts: Sequence[RoutePart]) -> tuple[str, ...]:
+        """Return the aisles along the parts of a path that are too narrow to keep to one side, one line for each."""
+        lines: dict[str, None] = {}
+        for part in parts:
+            path, level = Path(start, part.pieces), self._garage.levels[part.level]
+            if not part.is_ramp:
+                for aisle in narrow_aisles(path, level.lanes, self._car):
+                    lines[str(aisle) if level.place.is_only else f"{level.place.name}: {aisle}"] = None
+            start = path.end
+        return tuple(lines)
 
     def route(
         self,

@@ -8,8 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 def map_points(ground: ArrayLike) -> NDArray[np.float64]:
     """Convert ground points (x, z) of the stage to map points (x, y); float64, shape (..., 2)."""
-    points: NDArray[np.float64] = np.asarray(ground, dtype=np.float64) * (1.0, -1.0)
-    return points
+    return np.asarray(ground, dtype=np.float64) * (1.0, -1.0)
 
 
 def map_point(ground: tuple[float, float]) -> tuple[float, float]:

@@ -1,5 +1,4 @@
 """GLB export: a stage as one binary glTF 2.0 file for engines, browsers and simulators."""
-# Over 300 lines: nodes, extras and remarks of a scene are made in one pass over the stage, level by level.
 
 from collections.abc import Iterable, Sequence
 from functools import cache
@@ -229,7 +228,7 @@ class _Looks:
         )
         self._moved: dict[tuple[Triangles, bytes], Triangles] = {}
         self._joined = cache(joined)
-        self._outline_of = cache(_outline)
+        self._outline_of = cache(lambda triangles: _hull(triangles.positions_m[:, [0, 2]]))
 
     def of(self, placed: PlacedObject) -> _Look:
         """Return an object's look, one piece for each surface; faceted triangles, without normals, are separate."""
@@ -274,10 +273,6 @@ class _Looks:
 
 def _is_matte(surface: SurfaceLook) -> bool:
     return surface.roughness >= _MATTE and surface.metallic <= 1 - _MATTE and not surface.clearcoat
-
-
-def _outline(triangles: Triangles) -> NDArray[np.float64]:
-    return _hull(triangles.positions_m[:, [0, 2]])
 
 
 def _hull(points_m: NDArray[np.floating[Any]]) -> NDArray[np.float64]:

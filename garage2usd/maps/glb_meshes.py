@@ -159,14 +159,11 @@ def by_facets(mesh: Triangles, *, is_matte: bool = False) -> Iterator[tuple[bool
     are_faceted = np.ones(len(mesh.indices), dtype=bool)
     for normals in mesh.normals.T[:, mesh.indices.T].transpose(1, 0, 2):
         are_faceted &= (normals * areas).sum(axis=0) >= least
+    numbered = replace(mesh, face_of=np.arange(len(mesh.indices), dtype=np.int32))
     for is_faceted in (True, False):
         own = np.flatnonzero(are_faceted == is_faceted)
         if len(own):
-            yield is_faceted, mesh if len(own) == len(are_faceted) else replace(mesh, face_of=_each(mesh)).of_faces(own)
-
-
-def _each(mesh: Triangles) -> NDArray[np.int32]:
-    return np.arange(len(mesh.indices), dtype=np.int32)
+            yield is_faceted, mesh if len(own) == len(are_faceted) else numbered.of_faces(own)
 
 
 def joined(meshes: Sequence[Triangles]) -> Triangles:
@@ -277,7 +274,4 @@ def _across(vectors: NDArray[Any], normals: NDArray[Any]) -> NDArray[Any]:
 
 def _unit(vectors: NDArray[Any], otherwise: tuple[float, float, float]) -> NDArray[np.float32]:
     lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    unit: NDArray[np.float32] = np.where(
-        lengths > _SMALLEST, vectors / np.maximum(lengths, _SMALLEST), otherwise
-    ).astype(np.float32)
-    return unit
+    return np.where(lengths > _SMALLEST, vectors / np.maximum(lengths, _SMALLEST), otherwise).astype(np.float32)

@@ -106,7 +106,8 @@ class LevelPlan:
             return None
         walls = shapely.union_all(list(self._bodies("wall")))
         ground = _closed(shapely.union_all([*floors, *self.blocks, walls], grid_size=_GRID_M))
-        inside = _largest(_closed(shapely.difference(_without_holes(ground), walls, grid_size=_GRID_M)))
+        whole = shapely.union_all([shapely.Polygon(part.exterior) for part in shapely.get_parts(ground)])
+        inside = _largest(_closed(shapely.difference(whole, walls, grid_size=_GRID_M)))
         return shapely.simplify(shapely.Polygon(inside.exterior), _STRAIGHT_M).normalize()
 
     @cached_property
@@ -228,10 +229,6 @@ def _runs(lanes: LaneGraph) -> Iterator[tuple[list[int], float, bool]]:
 def _closed(ground: shapely.Geometry) -> shapely.Geometry:
     """Return ground without its narrow gaps."""
     return ground.buffer(_CLOSED_M, join_style="mitre").buffer(-_CLOSED_M, join_style="mitre")
-
-
-def _without_holes(ground: shapely.Geometry) -> shapely.Geometry:
-    return shapely.union_all([shapely.Polygon(part.exterior) for part in shapely.get_parts(ground)])
 
 
 def _largest(ground: shapely.Geometry) -> shapely.Polygon:

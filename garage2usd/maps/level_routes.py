@@ -12,7 +12,7 @@ from garage2usd.driving import DesignCar, Portal, Pose, StallProof
 from garage2usd.driving.path import Path
 from garage2usd.driving.route import Route, Router
 from garage2usd.driving.turns import Steering
-from garage2usd.garage import Stall
+from garage2usd.objects.cone import KIND as CONE
 
 _NAMED = 6
 
@@ -27,7 +27,8 @@ class LevelRoutes:
     settings, car
         Limits of the car's motion, and the car.
     are_stalls_changing
-        True if other cars may take the place of the parked ones: paths are then clear of both.
+        True if other cars may take the place of the parked ones: paths are then clear of both, and of cones in the
+        stall itself.
 
     Raises
     ------
@@ -42,7 +43,13 @@ class LevelRoutes:
             raise ConfigError("PATH", level.source, "a garage whose lanes join an entrance and an exit")
         self.road = driven_road(level, car=car)
         if are_stalls_changing:
-            self.road = replace(self.road, garage=replace(self.road.garage, taken=frozenset()))
+            # a parked car leaves its stall, but cones in it stay in the way
+            cones = {thing.name for thing in level.things if thing.label == CONE.label}
+            own = {
+                stall: tuple(name for name in names if name not in cones)
+                for stall, names in self.road.garage.own.items()
+            }
+            self.road = replace(self.road, garage=replace(self.road.garage, taken=frozenset(), own=own))
         curvature, wheelbase_m = 1 / car.rear_axle_radius_m, car.wheelbase_m
         # as fast as on a lane, or so slowly that the wheels turn on less way
         rate, fast_m_s = settings.steering_rate_rad_s, settings.lane_speed_m_s
@@ -84,17 +91,15 @@ class LevelRoutes:
         if not (entrances and exits):
             raise ConfigError("stall", stall, "a stall that lanes and ramps join with the street")
         lacks: Counter[str] = Counter()
-        for candidate in self._in_order() if stall is None else [self._driven[stall]]:
+        # as on the level, free stalls first
+        every = sorted((self._driven[name] for name in self._names), key=lambda stall: stall.name in self._taken)
+        for candidate in every if stall is None else [self._driven[stall]]:
             route = self.router.route(candidate, entrances=entrances, exits=exits)
             if isinstance(route, Route):
                 return route
             lacks[_lack(route)] += 1
         lack = lacks.most_common(1)[0][0] if lacks else "a garage with a stall that takes a car"
         raise ConfigError("stall", f"any of {lacks.total()}" if stall is None else stall, lack)
-
-    def _in_order(self) -> list[Stall]:
-        """Order the stalls for cars as on the level, free ones first."""
-        return sorted((self._driven[name] for name in self._names), key=lambda stall: stall.name in self._taken)
 
 
 def _lack(proof: StallProof) -> str:

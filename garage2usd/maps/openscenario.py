@@ -29,7 +29,7 @@ _MINOR, _MINOR_OF_TRAFFIC = 2, 3
 _HEIGHT_M, _WHEEL_M = 1.5, 0.62
 _AFTER_S = 1.0
 """Seconds for which the scenario continues after the car has stopped."""
-_PERSON_KG = 75.0
+_PERSON_KG, _TROLLEY_KG = 75.0, 25.0
 _NEAR_M, _NEAR_RAD = 1e-3, math.radians(0.02)
 """Deviations from tracks that save vertices."""
 _CATEGORIES = {
@@ -109,16 +109,9 @@ def write_traffic_scenario(
     _add_parked(parked, entities, init)
     if len(tracks):
         storyboard.add_act(act)
-    seed = tracks.facts.get("seed")
-    _write(
-        path,
-        name,
-        int(str(seed)) if str(seed).isdecimal() else None,
-        entities,
-        storyboard,
-        road_file=road_file,
-        minor=_MINOR_OF_TRAFFIC,
-    )
+    seed = str(tracks.facts.get("seed"))
+    number = int(seed) if seed.isdecimal() else None
+    _write(path, name, number, entities, storyboard, road_file=road_file, minor=_MINOR_OF_TRAFFIC)
 
 
 def _followed(track: Track, ends_s: float, entities: "xosc.Entities", init: "xosc.Init") -> "xosc.ManeuverGroup":
@@ -166,12 +159,18 @@ def _kept(track: Track) -> Track:
     return track.sampled(track.time_s[np.unique(np.concatenate([knots(track.time_s, *one) for one in columns]))])
 
 
-def _entity(agent: Agent) -> "xosc.Vehicle | xosc.Pedestrian":
-    if agent.kind is AgentClass.PERSON:
-        box = xosc.BoundingBox(agent.width_m, agent.length_m, agent.height_m, 0.0, 0.0, _number(agent.height_m / 2))
-        return xosc.Pedestrian(agent.name, _PERSON_KG, xosc.PedestrianCategory.pedestrian, box)
+def _entity(agent: Agent) -> "xosc.Vehicle | xosc.Pedestrian | xosc.MiscObject":
     sizes = agent.width_m, agent.length_m, agent.height_m
-    return _vehicle(agent.name, *sizes, agent.rear_axle_m, agent.wheelbase_m, _CATEGORIES[agent.kind])
+    box = xosc.BoundingBox(*sizes, 0.0, 0.0, _number(agent.height_m / 2))
+    if agent.kind is AgentClass.PERSON:
+        entity = xosc.Pedestrian(agent.name, _PERSON_KG, xosc.PedestrianCategory.pedestrian, box)
+    elif agent.kind is AgentClass.TROLLEY:
+        entity = xosc.MiscObject(agent.name, _TROLLEY_KG, xosc.MiscObjectCategory.obstacle, box)
+    else:
+        entity = _vehicle(agent.name, *sizes, agent.rear_axle_m, agent.wheelbase_m, _CATEGORIES[agent.kind])
+    if agent.behaviour:
+        entity.add_property("behaviour", agent.behaviour)
+    return entity
 
 
 def _write(
@@ -197,7 +196,9 @@ def _write(
         osc_minor_version=minor,
         creation_date=_WRITTEN,
     )
-    write_lines(element_lines(scenario.get_element(), indent=_INDENT, end="/>"), path)
+    # vertices of traffic stand so deep that indentation would be two thirds of the file
+    indent = "" if minor == _MINOR_OF_TRAFFIC else _INDENT
+    write_lines(element_lines(scenario.get_element(), indent=indent, end="/>"), path)
 
 
 def _add_parked(parked: Sequence[ParkedCar], entities: "xosc.Entities", init: "xosc.Init") -> None:

@@ -156,5 +156,4 @@ def _ring(ground: shapely.Polygon) -> NDArray[np.float64]:
 
 
 def _array(points: ArrayLike) -> NDArray[np.float64]:
-    found: NDArray[np.float64] = np.asarray(points, np.float64).reshape(-1, 2)
-    return found
+    return np.asarray(points, np.float64).reshape(-1, 2)

@@ -33,6 +33,7 @@ _CLASSES = {
     "van": "DELIVERY_VAN",
 }
 """OSI's classes of vehicles by segment; others are medium cars."""
+_TYPES = {AgentClass.PERSON: MovingObject.TYPE_PEDESTRIAN, AgentClass.TROLLEY: MovingObject.TYPE_OTHER}
 _BODIES = {body.name: body for body in CAR_BODIES}
 _VERSION = tuple(map(int, osi3.__version__.split(".")[:3]))
 
@@ -141,10 +142,9 @@ def _described(agent: Agent, number: int) -> MovingObject:
     reference.identifier.append(agent.name)
     if agent.behaviour:
         reference.identifier.append(agent.behaviour)
-    if agent.kind is AgentClass.PERSON:
-        moving.type = MovingObject.TYPE_PEDESTRIAN
+    moving.type = _TYPES.get(agent.kind, MovingObject.TYPE_VEHICLE)
+    if moving.type != MovingObject.TYPE_VEHICLE:
         return moving
-    moving.type = MovingObject.TYPE_VEHICLE
     body = _BODIES.get(agent.body)
     attributes, classification = moving.vehicle_attributes, moving.vehicle_classification
     wheel_m = body.wheel_radius_m if body else 0.0

@@ -282,7 +282,7 @@ def _to_neighbours(lanes: LaneGraph, number: int) -> Iterator[Opening]:
         axis = 0 if abs(outwards[0]) > abs(outwards[1]) else 1
         clear_m, clear_beyond_m = node.widths_m[axis] / 2, beyond.widths_m[axis] / 2
         setback_m = (apart_m - clear_m - clear_beyond_m) / 2
-        half_m = clear_m + setback_m
+        half_m, inset_m = clear_m + setback_m, min(_MOST_INSET_M, max(_LEAST_INSET_M, setback_m / 2))
         place = middle[0] + half_m * outwards[0], middle[1] + half_m * outwards[1]
         in_, out = lanes.arcs.get((other, number)), lanes.arcs.get((number, other))
         # inside, cars leave by an exit and come from an entrance
@@ -290,7 +290,7 @@ def _to_neighbours(lanes: LaneGraph, number: int) -> Iterator[Opening]:
         lets_out = out is not None and node.kind != LaneKind.EXIT and beyond.kind != LaneKind.ENTRANCE
         edge = in_ or out
         if edge is not None and (lets_in or lets_out):
-            yield Opening(other, place, outwards, edge.width_m, lets_in, lets_out, _inset_m(setback_m))
+            yield Opening(other, place, outwards, edge.width_m, lets_in, lets_out, inset_m)
 
 
 def _to_outside(node: LaneNode, mouth: Mouth) -> Opening:
@@ -298,10 +298,6 @@ def _to_outside(node: LaneNode, mouth: Mouth) -> Opening:
     place = middle[0] + mouth.edge_m * outwards[0], middle[1] + mouth.edge_m * outwards[1]
     is_entrance = node.kind == LaneKind.ENTRANCE
     return Opening(OUTSIDE, place, outwards, mouth.width_m, is_entrance, not is_entrance, _MOST_INSET_M)
-
-
-def _inset_m(setback_m: float) -> float:
-    return min(_MOST_INSET_M, max(_LEAST_INSET_M, setback_m / 2))
 
 
 def _cosine(one: Point, other: Point) -> float:

@@ -15,7 +15,8 @@ from garage2usd.maps.frame import map_points
 STEP_S = 0.1
 """Step of MetaDrive's scenarios."""
 _PROTOCOL = 4
-_TYPES = {AgentClass.PERSON: "PEDESTRIAN"}
+_TYPES = {AgentClass.PERSON: "PEDESTRIAN", AgentClass.TROLLEY: "OTHER"}
+"""Types of MetaDrive that are not vehicles."""
 
 
 def write_scenario_net(path: Path, tracks: Tracks, garage: BuiltGarage, *, step_s: float = STEP_S) -> None:
@@ -41,12 +42,16 @@ def scenario_of(tracks: Tracks, garage: BuiltGarage, *, step_s: float = STEP_S) 
     Notes
     -----
     All is in the common map frame (`garage2usd.maps.frame`), with heights as third coordinates. The dictionary holds
-    NumPy arrays and types of Python only. ``sdc_id`` names the vehicle that is in the garage longest.
+    NumPy arrays and types of Python only. ``sdc_id`` names the vehicle that is in the garage longest, of
+    those that are there at the beginning if there are any.
     """
     times = tracks.times(step_s)
     agents = {track.agent.name: _agent(track, times) for track in tracks}
-    vehicles = [track for track in tracks if track.agent.kind is not AgentClass.PERSON]
-    longest = max(vehicles, key=lambda track: float(track.time_s[-1] - track.time_s[0]), default=None)
+    vehicles = [track for track in tracks if track.agent.kind not in _TYPES]
+    # MetaDrive's own car begins where this one is at the first step
+    longest = max(
+        vehicles, key=lambda track: (track.time_s[0] == 0, float(track.time_s[-1] - track.time_s[0])), default=None
+    )
     stem = Path(tracks.source).stem or "garage"
     return {
         "id": f"{stem}-{tracks.facts.get('seed', 0)}",
@@ -94,6 +99,7 @@ def _agent(track: Track, times: np.ndarray[Any, np.dtype[np.float64]]) -> dict[s
         "track_length": len(times),
         "object_id": agent.name,
         "dataset": "garage2usd",
+        "class": str(agent.kind),
         "body": agent.body,
         "behaviour": agent.behaviour,
     }

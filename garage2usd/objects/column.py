@@ -221,8 +221,7 @@ def _along(start: NDArray[np.float64], to: NDArray[np.float64]) -> NDArray[np.fl
     """Return the leg of a rubber corner from a point towards another, less than half of the distance."""
     way = to - start
     far = float(np.linalg.norm(way))
-    leg: NDArray[np.float64] = way / far * min(_LEG_M, 0.4 * far)
-    return leg
+    return way / far * min(_LEG_M, 0.4 * far)
 
 
 def _prism(ring: Sequence[Point], low: float, high: float) -> list[Face]:

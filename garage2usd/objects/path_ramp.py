@@ -86,8 +86,7 @@ class PathRampSpec(CoilSpec, kind=RampSpec.kind):
 
     def _tops(self) -> Floats:
         """Height of the walls over the floor at each station: up to the ceiling there."""
-        found: Floats = np.where(self._runs > self.open_m, self.top_m, self.ceiling_m) - self._heights
-        return found
+        return np.where(self._runs > self.open_m, self.top_m, self.ceiling_m) - self._heights
 
     def _bottoms(self) -> Floats:
         """Height over the floor at which the outer faces of walls begin, on the lower floor."""

@@ -4,14 +4,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from garage2usd.assets.faces import limb_faces, loft_faces, moved, rectangle_ring
+from garage2usd.assets.faces import faces_of, limb_faces, loft_faces, moved
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
+from garage2usd.common.documents import shipped_toml
 from garage2usd.objects.bicycle import wheel_faces
 from garage2usd.objects.kind import Kind, Polygon, Spec, rectangle
 
 KIND = Kind("pram", number=43, label="pram", cityscapes="dynamic", group="Clutter")
 
 PRAM_COLOURS = ("navy", "grey", "black", "red")
+_PARTS = shipped_toml("garage2usd.objects", "pram")
 
 
 @dataclass(frozen=True)
@@ -33,14 +35,6 @@ class PramSpec(Spec, kind=KIND):
 
     def asset(self) -> Asset:
         """Make the meshes of a pram: carrycot with hood on a folding frame with four wheels and a handle."""
-        cot = loft_faces(
-            [
-                rectangle_ring(0.13, 0.32, y=0.52, z=0.08),
-                rectangle_ring(0.19, 0.40, y=0.58, z=0.08),
-                rectangle_ring(0.205, 0.43, y=0.76, z=0.08),
-            ]
-        )
-        cover = loft_faces([rectangle_ring(0.2, 0.25, y=0.762, z=0.245), rectangle_ring(0.16, 0.21, y=0.80, z=0.245)])
         angles = np.radians(np.linspace(0.0, 112.0, 7))
         # the hood consists of half rings that turn about the edge of the cot, and opens away from the handle
         hood = [
@@ -55,12 +49,7 @@ class PramSpec(Spec, kind=KIND):
             for at in angles
             for around in [np.linspace(0.02, np.pi - 0.02, 15)]
         ]
-        frame: list[Face] = []
-        for side in (-1.0, 1.0):
-            frame += _tube((side * 0.27, 0.17, 0.38), (side * 0.23, 0.52, 0.0), (side * 0.23, 1.02, -0.52))
-            frame += _tube((side * 0.27, 0.17, -0.36), (side * 0.23, 0.56, 0.10))
-        frame += _tube((-0.23, 0.4, 0.12), (0.23, 0.4, 0.12))
-        handle = limb_faces([(-0.24, 1.02, -0.52), (0.24, 1.02, -0.52)], [0.018] * 2, side=(0.0, 1.0, 0.0), segments=8)
+        cot, cover, frame, handle = (faces_of(_PARTS[name]) for name in ("Cot", "Cover", "Frame", "Handle"))
         tyres: list[Face] = []
         rims: list[Face] = []
         for x in (-0.29, 0.29):
@@ -76,7 +65,7 @@ class PramSpec(Spec, kind=KIND):
                 make_part("Cot", cot, f"cloth_{self.colour}", collider=Collider.CONVEX_HULL, crease_deg=50.0),
                 make_part("Hood", _shell(hood), f"cloth_{self.colour}", collider=Collider.CONVEX_HULL, crease_deg=50.0),
                 make_part("Cover", cover, "cloth_grey", crease_deg=50.0),
-                make_part("Frame", [*frame], "steel_dark", collider=Collider.CONVEX_HULL, crease_deg=60.0),
+                make_part("Frame", frame, "steel_dark", collider=Collider.CONVEX_HULL, crease_deg=60.0),
                 make_part("Handle", handle, "rubber_black", collider=Collider.CONVEX_HULL, crease_deg=60.0),
                 make_part("Tyres", tyres, "tyre", collider=Collider.CONVEX_HULL),
                 make_part("Rims", rims, "rim"),
@@ -86,10 +75,6 @@ class PramSpec(Spec, kind=KIND):
     def outlines(self) -> tuple[Polygon, ...]:
         """Return the outline of the pram's wheels and handle."""
         return (rectangle(-0.315, -0.545, 0.315, 0.54),)
-
-
-def _tube(*points: tuple[float, float, float]) -> list[Face]:
-    return limb_faces(points, [0.012] * len(points), side=(0.9, 0.2, 0.1), segments=8)
 
 
 def _shell(lines: list[Face]) -> list[Face]:

@@ -4,8 +4,10 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import shapely
+from pydantic import TypeAdapter
 
 from garage2usd.assets.countries import Country
+from garage2usd.common.documents import shipped_toml
 
 _GRID = 1e-3
 
@@ -60,68 +62,9 @@ class Signage:
         return {Way.IN: self.enter, Way.NOT_IN: self.no_entry, Way.OUT: self.exit, Way.NOT_OUT: self.no_exit}[way]
 
 
-SIGNAGE = {
-    Country.NONE: Signage(
-        "ENTER",
-        "NO ENTRY",
-        "EXIT",
-        "NO EXIT",
-        "EXIT",
-        has_runner=False,
-        is_red=False,
-        hydrant="HYDRANT",
-        fire_number="119",
-        level="LEVEL",
-    ),
-    Country.CN: Signage(
-        "入口",
-        "禁止驶入",
-        "出口",
-        "禁止驶出",
-        "出口",
-        has_runner=True,
-        is_red=False,
-        hydrant="消火栓",
-        fire_number="119",
-        level="层",
-    ),
-    Country.DE: Signage(
-        "EINFAHRT",
-        "KEINE EINFAHRT",
-        "AUSFAHRT",
-        "KEINE AUSFAHRT",
-        "",
-        has_runner=True,
-        is_red=False,
-        hydrant="WANDHYDRANT",
-        fire_number="112",
-        level="EBENE",
-    ),
-    Country.GB: Signage(
-        "WAY IN",
-        "NO ENTRY",
-        "WAY OUT",
-        "NO EXIT",
-        "WAY OUT",
-        has_runner=False,
-        is_red=False,
-        hydrant="FIRE HOSE",
-        fire_number="999",
-        level="LEVEL",
-    ),
-    Country.US: Signage(
-        "ENTER",
-        "DO NOT ENTER",
-        "EXIT",
-        "NO EXIT",
-        "EXIT",
-        has_runner=False,
-        is_red=True,
-        hydrant="FIRE HOSE",
-        fire_number="911",
-        level="LEVEL",
-    ),
-}
+SIGNAGE: dict[Country, Signage] = TypeAdapter(dict[Country, Signage]).validate_python(
+    shipped_toml("garage2usd.objects", "signage")
+)
 """Signage of each country.
 
 The pictogram is that of ISO 7010 (E001, E002) and GB 13495; red legends on white are usual for exit signs by NFPA 101.

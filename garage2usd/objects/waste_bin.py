@@ -2,14 +2,16 @@
 
 from dataclasses import dataclass
 
-from garage2usd.assets.faces import box_faces, lathe_faces, loft_faces, moved, rectangle_ring, tube_faces
+from garage2usd.assets.faces import box_faces, faces_of, lathe_faces, moved, tube_faces
 from garage2usd.assets.mesh import Asset, Collider, make_part
+from garage2usd.common.documents import shipped_toml
 from garage2usd.objects.kind import Kind, Polygon, Spec, rectangle
 
 KIND = Kind("waste_bin", number=37, label="waste_bin", cityscapes="dynamic", group="Clutter")
 
 BIN_COLOURS = ("grey", "green", "blue", "yellow")
 _WHEEL_M = 0.1
+_PARTS = shipped_toml("garage2usd.objects", "waste_bin")
 
 
 @dataclass(frozen=True)
@@ -31,22 +33,6 @@ class BinSpec(Spec, kind=KIND):
 
     def asset(self) -> Asset:
         """Make the meshes of a waste bin: a tapered body with a lid, a handle at its back, and two wheels."""
-        body = loft_faces(
-            [
-                rectangle_ring(0.215, 0.235, y=0.04, z=0.02),
-                rectangle_ring(0.225, 0.25, y=0.12, z=0.02),
-                rectangle_ring(0.275, 0.32, y=0.96, z=0.0),
-                rectangle_ring(0.29, 0.335, y=0.965, z=0.0),
-                rectangle_ring(0.29, 0.335, y=1.0, z=0.0),
-            ]
-        )
-        lid = loft_faces(
-            [
-                rectangle_ring(0.292, 0.34, y=1.0, z=0.003),
-                rectangle_ring(0.292, 0.34, y=1.02, z=0.003),
-                rectangle_ring(0.25, 0.28, y=1.065, z=0.0),
-            ]
-        )
         handle = tube_faces([(-0.2, 1.0, -0.36), (0.2, 1.0, -0.36)], 0.015, segments=8)
         for x in (-0.2, 0.2):
             handle += box_faces((x - 0.02, 0.975, -0.37), (x + 0.02, 1.015, -0.32))
@@ -62,8 +48,8 @@ class BinSpec(Spec, kind=KIND):
         ]
         return Asset(
             (
-                make_part("Body", body, "bin_grey", collider=Collider.CONVEX_HULL),
-                make_part("Lid", lid, f"bin_{self.colour}", collider=Collider.CONVEX_HULL),
+                make_part("Body", faces_of(_PARTS["Body"]), "bin_grey", collider=Collider.CONVEX_HULL),
+                make_part("Lid", faces_of(_PARTS["Lid"]), f"bin_{self.colour}", collider=Collider.CONVEX_HULL),
                 make_part("Handle", handle, "bin_grey"),
                 make_part("Wheels", wheels, "rubber_black", collider=Collider.CONVEX_HULL),
             )

@@ -180,6 +180,7 @@ def new_trial_move(ground: Ground) -> TrialMove:
     )
 
 
+@in_c
 def anneal_labels(
     ground: Ground,
     board: Board,
@@ -188,8 +189,8 @@ def anneal_labels(
     room: Workspace,
     random: UInt64s,
     trials: int,
-    heats: tuple[float, float],
-    prices: tuple[float, float, float, float],
+    heats: Float64s,
+    prices: Float64s,
     refresh: int,
 ) -> float:
     """Anneal the feasible lanes in `board.cells` under the rules by labelled moves; return the best value.
@@ -203,9 +204,9 @@ def anneal_labels(
     trials
         Moves to try, and some more where rules are still broken.
     heats
-        Temperature at first and at last, in stalls.
+        float64, shape (2,): temperature at first and at last, in stalls.
     prices
-        Prices of a fault at first and at last, then of a square of excess stretch, in stalls.
+        float64, shape (4,): prices of a fault at first and at last, then of a square of excess stretch, in stalls.
     refresh
         Trials between two measurements of the whole.
 
@@ -216,24 +217,4 @@ def anneal_labels(
     and R3 are judged around a move, R4 along the stretches that it touches. A promising move is measured whole before
     it is made, as it may redirect traffic far away: stalls, T_S and floor are exact.
     """
-    return _anneal_labels(
-        ground, board, move, sizes, room, random, trials, np.array(heats, np.float64), np.array(prices, np.float64),
-        refresh,
-    )  # fmt: skip
-
-
-@in_c
-def _anneal_labels(
-    ground: Ground,
-    board: Board,
-    move: TrialMove,
-    sizes: Sizes,
-    room: Workspace,
-    random: UInt64s,
-    trials: int,
-    heats: Float64s,
-    prices: Float64s,
-    refresh: int,
-) -> float:
-    """`anneal_labels`."""
     raise NotImplementedError

@@ -214,8 +214,7 @@ class Circulation:
 
     def deeper_than(self, squares: int) -> Mask:
         """Lanes that pruning removes after a number of rounds; bool, shape (rows, cols)."""
-        deep: Mask = self.rounds > squares
-        return deep
+        return self.rounds > squares
 
     def faults(self, rules: CirculationRules) -> dict[str, str]:
         """List the broken rules of ``R1`` to ``R4``, each with place and amount; empty without rules."""

@@ -85,16 +85,15 @@ def _learn_once(
     memory = new_memory(parameters, bits=max(_TABLE_BITS, (4 * steps).bit_length()))
     curve = np.zeros(plan.episodes)
     batch = max(1, _BATCH_SQUARES // len(ground.squares))
-    taken, episode = 0, 0
+    taken, episode = np.zeros(1, np.int64), 0
     while episode < plan.episodes:
         progress("plan", episode, plan.episodes)
         goal = min(episode + batch, plan.episodes)
         while episode < goal:
-            episode, more = learn(ground, board, parameters, memory, archive, room, random, curve, episode, goal)
-            taken += more
+            episode = learn(ground, board, parameters, memory, archive, room, random, curve, episode, goal, taken)
             if episode < goal:
                 memory = grown(memory)
-    return Learnt(ranked_lanes(archive, ground), curve, taken)
+    return Learnt(ranked_lanes(archive, ground), curve, int(taken[0]))
 
 
 def learn_aisles(

@@ -187,7 +187,7 @@ class LocalSearch:
             prices = _LABEL_PRICES[number % len(_LABEL_PRICES)]
             annealing = partial(
                 anneal_labels, self.ground, self.board, move, self.sizes, self.room, self.random,
-                trials, _LABEL_HEATS, prices, refresh,
+                trials, np.array(_LABEL_HEATS), np.array(prices), refresh,
             )  # fmt: skip
             ranked = self._improved(ranked, [starts[number % len(starts)]], annealing)
         return ranked

@@ -104,37 +104,8 @@ def observe(ground: Ground, board: Board, parameters: SarsaParameters, square: i
     raise NotImplementedError
 
 
-def learn(
-    ground: Ground,
-    board: Board,
-    parameters: SarsaParameters,
-    memory: Memory,
-    archive: Archive,
-    room: Room,
-    random: UInt64s,
-    curve: Float64s,
-    first: int,
-    last: int,
-) -> tuple[int, int]:
-    """Run the episodes from `first` to below `last`, or fewer when the table fills up.
-
-    Returns
-    -------
-    tuple[int, int]
-        The first episode that was not run, and how many actions were taken.
-
-    Notes
-    -----
-    ``q(S_t, A_t) += alpha (R_{t+1} + gamma q(S_{t+1}, A_{t+1}) - q(S_t, A_t))``. `curve` takes the paper's
-    ``E = sum_{t=1}^{T-1} R_t`` of each episode, without the R_T of a failure.
-    """
-    taken = np.zeros(1, np.int64)
-    episode = _learn(ground, board, parameters, memory, archive, room, random, curve, first, last, taken)
-    return episode, int(taken[0])
-
-
 @in_c
-def _learn(
+def learn(
     ground: Ground,
     board: Board,
     parameters: SarsaParameters,
@@ -147,5 +118,17 @@ def _learn(
     last: int,
     taken: Int64s,
 ) -> int:
-    """`learn`, where `taken` takes the number of actions."""
+    """Run the episodes from `first` to below `last`, or fewer when the table fills up.
+
+    Returns
+    -------
+    int
+        The first episode that was not run.
+
+    Notes
+    -----
+    ``q(S_t, A_t) += alpha (R_{t+1} + gamma q(S_{t+1}, A_{t+1}) - q(S_t, A_t))``. `curve` takes the paper's
+    ``E = sum_{t=1}^{T-1} R_t`` of each episode, without the R_T of a failure. The number of actions that were taken is
+    added to `taken`, shape (1,).
+    """
     raise NotImplementedError

@@ -1,13 +1,12 @@
 """A profile: the clauses of a standard, for the design and the checks of a garage."""
 
 import difflib
-import tomllib
 from collections.abc import Iterator
-from importlib import resources
 from typing import Any
 
 from pydantic import Field, field_validator, model_validator
 
+from garage2usd.common.documents import shipped_toml
 from garage2usd.common.settings import Settings
 from garage2usd.profiles.clauses import (
     Area,
@@ -33,7 +32,7 @@ _TRANSITION_SLOPE_PERCENT, _TRANSITION_LENGTH_M = 10.0, 3.6
 
 def shipped_settings(name: str) -> dict[str, Any]:
     """Return the contents of the file of a shipped profile."""
-    return tomllib.loads((resources.files("garage2usd.profiles") / f"{name}.toml").read_text(encoding="utf-8"))
+    return shipped_toml("garage2usd.profiles", name)
 
 
 def nearest_profile(given: str) -> str:

@@ -41,15 +41,13 @@ def levels_of(stage: Usd.Stage) -> list[LevelPlace]:
 def placed_level(stage: Usd.Stage, level: LevelPlace) -> NDArray[np.float64]:
     """Return the transform from a level as a garage of its own to the whole, in metres with Y up, for row vectors."""
     to_metres = _to_metres(stage, stage.GetPrimAtPath(level.path))
-    placed: NDArray[np.float64] = np.linalg.inv(_own_frame(stage, level, to_metres)) @ to_metres
-    return placed
+    return np.linalg.inv(_own_frame(stage, level, to_metres)) @ to_metres
 
 
 def _to_metres(stage: Usd.Stage, prim: Usd.Prim) -> NDArray[np.float64]:
     """Return the transform from a prim's coordinates to metres with Y up; of a level as if a bad one were none."""
     local = np.array(UsdGeom.XformCache(READ_AT).GetLocalToWorldTransform(prim))
-    to_metres: NDArray[np.float64] = (local if np.isfinite(local).all() else np.eye(4)) @ metres_y_up(stage)
-    return to_metres
+    return (local if np.isfinite(local).all() else np.eye(4)) @ metres_y_up(stage)
 
 
 def _own_frame(stage: Usd.Stage, level: LevelPlace, to_metres: NDArray[np.float64]) -> NDArray[np.float64]:

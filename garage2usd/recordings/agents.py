@@ -1,6 +1,5 @@
 """Agents of tracks around a recording: where each is at the times of the poses, its models and labels."""
 
-import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -9,18 +8,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.assets import Asset
-from garage2usd.assets.figures import Figure, figure_asset, skinned_figure
+from garage2usd.assets.figures import figure_asset
 from garage2usd.assets.gait import walked
 from garage2usd.assets.poses import Pose
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
-from garage2usd.driving.tracks import Agent, AgentClass, AgentState, Floats, Track, Tracks
+from garage2usd.driving.tracks import AgentClass, AgentState, Floats, Track, Tracks
 from garage2usd.objects.car import car_spec
-from garage2usd.objects.person import PEOPLE
+from garage2usd.objects.trolley import TrolleySpec
 from garage2usd.reading.labels import Labels
 from garage2usd.sensors.rig.poses import CAR_FROM_VEHICLE, Matrix, Twist, VehiclePose, car_to_y_up
+from garage2usd.stage.agent_models import CARS
 from garage2usd.stage.ego_car import AGENTS_PATH, RestingAgent
 from garage2usd.stage.prototypes import asset_of
+from garage2usd.stage.track_people import figure_of
 
 _BODIES = {body.name: body for body in CAR_BODIES}
 _HALF_S = 0.05
@@ -64,9 +65,9 @@ class Agents:
         self._part_ids: dict[tuple[int, int], int] = {}
         for number in self._kept:
             agent = self._others[number].agent
-            if agent.kind is not AgentClass.PERSON and agent.body not in _BODIES:
+            if agent.kind in CARS and agent.body not in _BODIES:
                 raise ConfigError(f"tracks.{agent.name}.body", agent.body, f"one of {', '.join(_BODIES)}")
-            if agent.kind is not AgentClass.PERSON and agent.paint not in PAINTS:
+            if agent.kind in CARS and agent.paint not in PAINTS:
                 raise ConfigError(f"tracks.{agent.name}.paint", agent.paint, f"one of {', '.join(PAINTS)}")
 
     @property
@@ -86,6 +87,9 @@ class Agents:
             self._part_ids[owner, pose] = ids[self._path(owner, pose)] = number
             parts[number], class_ids[number] = self._ids[owner], class_ids[self._ids[owner]]
         return replace(labels, ids=ids, class_ids=class_ids, parts=parts)
+
+    def _is_car(self, owner: int) -> bool:
+        return self._others[owner].agent.kind in CARS
 
     def _walks(self, owner: int) -> bool:
         return self._others[owner].agent.kind is AgentClass.PERSON
@@ -107,17 +111,20 @@ class Agents:
                 figures = zip(self._poses(owner), self._figures(owner), strict=True)
                 found += [RestingAgent(self._path(owner, pose), asset) for pose, asset in figures]
             else:
-                asset = asset_of(car_spec(_BODIES[agent.body], agent.paint))
+                is_car = agent.kind in CARS
+                asset = asset_of(car_spec(_BODIES[agent.body], agent.paint) if is_car else TrolleySpec())
                 found.append(RestingAgent(self._path(owner), asset, agent.paint))
         return found
 
     def _figures(self, owner: int) -> Iterator[Asset]:
         """Meshes of a person at each of its poses, who walks with feet that stay on the floor."""
-        track, figure = self._others[owner], _figure(self._others[owner].agent)
+        track = self._others[owner]
+        _, drawn, factor = figure_of(track.agent)
+        figure = drawn._replace(height_m=drawn.height_m * factor)
         own_s = self._times_s[self._there[owner]]
         times_s = np.union1d(track.time_s, own_s)
         states = track.at(times_s)
-        motion = walked(skinned_figure(figure).skeleton, times_s, states[:, [0, 2]], states[:, 3] + np.pi)
+        motion = walked(figure.skeleton, times_s, states[:, [0, 2]], states[:, 3] + np.pi)
         for row in np.searchsorted(times_s, own_s).tolist():
             yield figure_asset(figure, _Walking(joints=motion.turns[row]))
 
@@ -142,8 +149,8 @@ class Agents:
 
     def model_places(self, owner: int, times_s: Floats, to_stage: Matrix) -> Matrix:
         """Return the transforms of an agent's model from the origin at times, in the stage's axes."""
-        # figures look to +Z, agents to -Z
-        turn = _HALF_TURN if self._walks(owner) else np.eye(4)
+        # figures and trolleys look to +Z, agents to -Z
+        turn = np.eye(4) if self._is_car(owner) else _HALF_TURN
         placed: Matrix = to_stage @ self.places(owner, times_s) @ turn @ np.linalg.inv(to_stage)
         return placed
 
@@ -170,7 +177,7 @@ class Agents:
         """Return the names of those stalls, of corners (x, z), in which the middle of a car is at a pose."""
         import shapely  # noqa: PLC0415 - frames without slots do not need it
 
-        owners = [owner for owner, _ in self.shown(pose).values() if not self._walks(owner)]
+        owners = [owner for owner, _ in self.shown(pose).values() if self._is_car(owner)]
         middles = [self.places(owner, self._times_s[pose : pose + 1])[0, [0, 2], 3] for owner in owners]
         points = shapely.points(np.array(middles).reshape(-1, 2))
         return {name for name, corners in grounds.items() if shapely.intersects(shapely.Polygon(corners), points).any()}
@@ -180,7 +187,7 @@ class Agents:
         found = []
         for owner, _ in self.shown(pose).values():
             agent, place = self._others[owner].agent, self.places(owner, self._times_s[pose : pose + 1])[0]
-            if not self._walks(owner) and abs(place[1, 3] - floor_m) < _SAME_FLOOR_M:
+            if self._is_car(owner) and abs(place[1, 3] - floor_m) < _SAME_FLOOR_M:
                 half = np.array([agent.width_m, 0.0, agent.length_m]) / 2
                 corners = half * np.array([(-1, 0, -1), (1, 0, -1), (1, 0, 1), (-1, 0, 1)])
                 found.append(corners @ place[:3, :3].T + place[:3, 3])
@@ -220,12 +227,6 @@ class Agents:
             "speed_m_s": round(float(np.interp(time_s, track.time_s, track.speed_m_s)), _DIGITS) + 0.0,
             "state": AgentState(row).name.lower(),
         }
-
-
-def _figure(agent: Agent) -> Figure:
-    """Return the figure of a person: by the number of its body, or else drawn by its name, in its own height."""
-    number = int(agent.body) if agent.body.isdecimal() else zlib.crc32(agent.name.encode())
-    return PEOPLE[number % len(PEOPLE)]._replace(height_m=agent.height_m)
 
 
 def ego_poses(track: Track, times_s: Floats, to_stage: Matrix) -> list[VehiclePose]:

@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -49,7 +49,7 @@ class Scene:
         if way.agents is not None:
             self.labels = way.agents.labelled(self.labels, self._ego_id + 1)
         self._left_out = [labels.ids[name] for name in labels.with_plates(way.left_out) if name in labels.ids]
-        self.shots = list(self._shots())
+        self.shots = [(camera, number, pose) for number, pose in enumerate(way.poses) for camera in rig.cameras]
         views = [self._view(camera, number, pose) for camera, number, pose in self.shots]
         left_out = [*self._left_out, self._ego_id]
         self.birds_eye = (
@@ -169,11 +169,6 @@ class Scene:
                 for view, (camera, number, pose) in zip(self.views, self.shots, strict=False)
             ),
         )
-
-    def _shots(self) -> Iterator[tuple[Camera, int, VehiclePose]]:
-        for number, pose in enumerate(self._way.poses):
-            for camera in self._rig.cameras:
-                yield camera, number, pose
 
     def _view(self, camera: Camera, number: int, pose: VehiclePose) -> View:
         lens = camera.lens

@@ -11,7 +11,7 @@ import numpy as np
 from pxr import Usd
 
 from garage2usd.common.progress import Progress
-from garage2usd.driving.tracks import AgentState, Floats
+from garage2usd.driving.tracks import AgentClass, AgentState, Floats
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import Labels
 from garage2usd.recordings.scene import POINTS_FOLDER
@@ -240,7 +240,7 @@ class _Moving:
                     size_m,
                     points @ moved[:3, :3].T + moved[:3, 3],
                     0.0,
-                    ATTRIBUTES[state],
+                    ATTRIBUTES[state] if track.agent.kind is not AgentClass.TROLLEY else "",
                     to_stage[:3, :3] @ agents.velocity_m_s(owner, time_s),
                 )
             )

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from garage2usd.common.errors import ConfigError
-from garage2usd.driving.tracks import AgentClass, AgentState, Floats, Track, Tracks
+from garage2usd.driving.tracks import AgentState, Floats, Track, Tracks
+from garage2usd.stage.agent_models import CARS
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +47,7 @@ def pose_times(
     times: Floats = np.round(np.arange(np.ceil(begins_s / every_s - 1e-9), ends_s / every_s + 1e-9) * every_s, 6)
     track = None
     if ego:
-        cars = {each.agent.name: each for each in tracks if each.agent.kind is not AgentClass.PERSON}
+        cars = {each.agent.name: each for each in tracks if each.agent.kind in CARS}
         track = cars.get(ego)
         if track is None:
             raise ConfigError("ego", ego, f"avp, or a car of the tracks: {_some([*cars])}")

@@ -236,8 +236,7 @@ class Way:
 
     def car_moved(self, pose: VehiclePose) -> Matrix:
         """Return the ego car's transform from its place in `garage2usd.stage.ego_car` to a pose, in stage axes."""
-        matrix: Matrix = pose.vehicle_to_world @ self._from_rest
-        return matrix
+        return pose.vehicle_to_world @ self._from_rest
 
     @cached_property
     def _from_rest(self) -> Matrix:
@@ -251,8 +250,7 @@ class Way:
         level = self.garage.levels[self.stall.level]
         column = column_to_y_up(level, self.stall)
         column[1, 3] += level.place.floor_m
-        matrix: Matrix = self.to_stage @ column
-        return matrix
+        return self.to_stage @ column
 
     @cached_property
     def left_out(self) -> list[str]:

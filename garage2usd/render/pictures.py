@@ -108,8 +108,7 @@ def read_light(drawn: Path) -> NDArray[np.float32]:
 
     with OpenEXR.File(str(drawn), separate_channels=True) as file:
         channels = {name.rpartition(".")[2]: np.array(channel.pixels) for name, channel in file.channels().items()}
-    light: NDArray[np.float32] = np.stack([channels[name] for name in "RGB"], axis=-1)
-    return light
+    return np.stack([channels[name] for name in "RGB"], axis=-1)
 
 
 def read_surfaces(

@@ -105,6 +105,8 @@ class GltfMeshes:
         colours = attributes.get(look.colour_name)
         if colours is not None and self._counts_alpha(mesh) and (colours[:, 3:] < 1).any():
             self._remarks.add("opacities by point are not used", mesh.name)
+        if colours is not None:
+            colours = np.clip(np.nan_to_num(colours[vertices][:, :3] * look.colour_rgb), 0, 1).astype(np.float32)
         placed = Triangles(
             positions.astype(np.float32),
             normals.astype(np.float32),
@@ -112,7 +114,7 @@ class GltfMeshes:
             corners.astype(np.uint32),
             np.arange(len(corners), dtype=np.int32),
             double_sided,
-            None if colours is None else _clamped(colours[vertices][:, :3] * look.colour_rgb),
+            colours,
             has_normals,
         ).moved(np.eye(4))  # with normals of unit length
         if key is not None:
@@ -281,11 +283,6 @@ def _place(node: Mapping[str, Any]) -> Matrix:
     matrix[:3, :3] = np.array(node.get("scale", (1, 1, 1)), dtype=np.float64)[:, None] * turn
     matrix[3, :3] = node.get("translation", (0, 0, 0))
     return matrix
-
-
-def _clamped(values: NDArray[np.floating[Any]]) -> NDArray[np.float32]:
-    """Return values clamped between 0 and 1; 0 for NaN."""
-    return np.clip(np.nan_to_num(values), 0, 1).astype(np.float32)
 
 
 def _posed(vectors: NDArray[np.float64], joints: NDArray[np.float64], shift: float) -> NDArray[np.float64]:

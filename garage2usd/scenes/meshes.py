@@ -3,7 +3,7 @@
 import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -130,13 +130,14 @@ def triangles_of(
         return None
     if mesh.GetOrientationAttr().Get(READ_AT) == UsdGeom.Tokens.leftHanded:
         fans = fans[:, [0, 2, 1]]
-    normals, has_normals = _normals(mesh, points, corners, fans, face_of)
-    coordinates = [_coordinates(prim, own, len(points), corners, fans, face_of) for own in sets]
+    drawn = _Corners(len(points), len(corners), fans, corners[fans], face_of)
+    normals, has_normals = _normals(mesh, points, drawn)
+    coordinates = [_coordinates(prim, own, drawn) for own in sets]
     return _welded(
-        points[corners[fans]].reshape(-1, 3),
+        points[drawn.points].reshape(-1, 3),
         normals.reshape(-1, 3),
         np.stack(coordinates, axis=2).reshape(-1, len(sets), 2),
-        _colours(prim, colour_name, len(points), corners, fans, face_of) if colour_name else None,
+        _colours(prim, colour_name, drawn) if colour_name else None,
         face_of,
         double_sided=bool(mesh.GetDoubleSidedAttr().Get(READ_AT)),
         has_normals=has_normals,
@@ -147,6 +148,16 @@ def cross(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.fl
     """Compute cross products of vectors whose first axis is (x, y, z), without the checks of `numpy.cross`."""
     (x, y, z), (other_x, other_y, other_z) = one, other
     return np.stack([y * other_z - z * other_y, z * other_x - x * other_z, x * other_y - y * other_x])
+
+
+class _Corners(NamedTuple):
+    """Corners of the triangles of a mesh with some vertices and given corners: which of both each is, and its face."""
+
+    vertices: int
+    given: int
+    fans: NDArray[np.int64]
+    points: NDArray[np.int64]
+    face_of: NDArray[np.int32]
 
 
 def _of_solid(prim: Usd.Prim, sets: Sequence[Coordinates]) -> Triangles | None:
@@ -160,106 +171,67 @@ def _of_solid(prim: Usd.Prim, sets: Sequence[Coordinates]) -> Triangles | None:
     return _welded(positions, normals, coordinates, None, face_of, double_sided=double_sided)
 
 
-def _normals(
-    mesh: UsdGeom.Mesh,
-    points: NDArray[np.float32],
-    corners: NDArray[np.int64],
-    fans: NDArray[np.int64],
-    face_of: NDArray[np.int32],
-) -> tuple[NDArray[np.float32], bool]:
+def _normals(mesh: UsdGeom.Mesh, points: NDArray[np.float32], corners: _Corners) -> tuple[NDArray[np.float32], bool]:
     """Return the normal of each corner of each triangle, shape (triangles, 3, 3), and True if the mesh gives them."""
     primvar = UsdGeom.PrimvarsAPI(mesh).GetPrimvar("normals")
     if primvar.HasAuthoredValue():
         values, interpolation = primvar.ComputeFlattened(READ_AT), primvar.GetInterpolation()
     else:
         values, interpolation = mesh.GetNormalsAttr().Get(READ_AT), mesh.GetNormalsInterpolation()
-    authored = _at_corners(values, interpolation, 3, len(points), corners, fans, face_of)
+    authored = _at_corners(values, interpolation, 3, corners)
     if authored is not None:
         return _unit(authored), True
-    places = points[corners[fans]].astype(np.float64)
+    places = points[corners.points].astype(np.float64)
     areas = cross((places[:, 1] - places[:, 0]).T, (places[:, 2] - places[:, 0]).T).T
     if mesh.GetSubdivisionSchemeAttr().Get(READ_AT) != UsdGeom.Tokens.none:
         sums = np.zeros((len(points), 3))
-        np.add.at(sums, corners[fans].ravel(), np.repeat(areas, 3, axis=0))
-        return _unit(sums)[corners[fans]], False
+        np.add.at(sums, corners.points.ravel(), np.repeat(areas, 3, axis=0))
+        return _unit(sums)[corners.points], False
     return np.repeat(_unit(areas)[:, None], 3, axis=1), False
 
 
-def _coordinates(
-    prim: Usd.Prim,
-    wanted: Coordinates,
-    points: int,
-    corners: NDArray[np.int64],
-    fans: NDArray[np.int64],
-    face_of: NDArray[np.int32],
-) -> NDArray[np.float32]:
+def _coordinates(prim: Usd.Prim, wanted: Coordinates, corners: _Corners) -> NDArray[np.float32]:
     """Return texture coordinates of triangle corners, shape (triangles, 3, 2); the fallback without a primvar."""
-    found = _primvar(prim, wanted.name, 2, points, corners, fans, face_of) if wanted.name else None
-    return np.broadcast_to(np.array(wanted.fallback, np.float32), (len(fans), 3, 2)) if found is None else found
+    found = _primvar(prim, wanted.name, 2, corners) if wanted.name else None
+    return np.broadcast_to(np.array(wanted.fallback, np.float32), (len(corners.fans), 3, 2)) if found is None else found
 
 
-def _colours(
-    prim: Usd.Prim,
-    name: str,
-    points: int,
-    corners: NDArray[np.int64],
-    fans: NDArray[np.int64],
-    face_of: NDArray[np.int32],
-) -> NDArray[np.float32] | None:
+def _colours(prim: Usd.Prim, name: str, corners: _Corners) -> NDArray[np.float32] | None:
     """Return the colour of each triangle corner in order; None if the prim has none."""
-    found = _primvar(prim, name, 3, points, corners, fans, face_of)
+    found = _primvar(prim, name, 3, corners)
     return None if found is None else np.clip(np.nan_to_num(found), 0, 1).reshape(-1, 3)
 
 
-def _primvar(
-    prim: Usd.Prim,
-    name: str,
-    width: int,
-    points: int,
-    corners: NDArray[np.int64],
-    fans: NDArray[np.int64],
-    face_of: NDArray[np.int32],
-) -> NDArray[np.float32] | None:
+def _primvar(prim: Usd.Prim, name: str, width: int, corners: _Corners) -> NDArray[np.float32] | None:
     """Return the vectors of a primvar at each triangle corner; None without the primvar."""
     primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(name)
     values = primvar.ComputeFlattened(READ_AT) if primvar and primvar.HasValue() else None
     if values is None or f"GfVec{width}" not in primvar.GetTypeName().type.typeName:
         return None
-    return _at_corners(values, primvar.GetInterpolation(), width, points, corners, fans, face_of)
+    return _at_corners(values, primvar.GetInterpolation(), width, corners)
 
 
-def _at_corners(
-    values: object,
-    interpolation: str,
-    width: int,
-    points: int,
-    corners: NDArray[np.int64],
-    fans: NDArray[np.int64],
-    face_of: NDArray[np.int32] | None,
-) -> NDArray[np.float32] | None:
+def _at_corners(values: object, interpolation: str, width: int, corners: _Corners) -> NDArray[np.float32] | None:
     """Return the values of a primvar at each triangle corner; None if their type or number does not fit."""
     try:
         found = np.asarray(values, dtype=np.float32).reshape(-1, width)
     except (TypeError, ValueError):  # also without values
         return None
     tokens = UsdGeom.Tokens
-    if interpolation == tokens.faceVarying and len(found) == len(corners):
-        return np.asarray(found[fans])
-    if interpolation in {tokens.vertex, tokens.varying} and len(found) == points:
-        return np.asarray(found[corners[fans]])
-    if interpolation == tokens.uniform and face_of is not None and len(found) > face_of.max():
-        return np.repeat(found[face_of][:, None], 3, axis=1)
+    if interpolation == tokens.faceVarying and len(found) == corners.given:
+        return np.asarray(found[corners.fans])
+    if interpolation in {tokens.vertex, tokens.varying} and len(found) == corners.vertices:
+        return np.asarray(found[corners.points])
+    if interpolation == tokens.uniform and len(found) > corners.face_of.max():
+        return np.repeat(found[corners.face_of][:, None], 3, axis=1)
     if interpolation == tokens.constant and len(found) == 1:
-        return np.broadcast_to(found[0], (len(fans), 3, width)).astype(np.float32)
+        return np.broadcast_to(found[0], (len(corners.fans), 3, width)).astype(np.float32)
     return None
 
 
 def _unit(vectors: NDArray[Any]) -> NDArray[np.float32]:
     lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    unit: NDArray[np.float32] = np.where(
-        lengths > _SMALLEST_M2, vectors / np.maximum(lengths, _SMALLEST_M2), [0, 1, 0]
-    ).astype(np.float32)
-    return unit
+    return np.where(lengths > _SMALLEST_M2, vectors / np.maximum(lengths, _SMALLEST_M2), [0, 1, 0]).astype(np.float32)
 
 
 def _welded(

@@ -13,7 +13,8 @@ def pose_skins(stage: Usd.Stage) -> None:
     """
     stage.SetEditTarget(stage.GetSessionLayer())
     cache = UsdSkel.Cache()
-    for root in [prim for prim in _prims(stage) if prim.IsA(UsdSkel.Root)]:
+    prims = list(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()))
+    for root in [prim for prim in prims if prim.IsA(UsdSkel.Root)]:
         for prim in root.GetPath().GetPrefixes():
             if stage.GetPrimAtPath(prim).IsInstance():
                 stage.GetPrimAtPath(prim).SetInstanceable(False)
@@ -61,7 +62,3 @@ def _pose(target: UsdSkel.SkinningQuery, skeleton: Usd.Prim, joints: Vt.Matrix4d
     primvar = UsdGeom.PrimvarsAPI(prim).GetPrimvar("normals")
     if primvar:
         primvar.GetAttr().Block()
-
-
-def _prims(stage: Usd.Stage) -> list[Usd.Prim]:
-    return list(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()))

@@ -262,8 +262,7 @@ def _toned(linear: Floats, effects: CameraEffects) -> Floats:
         value = np.where(value > _KNEE, _KNEE + (1 - _KNEE) * np.log1p(bend * share) / np.log1p(bend), value)
     if effects.tone == "linear":
         return value
-    curved: Floats = np.where(value <= _STRAIGHT, 12.92 * value, 1.055 * np.maximum(value, 1e-9) ** (1 / 2.4) - 0.055)
-    return curved
+    return np.where(value <= _STRAIGHT, 12.92 * value, 1.055 * np.maximum(value, 1e-9) ** (1 / 2.4) - 0.055)
 
 
 def _compressed(pixels: NDArray[np.uint8], quality: int) -> NDArray[np.uint8]:

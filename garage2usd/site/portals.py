@@ -74,7 +74,8 @@ def check_ramps(cells: CellArray, site: SiteConfig, squares: int) -> None:
             if (site.entrance_cells if is_entrance else site.exit_cells) is None:
                 continue
         ray = list(_ray(cells, portal, squares))
-        inside = [square for square in ray if _is_on(cells, square) and not outside[square]]
+        rows, cols = cells.shape
+        inside = [(row, col) for row, col in ray if 0 <= row < rows and 0 <= col < cols and not outside[row, col]]
         if inside or taken & set(ray):
             where = f"{squares} squares of the outside before each door for its ramp, or fittings.ramps = false"
             raise ConfigError(field, list(portal), where)
@@ -85,10 +86,6 @@ def _ray(cells: CellArray, portal: Square, squares: int) -> Iterator[Square]:
     """Yield the squares before a portal's door that its ramp covers."""
     dr, dc = NEIGHBOUR_STEPS[door_edges(cells)[portal]]
     return ((portal[0] + ahead * dr, portal[1] + ahead * dc) for ahead in range(1, squares + 1))
-
-
-def _is_on(cells: CellArray, square: Square) -> bool:
-    return 0 <= square[0] < cells.shape[0] and 0 <= square[1] < cells.shape[1]
 
 
 def straight_frontier(inside: Mask) -> Mask:
@@ -128,8 +125,7 @@ def straight_frontier(inside: Mask) -> Mask:
     straight = np.zeros_like(inside)
     for side in sides:
         straight |= np.logical_and.reduce([rho[step] for step in side])
-    frontier: Mask = inside & three_outside & straight
-    return frontier
+    return inside & three_outside & straight
 
 
 def outer_squares(cells: CellArray) -> Mask:
@@ -137,8 +133,7 @@ def outer_squares(cells: CellArray) -> Mask:
     outside = outside_squares(cells)
     beside = edge_neighbour_count(outside) > 0
     beside[[0, -1]] = beside[:, [0, -1]] = True
-    outer: Mask = beside & ~outside
-    return outer
+    return beside & ~outside
 
 
 def free_squares_connected(cells: CellArray) -> bool:

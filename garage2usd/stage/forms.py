@@ -1,7 +1,8 @@
 """Forms of a stage's files: a flat layer without references, and a USDZ package aligned to 64 bytes."""
 
+import shutil
 import zipfile
-from collections.abc import Iterable
+from collections.abc import Mapping
 from pathlib import Path
 
 from pxr import Sdf, Usd, UsdUtils
@@ -58,26 +59,33 @@ def _prims(parent: Sdf.PrimSpec) -> list[Sdf.PrimSpec]:
     return found
 
 
-def write_usdz(path: Path, files: Iterable[tuple[str, bytes]]) -> None:
-    """Write a stage as a USDZ package, whose first file is the root layer.
+def pack(path: Path, layer_path: Path, folder: Path, more: Mapping[Path, bytes] | None = None) -> None:
+    """Move a root layer and the folder beside it into a USDZ package.
 
     Parameters
     ----------
     path
         The package.
-    files
-        (name in the package, contents) pairs in order.
+    layer_path, folder
+        The root layer, which comes first, and the folder.
+    more
+        Contents of further files in the folder, by their path in it.
 
     Notes
     -----
     ``Sdf.ZipFileWriter`` is not used, because it stores the local time of each file, which makes packages
     irreproducible. ``zipfile`` allows a fixed time; the required padding goes into the extra field, as there.
     """
+    inner = {file.relative_to(folder): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+    inner |= more or {}
+    named = [(f"{folder.name}/{name.as_posix()}", inner[name]) for name in sorted(inner)]
     with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as package:
-        for name, data in files:
+        for name, data in [(layer_path.name, layer_path.read_bytes()), *named]:
             entry = zipfile.ZipInfo(name, _EPOCH)
             entry.create_system = 0
             start = package.start_dir + _LOCAL_HEADER_BYTES + len(name.encode()) + _EXTRA_HEADER_BYTES
             padding = -start % _ALIGNMENT_BYTES
             entry.extra = _EXTRA_ID.to_bytes(2, "little") + padding.to_bytes(2, "little") + bytes(padding)
             package.writestr(entry, data)
+    shutil.rmtree(folder)
+    layer_path.unlink()

@@ -3,7 +3,6 @@
 import os
 import posixpath
 import re
-import shutil
 from collections.abc import Iterable, Mapping, Sequence
 from enum import StrEnum
 from pathlib import Path
@@ -20,7 +19,7 @@ from garage2usd.objects import Spec
 from garage2usd.stage.arrangement import Arrangement, arrange
 from garage2usd.stage.asset_files import OWN_ASSETS, AssetFile, asset_file, own_shapes, write_own_assets
 from garage2usd.stage.cameras import DRIVE_NAME, write_drive
-from garage2usd.stage.forms import make_flat, write_usdz
+from garage2usd.stage.forms import make_flat, pack
 from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.looks import TEXTURE_FOLDER, NamedFile, textures_of
 from garage2usd.stage.prototypes import asset_of, name_prototypes
@@ -180,15 +179,9 @@ def write_level_stage(
         make_flat(layer_path, folder)
     if not packed:
         return StageFiles(path, folder if folder.exists() else None, last_frame)
-    inner = {file.relative_to(folder): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
-    if is_compact:
-        inner |= {Path(name): data for name, data in contents.items()}
-    else:
+    if not is_compact:
         _remove_indents(layer_path)
-    named = [(f"{folder.name}/{name.as_posix()}", inner[name]) for name in sorted(inner)]
-    write_usdz(path, [(layer_path.name, layer_path.read_bytes()), *named])
-    shutil.rmtree(folder)
-    layer_path.unlink()
+    pack(path, layer_path, folder, {Path(name): data for name, data in contents.items()} if is_compact else {})
     return StageFiles(path, None, last_frame)
 
 

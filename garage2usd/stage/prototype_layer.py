@@ -166,7 +166,8 @@ def define_prototype(
     for part in asset.parts:
         define_mesh(
             layer,
-            _place(root.path, part),
+            # below its labelled piece, else below the prim with the asset's label
+            root.path.AppendChild(piece_name(part.piece) if part.piece else "Geom").AppendChild(part.name),
             part,
             looks,
             finish=of[part.material].material,
@@ -190,11 +191,6 @@ def _masses_kg(asset: Asset, mass_kg: float) -> dict[str, float]:
         if part.collider is not None
     }
     return {name: round(mass_kg * volume / sum(volumes.values()), 3) for name, volume in volumes.items()}
-
-
-def _place(root: Sdf.Path, part: Part) -> Sdf.Path:
-    """Path of a part's mesh: below its labelled piece, else below the prim with the asset's label."""
-    return root.AppendChild(piece_name(part.piece) if part.piece else "Geom").AppendChild(part.name)
 
 
 def _look(looks: Sdf.Path, key: str) -> Sdf.Path:

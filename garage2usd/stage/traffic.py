@@ -2,41 +2,29 @@
 
 import math
 import re
-import zlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Kind, Sdf, UsdGeom
 
-from garage2usd.assets import Asset
-from garage2usd.common.errors import ConfigError
-from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody
+from garage2usd.config.vehicles import CarBody
 from garage2usd.driving.tracks import Agent, AgentClass, AgentState, Track, Tracks, knots
-from garage2usd.objects.car import car_spec
-from garage2usd.objects.person import PEOPLE, PersonSpec
+from garage2usd.stage.agent_models import CARS, AgentModels, prim_name
 from garage2usd.stage.authoring import attribute, define, new_layer, operation, order_operations
 from garage2usd.stage.cameras import FRAMES_PER_SECOND, set_frames
-from garage2usd.stage.moving_car import define_car, define_looks, define_parts, write_textures
-from garage2usd.stage.prototypes import asset_of
+from garage2usd.stage.moving_car import write_textures
+from garage2usd.stage.track_people import figure_of, gait_of
+from garage2usd.stage.walkers import HIPS_MOVE, animate_figure
 
 TRAFFIC_NAME, MODELS_NAME = "Traffic", "Models"
 """Names of the scope of agents below ``/Garage``, and of that of their models below it, which is abstract."""
 _TYPES = Sdf.ValueTypeNames
 _NEAR_M, _NEAR_DEG, _ROLL_DEG = 5e-4, 0.02, 1.0
 """Deviations from the tracks that save samples: of places, of headings and pitches, and of wheels."""
-_NOT_OF_PRIMS = re.compile(r"[^A-Za-z0-9_]")
 _CAR_OF_STAGE = re.compile(r"Car_(\d+)")
 _Floats = NDArray[np.float64]
-
-
-class _Model(NamedTuple):
-    """A model that agents refer to, and its assets."""
-
-    path: Sdf.Path
-    assets: tuple[Asset, ...]
 
 
 def write_traffic_layer(path: Path, tracks: Tracks, cars: Mapping[str, CarBody] | None = None) -> tuple[Path, ...]:
@@ -68,9 +56,7 @@ def write_traffic_layer(path: Path, tracks: Tracks, cars: Mapping[str, CarBody] 
     that moves is deactivated in the stage, with its number plates, and stands as an agent at its first place from the
     beginning on. The origin of a car is the centre of its rear axle on the floor; its wheels roll and steer.
     """
-    known = {body.name: body for body in CAR_BODIES} | dict(cars or {})
     last = math.ceil(tracks.duration_s * FRAMES_PER_SECOND - 1e-6)
-    models: dict[tuple[str, ...], _Model] = {}
     with new_layer(path, default_prim="Garage") as layer:
         set_frames(layer, last)
         garage = Sdf.CreatePrimInLayer(layer, "/Garage")
@@ -78,26 +64,29 @@ def write_traffic_layer(path: Path, tracks: Tracks, cars: Mapping[str, CarBody] 
         traffic = define(layer, garage.path.AppendChild(TRAFFIC_NAME), "Scope").path
         shared = define(layer, traffic.AppendChild(MODELS_NAME), "Scope")
         shared.specifier = Sdf.SpecifierClass
+        models = AgentModels(layer, shared.path, cars)
         for track, name in zip(tracks, _prim_names(track.agent.name for track in tracks), strict=True):
             agent = define(
                 layer, traffic.AppendChild(name), "Xform", kind=Kind.Tokens.component, label=track.agent.kind.value
             )
             _describe(agent, track.agent)
             if track.agent.kind is AgentClass.PERSON:
-                _author_person(layer, agent, track, models, shared.path)
+                _author_person(layer, agent, track, models)
+            elif track.agent.kind in CARS:
+                _author_car(layer, agent, track, models)
             else:
-                _author_car(layer, agent, track, models, shared.path, known)
+                _refer(agent, models.of(track.agent))
+                _author_pose(layer, agent, track, np.stack([track.x_m, track.y_m, track.z_m], axis=1))
             _author_presence(layer, agent, track, last)
             _hide(layer, track.agent.prim)
-    return write_textures(path.parent, *(asset for model in models.values() for asset in model.assets))
+    return write_textures(path.parent, *models.assets)
 
 
 def _prim_names(names: Iterator[str]) -> Iterator[str]:
     """Names of prims for names of agents, each once."""
     used = {MODELS_NAME}
     for name in names:
-        fit = _NOT_OF_PRIMS.sub("_", name)
-        own = fit if fit[:1].isalpha() else f"Agent_{fit}"
+        own = prim_name(name)
         while own in used:
             own += "_"
         used.add(own)
@@ -154,101 +143,43 @@ def _sampled(
         layer.SetTimeSample(spec.path, float(frames[number]), rows[number])
 
 
-def _author_pose(layer: Sdf.Layer, prim: Sdf.PrimSpec, frames: _Floats, track: Track, places: _Floats) -> None:
+def _author_pose(layer: Sdf.Layer, prim: Sdf.PrimSpec, track: Track, places: _Floats) -> None:
+    frames = _frames(track)
     _sampled(layer, prim, "translate", frames, places, _NEAR_M)
     _sampled(layer, prim, "rotateY", frames, np.degrees(track.yaw_rad), _NEAR_DEG)
     _sampled(layer, prim, "rotateX", frames, np.degrees(track.pitch_rad), _NEAR_DEG)
     order_operations(prim, ["translate", "rotateY", "rotateX"])
 
 
-def _author_car(
-    layer: Sdf.Layer,
-    prim: Sdf.PrimSpec,
-    track: Track,
-    models: dict[tuple[str, ...], _Model],
-    shared: Sdf.Path,
-    known: Mapping[str, CarBody],
-) -> None:
-    agent, frames = track.agent, _frames(track)
-    body = known.get(agent.body)
-    if body is None:
-        raise ConfigError(f"tracks.{agent.name}.body", agent.body, f"one of {', '.join(known)}")
-    if agent.paint not in PAINTS and body in CAR_BODIES:
-        raise ConfigError(f"tracks.{agent.name}.paint", agent.paint, f"one of {', '.join(PAINTS)}")
-    key = body.name, agent.paint
-    if key not in models:
-        asset = asset_of(car_spec(body, agent.paint))
-        place = shared.AppendChild(next(_prim_names(iter(["_".join(("Car", *filter(None, key)))]))))
-        define(layer, place, "Xform")
-        define_car(layer, place, body, asset, paint=agent.paint, turned=_unturned)
-        models[key] = _Model(place, (asset,))
-    _refer(prim, models[key].path)
-    back_m = body.rear_axle_m
-    along = np.cos(track.pitch_rad)
-    places = np.stack(
-        [
-            track.x_m + back_m * along * np.sin(track.yaw_rad),
-            track.y_m - back_m * np.sin(track.pitch_rad),
-            track.z_m + back_m * along * np.cos(track.yaw_rad),
-        ],
-        axis=1,
-    )
-    _author_pose(layer, prim, frames, track, places)
-    ahead = np.stack([-np.sin(track.yaw_rad), -np.cos(track.yaw_rad)], axis=1)
-    steps = np.diff(places, axis=0)
-    # signed by the heading, halfway between two samples
-    signs = np.sign((steps[:, [0, 2]] * (ahead[1:] + ahead[:-1])).sum(axis=1))
-    rolled_m = np.concatenate([[0.0], np.cumsum(signs * np.linalg.norm(steps, axis=1))])
-    rolled_deg = -np.degrees(rolled_m / body.wheel_radius_m)
+def _author_car(layer: Sdf.Layer, prim: Sdf.PrimSpec, track: Track, models: AgentModels) -> None:
+    body, model, frames = models.body_of(track.agent), models.of(track.agent), _frames(track)
+    _refer(prim, model)
+    _author_pose(layer, prim, track, track.axle_m(body.rear_axle_m))
+    rolled_deg = -np.degrees(track.rolled_m(body.rear_axle_m) / body.wheel_radius_m)
     for name in ("FrontLeftWheel", "FrontRightWheel", "RearLeftWheel", "RearRightWheel"):
-        if layer.GetPrimAtPath(models[key].path.AppendChild(name)):
+        if layer.GetPrimAtPath(model.AppendChild(name)):
             wheel = Sdf.CreatePrimInLayer(layer, prim.path.AppendChild(name))
             if name.startswith("Front"):
                 _sampled(layer, wheel, "rotateY", frames, np.degrees(track.steering_rad), _ROLL_DEG)
             _sampled(layer, wheel, "rotateX", frames, rolled_deg, _ROLL_DEG)
 
 
-def _unturned(wheel: Sdf.PrimSpec, is_front: bool) -> Sequence[str]:  # noqa: FBT001 - a callback of two
-    names = ["rotateY", "rotateX"] if is_front else ["rotateX"]
-    for name in names:
-        operation(wheel, name, _TYPES.Float, 0.0)
-    return names
-
-
-def _author_person(
-    layer: Sdf.Layer, prim: Sdf.PrimSpec, track: Track, models: dict[tuple[str, ...], _Model], shared: Sdf.Path
-) -> None:
-    """Author a figure that walks and one that stands, of which one is visible at a time."""
-    frames = _frames(track)
-    _author_pose(layer, prim, frames, track, np.stack([track.x_m, track.y_m, track.z_m], axis=1))
-    walks = track.state == AgentState.WALKS
-    changes = np.flatnonzero(np.diff(walks.astype(np.int8), prepend=-1)).tolist()
-    for pose, is_walking in (("walking", True), ("standing", False)):
-        if (walks == is_walking).any():
-            child = define(layer, prim.path.AppendChild(pose.capitalize()), "Xform")
-            _refer(child, _person_model(layer, track.agent, pose, models, shared))
-            shown = {float(frames[at]): _shown(bool(walks[at] == is_walking)) for at in changes}
-            _switched(layer, child, "visibility", shown)
-
-
-def _person_model(
-    layer: Sdf.Layer, agent: Agent, pose: str, models: dict[tuple[str, ...], _Model], shared: Sdf.Path
-) -> Sdf.Path:
-    """Define the model of a person in a pose, once; its body is a number in `PEOPLE`, or else drawn by its name."""
-    number = int(agent.body) if agent.body.isdecimal() else zlib.crc32(agent.name.encode())
-    number %= len(PEOPLE)
-    key = str(number), pose
-    if key not in models:
-        asset = asset_of(PersonSpec(number, pose))
-        root = define(layer, shared.AppendChild(f"Person_{number}_{pose}"), "Xform")
-        looks = define_looks(layer, root.path, asset)
-        # figures look to +Z, agents to -Z
-        body = define(layer, root.path.AppendChild("Body"), "Xform")
-        operation(body, "rotateY", _TYPES.Float, 180.0)
-        order_operations(body, ["rotateY"])
-        define_parts(layer, body.path, asset.parts, asset, looks)
-        models[key] = _Model(root.path, (asset,))
-    return models[key].path
+def _author_person(layer: Sdf.Layer, prim: Sdf.PrimSpec, track: Track, models: AgentModels) -> None:
+    """Author a figure that walks and stands along the track."""
+    _, figure, factor = figure_of(track.agent)
+    gait = gait_of(track)
+    places = np.stack([track.x_m, track.y_m, track.z_m], axis=1)
+    _sampled(layer, prim, "translate", _frames(track), places, _NEAR_M)
+    _sampled(layer, prim, "rotateY", gait.frames, np.degrees(gait.yaw_rad), _NEAR_DEG)
+    order_operations(prim, ["translate", "rotateY"])
+    root = define(layer, prim.path.AppendChild("Figure"), "SkelRoot")
+    _refer(root, models.of(track.agent))
+    # figures look to +Z, agents to -Z
+    operation(root, "rotateY", _TYPES.Float, 180.0)
+    operation(root, "scale", _TYPES.Float3, Gf.Vec3f(factor))
+    order_operations(root, ["rotateY", "scale", HIPS_MOVE])
+    motion = gait.motion._replace(hips_m=gait.motion.hips_m / factor)
+    animate_figure(layer, root, figure.skeleton, gait.frames[gait.poses].tolist(), motion)
 
 
 def _refer(prim: Sdf.PrimSpec, model: Sdf.Path) -> None:

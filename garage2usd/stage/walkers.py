@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from pxr import Gf, Kind, Sdf, Vt
 
 from garage2usd.assets import MATERIALS, NON_VISUAL, pascal_case
-from garage2usd.assets.figures import Figure, SkinnedFigure, skinned_figure
+from garage2usd.assets.figures import Figure, skinned_figure
 from garage2usd.assets.gait import Motion
-from garage2usd.assets.skeletons import PARENTS, joint_paths, strongest
+from garage2usd.assets.skeletons import PARENTS, Skeleton, joint_paths, strongest
 from garage2usd.config.outputs import TextureQuality
 from garage2usd.objects.person import KIND
 from garage2usd.stage.authoring import (
@@ -28,8 +28,8 @@ from garage2usd.stage.cameras import set_frames
 from garage2usd.stage.looks import define_material, named_textures
 from garage2usd.stage.prototype_layer import define_mesh
 
-GROUP = "Walkers"
-"""Name of the group of walkers below ``/Garage``."""
+GROUP, HIPS_MOVE = "Walkers", "translate:hips"
+"""Names of the group of walkers below ``/Garage``, and of the operation that moves the hips of a figure."""
 _TYPES = Sdf.ValueTypeNames
 _STRONGEST = 4
 
@@ -70,25 +70,30 @@ def write_walkers(path: Path, walkers: Iterable[Walker]) -> None:
         garage.specifier = Sdf.SpecifierOver
         define(layer, garage.path.AppendChild(GROUP), "Scope")
         for walker in people:
-            define_walker(layer, garage.path.AppendChild(GROUP).AppendChild(walker.name), walker)
+            root = define_figure(layer, garage.path.AppendChild(GROUP).AppendChild(walker.name), walker.figure)
+            place = operation(root, "translate", _TYPES.Double3, Gf.Vec3d(*walker.places_m[0]))
+            turn = operation(root, "rotateY", _TYPES.Double, float(np.degrees(walker.yaws_rad[0])))
+            order_operations(root, ["translate", "rotateY", HIPS_MOVE])
+            yaws = np.degrees(np.unwrap(walker.yaws_rad))
+            for frame in range(len(yaws)):
+                layer.SetTimeSample(place.path, frame, Gf.Vec3d(*np.round(walker.places_m[frame], 5).tolist()))
+                layer.SetTimeSample(turn.path, frame, round(float(yaws[frame]), 4))
+            animate_figure(layer, root, walker.figure.skeleton, range(len(yaws)), walker.motion)
 
 
-def define_walker(layer: Sdf.Layer, path: Sdf.Path, walker: Walker) -> None:
-    """Define a person as a SkelRoot with its skeleton, animation, meshes and materials."""
-    skin = skinned_figure(walker.figure)
+def define_figure(layer: Sdf.Layer, path: Sdf.Path, figure: Figure) -> Sdf.PrimSpec:
+    """Define a person at rest as a SkelRoot that faces +Z, with skeleton, meshes and materials; return the root."""
+    skin, rest = skinned_figure(figure), figure.skeleton.rest_m
     root = define(layer, path, "SkelRoot", kind=Kind.Tokens.component, label=KIND.label)
-    tall = walker.figure.height_m
-    extent = Vt.Vec3fArray([Gf.Vec3f(-tall / 2, -0.05, -tall / 2), Gf.Vec3f(tall / 2, tall * 1.05, tall / 2)])
+    tall = figure.height_m
+    extent = Vt.Vec3fArray([Gf.Vec3f(-tall / 2, -0.05, -tall / 2), Gf.Vec3f(tall / 2, tall * 1.1, tall / 2)])
     attribute(root, "extent", _TYPES.Float3Array, extent)
-    frames = range(len(walker.yaws_rad))
-    place = operation(root, "translate", _TYPES.Double3, Gf.Vec3d(*walker.places_m[0]))
-    turn = operation(root, "rotateY", _TYPES.Double, float(np.degrees(walker.yaws_rad[0])))
-    order_operations(root, ["translate", "rotateY"])
-    yaws = np.degrees(np.unwrap(walker.yaws_rad))
-    for frame in frames:
-        layer.SetTimeSample(place.path, frame, Gf.Vec3d(*np.round(walker.places_m[frame], 5).tolist()))
-        layer.SetTimeSample(turn.path, frame, round(float(yaws[frame]), 4))
-    skeleton = _define_skeleton(layer, path, skin, walker.motion)
+    skeleton = define(layer, path.AppendChild("Skeleton"), "Skeleton")
+    for name, places in (("bindTransforms", rest), ("restTransforms", _bones(rest))):
+        matrices = [Gf.Matrix4d(1.0).SetTranslate(Gf.Vec3d(*row)) for row in np.round(places, 6).tolist()]
+        attribute(skeleton, name, _TYPES.Matrix4dArray, Vt.Matrix4dArray(matrices), uniform=True)
+    attribute(skeleton, "joints", _TYPES.TokenArray, Vt.TokenArray(joint_paths()), uniform=True)
+    apply_schemas(skeleton, "SkelBindingAPI")
     looks = define(layer, path.AppendChild("Looks"), "Scope").path
     for key in sorted({part.material for part in skin.parts}):
         material = named_textures(MATERIALS[key], TextureQuality.HIGH)
@@ -97,32 +102,38 @@ def define_walker(layer: Sdf.Layer, path: Sdf.Path, walker: Walker) -> None:
     for part, weights in zip(skin.parts, skin.weights, strict=True):
         mesh = path.AppendChild("Geom").AppendChild(part.name)
         define_mesh(layer, mesh, replace(part, collider=None), looks)
-        _bind(layer.GetPrimAtPath(mesh), weights, skeleton)
+        _bind(layer.GetPrimAtPath(mesh), weights, skeleton.path)
+    return root
 
 
-def _define_skeleton(layer: Sdf.Layer, path: Sdf.Path, skin: SkinnedFigure, motion: Motion) -> Sdf.Path:
-    """Define skeleton and animation; return the path of the skeleton."""
-    skeleton, names = define(layer, path.AppendChild("Skeleton"), "Skeleton"), joint_paths()
-    rest = skin.skeleton.rest_m
-    bones = rest - np.array([rest[parent] if parent >= 0 else np.zeros(3) for parent in PARENTS])
-    for name, places in (("bindTransforms", rest), ("restTransforms", bones)):
-        matrices = [Gf.Matrix4d(1.0).SetTranslate(Gf.Vec3d(*row)) for row in np.round(places, 6).tolist()]
-        attribute(skeleton, name, _TYPES.Matrix4dArray, Vt.Matrix4dArray(matrices), uniform=True)
-    animation = define(layer, path.AppendChild("Animation"), "SkelAnimation")
-    for prim in (skeleton, animation):
-        joints = Vt.TokenArray(names)
-        attribute(prim, "joints", _TYPES.TokenArray, joints, uniform=True)
-    apply_schemas(skeleton, "SkelBindingAPI")
-    relationship(skeleton, "skel:animationSource", [animation.path])
+def animate_figure(
+    layer: Sdf.Layer, root: Sdf.PrimSpec, skeleton: Skeleton, frames: Iterable[float], motion: Motion
+) -> None:
+    """Author the poses of a person at frames below a SkelRoot of `define_figure`, or one that refers to it.
+
+    The operation `HIPS_MOVE` of the root moves the hips, so that the joints only turn: translations of all joints would
+    take as much again as their rotations.
+    """
+    names, bones = joint_paths(), _bones(skeleton.rest_m)
+    animation = define(layer, root.path.AppendChild("Animation"), "SkelAnimation")
+    attribute(animation, "joints", _TYPES.TokenArray, Vt.TokenArray(names), uniform=True)
     attribute(animation, "scales", _TYPES.Half3Array, Vt.Vec3hArray([Gf.Vec3h(1.0, 1.0, 1.0)] * len(names)))
-    moves = attribute(animation, "translations", _TYPES.Float3Array)
+    bound = Vt.Vec3fArray.FromNumpy(bones.round(6).astype(np.float32))
+    attribute(animation, "translations", _TYPES.Float3Array, bound)
     turns = attribute(animation, "rotations", _TYPES.QuatfArray)
-    for frame, (rotations, hips) in enumerate(zip(motion.rotations, motion.hips_m, strict=True)):
-        translations = np.vstack([hips, bones[1:]]).round(6).astype(np.float32)
-        layer.SetTimeSample(moves.path, frame, Vt.Vec3fArray.FromNumpy(translations))
-        quaternions = [Gf.Quatf(w, x, y, z) for x, y, z, w in rotations.round(6).tolist()]
-        layer.SetTimeSample(turns.path, frame, Vt.QuatfArray(quaternions))
-    return skeleton.path
+    moves = operation(root, HIPS_MOVE, _TYPES.Float3, Gf.Vec3f(0.0))
+    by = (motion.hips_m - bones[0]).round(5).tolist()
+    for frame, rotations, move in zip(frames, motion.rotations.round(6).astype(np.float32), by, strict=True):
+        layer.SetTimeSample(moves.path, frame, Gf.Vec3f(*move))
+        layer.SetTimeSample(turns.path, frame, Vt.QuatfArray.FromNumpy(rotations))
+    bound_skeleton = Sdf.CreatePrimInLayer(layer, root.path.AppendChild("Skeleton"))
+    relationship(bound_skeleton, "skel:animationSource", [animation.path])
+
+
+def _bones(rest_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Places of joints at rest from their parents."""
+    bones: NDArray[np.float64] = rest_m - np.array([rest_m[up] if up >= 0 else np.zeros(3) for up in PARENTS])
+    return bones
 
 
 def _bind(mesh: Sdf.PrimSpec, weights: NDArray[np.float64], skeleton: Sdf.Path) -> None:

@@ -1,7 +1,6 @@
 """The stage of a garage: that of its only level, or those of its levels at their floors under ``/Garage/Levels``."""
 
 import posixpath
-import shutil
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -16,7 +15,7 @@ from garage2usd.objects.kind import VariantSet
 from garage2usd.reading.label_table import LabelledObject, LabelTable
 from garage2usd.stage.authoring import anchored
 from garage2usd.stage.curves import LANE_GRAPH_FILE, STALL_OUTLINES, Drivable, write_lane_graph
-from garage2usd.stage.forms import make_flat, write_usdz
+from garage2usd.stage.forms import make_flat, pack
 from garage2usd.stage.labels import label_table
 from garage2usd.stage.level_stage import StageFiles, StageFormat, arrangement_of, asset_folder_name, write_level_stage
 from garage2usd.stage.variants import BLOCKED_BY, OCCUPIED, SWITCHES
@@ -155,11 +154,7 @@ def _write_levels(
         return StageFiles(path, None, last_frame)
     if not packed:
         return StageFiles(path, folder if any(folder.iterdir()) else None, last_frame)
-    files = sorted(file for file in folder.rglob("*") if file.is_file())
-    named = [(f"{folder.name}/{file.relative_to(folder).as_posix()}", file.read_bytes()) for file in files]
-    write_usdz(path, [(layer_path.name, layer_path.read_bytes()), *named])
-    shutil.rmtree(folder)
-    layer_path.unlink()
+    pack(path, layer_path, folder)
     return StageFiles(path, None, last_frame)
 
 

@@ -21,11 +21,7 @@ def cropped_cells(cells: CellArray) -> CellArray:
     CellArray
         A view of `cells`, shape (rows, cols) of the cropped matrix; shape (0, 0) where every square is -1.
     """
-    is_inside = cells != Cell.OBSTACLE
-    rows, cols = (np.flatnonzero(is_inside.any(axis=axis)) for axis in (1, 0))
-    if not rows.size:
-        return cells[:0, :0]
-    return cells[rows[0] : rows[-1] + 1, cols[0] : cols[-1] + 1]
+    return cells[_frame(cells)]
 
 
 def eight_symmetries(cells: CellArray) -> tuple[CellArray, ...]:
@@ -75,10 +71,7 @@ def plan_digest(cells: CellArray) -> str:
     -----
     Plans of equal digest are the same arrangement of squares up to rotation, reflection and the sizes of the squares.
     """
-    canonical = canonical_cells(cells)
-    digest = hashlib.sha256(np.array(canonical.shape, dtype="<i8").tobytes())
-    digest.update(canonical.tobytes())
-    return digest.hexdigest()
+    return _digest(canonical_cells(cells))
 
 
 def levels_digest(levels: Sequence[CellArray]) -> str:
@@ -96,11 +89,18 @@ def levels_digest(levels: Sequence[CellArray]) -> str:
     if len(levels) == 1:
         return plan_digest(levels[0])
     # crop all levels alike, to the squares that are inside on any level
-    inside = np.max(np.stack(levels), axis=0)
-    rows, cols = (np.flatnonzero((inside != Cell.OBSTACLE).any(axis=axis)) for axis in (1, 0))
-    framed = [level[rows[0] : rows[-1] + 1, cols[0] : cols[-1] + 1] for level in levels] if rows.size else list(levels)
-    images = (np.stack(image) for image in zip(*map(eight_symmetries, framed), strict=True))
-    canonical = min(images, key=_order)
+    frame = _frame(np.max(np.stack(levels), axis=0))
+    images = (np.stack(image) for image in zip(*(eight_symmetries(level[frame]) for level in levels), strict=True))
+    return _digest(min(images, key=_order))
+
+
+def _frame(cells: CellArray) -> tuple[slice, slice]:
+    """Return the rows and columns that bound all squares inside the contour."""
+    rows, cols = (np.flatnonzero((cells != Cell.OBSTACLE).any(axis=axis)) for axis in (1, 0))
+    return (slice(rows[0], rows[-1] + 1), slice(cols[0], cols[-1] + 1)) if rows.size else (slice(0), slice(0))
+
+
+def _digest(canonical: CellArray) -> str:
     digest = hashlib.sha256(np.array(canonical.shape, dtype="<i8").tobytes())
     digest.update(canonical.tobytes())
     return digest.hexdigest()

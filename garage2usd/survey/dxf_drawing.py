@@ -137,7 +137,8 @@ def read_drawing(path: Path) -> Drawing:
         hidden = {layer.dxf.name.casefold() for layer in document.layers if layer.is_off() or layer.is_frozen()}
         _Reader(drawing, hidden).add(document.modelspace(), None)
     except _FAULTS as error:
-        raise ConfigError("SOURCE", str(path), f"a DXF drawing ({_told(error)})") from None
+        told = (getattr(error, "strerror", None) or str(error) or type(error).__name__).splitlines()[0][:120]
+        raise ConfigError("SOURCE", str(path), f"a DXF drawing ({told})") from None
     return drawing
 
 
@@ -146,10 +147,6 @@ def _document(path: Path) -> Any:  # noqa: ANN401 - ezdxf's Drawing, of which on
         return readfile(path)
     except _FAULTS:
         return recover.readfile(path)[0]
-
-
-def _told(error: Exception) -> str:
-    return (getattr(error, "strerror", None) or str(error) or type(error).__name__).splitlines()[0][:120]
 
 
 class _FullError(ValueError):

@@ -275,7 +275,7 @@ def _add(parts: SurveyParts, shape: _Shape, points: Sequence[Point]) -> None:
     properties = shape.properties
     if shape.kind == "stall":
         said = [str(properties[key]) for key in ("use", "parking_space", "access") if key in properties]
-        if _is_true(properties.get("disabled")) or str(properties.get("disabled", "")) == "designated":
+        if str(properties.get("disabled")).lower() in _TRUE or str(properties.get("disabled", "")) == "designated":
             said.append("disabled")
         number = next((properties[key] for key in ("number", "ref") if properties.get(key) is not None), "")
         size = size_of(str(properties[key]) for key in ("size", "parking_space") if key in properties)
@@ -323,7 +323,3 @@ def _mouth(parts: SurveyParts, shape: _Shape, points: Sequence[Point]) -> Point 
         return None
     (x, z), (next_x, next_z) = ring[given], ring[(given + 1) % len(ring)]
     return (x + next_x) / 2, (z + next_z) / 2
-
-
-def _is_true(value: object) -> bool:
-    return str(value).lower() in _TRUE

@@ -187,8 +187,7 @@ def _section_ends(sections: Sequence[_Section], line: RoadLine) -> list[float]:
 def _samples(start_m: float, end_m: float, line: RoadLine) -> Floats:
     count = min(math.ceil((end_m - start_m) / _STEP_M) + 1, _MOST_STEPS)
     inner = [joint for joint in line.joints_m if start_m < joint < end_m]
-    samples: Floats = np.union1d(np.linspace(start_m, end_m, max(count, 2)), inner)
-    return samples
+    return np.union1d(np.linspace(start_m, end_m, max(count, 2)), inner)
 
 
 def _borders(section: _Section, s_m: Floats) -> tuple[Floats, Floats, Floats]:

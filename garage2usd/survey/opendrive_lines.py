@@ -103,8 +103,7 @@ class Cubics(NamedTuple):
         piece = np.searchsorted(self.starts_m, s_m + _SAME_M, side="right") - 1
         a, b, c, d = self.coefficients[np.clip(piece, 0, None)].T
         run = s_m - self.starts_m[np.clip(piece, 0, None)]
-        values: Floats = np.where(piece < 0, 0.0, a + run * (b + run * (c + run * d)))
-        return values
+        return np.where(piece < 0, 0.0, a + run * (b + run * (c + run * d)))
 
 
 def cubics_of(elements: Sequence[ET.Element], start: str, place: str) -> Cubics:

@@ -190,7 +190,8 @@ def _add_object(parts: SurveyParts, element: ET.Element, line: RoadLine, road: s
     title = f"{road}, object {number}" if name.lower() in _STALL_NAMES else name
     access = "" if space is None else space.get("access", "")
     poses = list(_poses(element, line, place))
-    for pose, name in zip(poses, _names(title, len(poses)), strict=True):
+    for turn, pose in enumerate(poses, 1):
+        name = title if len(poses) == 1 else f"{title}, repetition {turn}"
         corners, mouth = _outline(element, line, pose, place)
         if not -_BEYOND_M <= pose.s_m <= line.length_m + _BEYOND_M:
             reason = f"s = {pose.s_m:g} is beyond the ends of its road of {line.length_m:g} m"
@@ -228,10 +229,6 @@ def _add_parking_lanes(parts: SurveyParts, road: ET.Element, line: RoadLine, nam
         for stall in range(count):
             corners = np.array([inner[stall], inner[stall + 1], outer[stall + 1], outer[stall]])
             parts.add_stall(f"{title}, stall {stall + 1}", _ground(corners), mouth_at=_middle(corners, 0))
-
-
-def _names(title: str, count: int) -> list[str]:
-    return [title] if count == 1 else [f"{title}, repetition {number + 1}" for number in range(count)]
 
 
 def _poses(element: ET.Element, line: RoadLine, place: str) -> Iterator[_Pose]:
@@ -315,8 +312,7 @@ def _turned(element: ET.Element, line: RoadLine, pose: _Pose, local: Floats, pla
     heading += pose.turned_rad
     cos, sin = math.cos(heading), math.sin(heading)
     u, v = local.T
-    points: Floats = np.stack([origin[0] + u * cos - v * sin, origin[1] + u * sin + v * cos], axis=1)
-    return points
+    return np.stack([origin[0] + u * cos - v * sin, origin[1] + u * sin + v * cos], axis=1)
 
 
 def _unmarked(element: ET.Element, ids: list[str]) -> int | None:

@@ -149,7 +149,7 @@ def _add_spaces(parts: SurveyParts, level: OsmLevel) -> None:
             parts.unread.append(Unplaced(name, f"a parking space of {len(way.nodes)} points instead of 2 apart"))
             continue
         around = known.query(shapely.LineString(line).interpolate(0.5, normalized=True), predicate="within")
-        if not len(around) or not _lies_in(line, known.geometries[int(around[0])]):
+        if not len(around) or not known.geometries[int(around[0])].buffer(_SPACE_M).contains(shapely.LineString(line)):
             spaces[number] = ParkingSpace(name, *line)
     found = list(spaces.values())
     middles = shapely.STRtree([shapely.LineString(space[1:]).centroid for space in found])
@@ -162,10 +162,6 @@ def _add_spaces(parts: SurveyParts, level: OsmLevel) -> None:
             parts.unread.append(Unplaced(space.name, f"a parking space without a width; {width_m:g} m are taken"))
         if width_m is not None:
             parts.add_stall(space.name, space.ring(width_m), use=_use(way.tags), number=way.tags.get("ref", ""))
-
-
-def _lies_in(line: Sequence[Point], stall: shapely.Polygon) -> bool:
-    return bool(stall.buffer(_SPACE_M).contains(shapely.LineString(line)))
 
 
 def _mouth(osm: OsmElements, name: str, tags: Mapping[str, str], ring: tuple[int, ...]) -> Point | None:

@@ -3,7 +3,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -128,7 +128,10 @@ class SurveyParts:
         if reason:
             self.unread.append(Unplaced(name, reason))
             return
-        ends = [((1 - share) * np.array([a, d]) + share * np.array([b, c])).tolist() for share in _shares(count)]
+        ends = [
+            ((1 - number / count) * np.array([a, d]) + number / count * np.array([b, c])).tolist()
+            for number in range(count + 1)
+        ]
         for number, ((start, rear), (end, next_rear)) in enumerate(pairwise(ends), 1):
             self.add_stall(f"{name}, stall {number}", [start, end, next_rear, rear], use=use, size=size)
 
@@ -254,11 +257,6 @@ def _single(columns: Iterable[SurveyedColumn]) -> list[SurveyedColumn]:
         if place not in largest or column.size_m > largest[place].size_m:
             largest[place] = column
     return list(largest.values())
-
-
-def _shares(count: int) -> Iterator[float]:
-    """Yield the ends of equal shares of 1."""
-    return (number / count for number in range(count + 1))
 
 
 def corners_of(ring: Iterable[Sequence[float]]) -> tuple[Point, ...]:

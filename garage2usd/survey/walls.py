@@ -1,7 +1,7 @@
 """The ground within walls: the inner faces of those around the stalls, with doors closed, and what stands on it."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import shapely
 
@@ -56,7 +56,8 @@ def solids_within(
 ) -> list[shapely.Polygon]:
     """Return the walls, and rooms within walls, that stand on a ground clear of its boundary and of stalls."""
     bodies = shapely.get_parts(shapely.union_all([_bodies(wall) for wall in walls]))
-    faces = shapely.polygonize([shapely.union_all(shapely.boundary(list(walls)) if _areas(walls) else list(walls))])
+    are_areas = any(wall.geom_type.endswith("Polygon") for wall in walls)
+    faces = shapely.polygonize([shapely.union_all(shapely.boundary(list(walls)) if are_areas else list(walls))])
     thin = [face for face in shapely.get_parts(faces) if 2 * face.area < _THIN_M * face.length]
     around = shapely.union_all(list(stalls)) if len(stalls) else shapely.Polygon()
     merged = shapely.get_parts(shapely.union_all([*bodies, *thin]))
@@ -102,10 +103,6 @@ def add_doors(parts: SurveyParts, doors: Sequence[tuple[Point, PortalKind]]) -> 
 def ring_of(ground: shapely.Polygon) -> list[Point]:
     """Return the corners (x, z) of a polygon, without the first one again at the end."""
     return [(float(x), float(z)) for x, z in shapely.get_coordinates(ground.exterior)[:-1]]
-
-
-def _areas(shapes: Iterable[shapely.Geometry]) -> bool:
-    return any(shape.geom_type.endswith("Polygon") for shape in shapes)
 
 
 def _bodies(shape: shapely.Geometry) -> shapely.Geometry:

@@ -32,7 +32,9 @@ class Demand:
     arrivals: tuple[tuple[float, float], ...]
 
 
-def drawn_demand(settings: TrafficConfig, parked: int, capacity: int, draw: np.random.Generator) -> Demand:
+def drawn_demand(
+    settings: TrafficConfig, parked: int, capacity: int, draw: np.random.Generator, *, staying: int = 0
+) -> Demand:
     """Draw the demand of a run.
 
     Parameters
@@ -45,6 +47,8 @@ def drawn_demand(settings: TrafficConfig, parked: int, capacity: int, draw: np.r
         Number of stalls.
     draw
         Random generator.
+    staying
+        Number of cars parked at the start that never leave.
 
     Notes
     -----
@@ -53,7 +57,7 @@ def drawn_demand(settings: TrafficConfig, parked: int, capacity: int, draw: np.r
     log-normal stay is a log-normal one whose median is larger by exp(spread^2).
     """
     end_s, spread = settings.minutes * 60, settings.stay_spread
-    mean_s = 60 * settings.mean_stay_minutes(capacity)
+    mean_s = 60 * settings.mean_stay_minutes(parked, capacity)
     mu = math.log(mean_s) - spread**2 / 2
     rests = np.exp(draw.normal(mu + spread**2, spread, parked)) * draw.uniform(size=parked)
     leave = [float(rest) if rest < end_s else math.inf for rest in rests]
@@ -65,7 +69,7 @@ def drawn_demand(settings: TrafficConfig, parked: int, capacity: int, draw: np.r
         while leaving and leaving[0] < stop:
             heappop(leaving)
             present -= 1
-        wanted = settings.occupancy(settings.hour + stop / 3600) * capacity
+        wanted = settings.occupancy(settings.hour + stop / 3600) * capacity - staying
         rate = present / mean_s + (wanted - present) / _LEAD_S
         if settings.arrivals_per_hour is not None:
             rate = settings.arrivals_per_hour / 3600

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from garage2usd.driving.tracks import AgentClass, AgentState, Floats, Track, Tracks
 
+_CARS = {AgentClass.CAR, AgentClass.VAN, AgentClass.TRUCK}
 _STEP_S = 0.2
 _NEAR_M, _REACH_M, _SAME_FLOOR_M = 2.0, 25.0, 1.5
 _MOVES_M_S, _STILL_M_S = 0.2, 1e-6
@@ -51,7 +52,7 @@ def encounters(tracks: Tracks) -> Encounters:
     going = [_going(track, times_s) for track in tracks]
     count, least_s = 0, np.inf
     for first, second in combinations(going, 2):
-        if first.track.agent.kind is AgentClass.PERSON and second.track.agent.kind is AgentClass.PERSON:
+        if not {first.track.agent.kind, second.track.agent.kind} & _CARS:
             continue
         rows = _near(first, second)
         if len(rows):
@@ -133,7 +134,7 @@ def times_to_collision(reach: Floats, away: Floats, closing: Floats) -> Floats:
 
 def _waits_s(track: Track) -> Iterator[float]:
     """Yield the durations of the waits of a car."""
-    is_waiting = (track.state == AgentState.WAITS) & (track.agent.kind is not AgentClass.PERSON)
+    is_waiting = (track.state == AgentState.WAITS) & (track.agent.kind in _CARS)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], is_waiting, [False]]).astype(np.int8)))
     for first, past in edges.reshape(-1, 2).tolist():
         lasted = float(track.time_s[min(past, len(track) - 1)] - track.time_s[first])

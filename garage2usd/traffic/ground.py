@@ -4,13 +4,13 @@ Two agents never hold the same cell, and an agent is always within its own, so t
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import binary_dilation
 
-from garage2usd.native import elementary
+from garage2usd.native import Float64Table, Int64s, Int64Table, elementary, in_c
 
 Cells = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -19,6 +19,33 @@ MARGIN_M = 0.06
 """Margin around each car within its cells: two cars are at least twice as far apart."""
 _BEYOND_M = 40.0
 """Reach of the ground beyond lanes and stalls: ramps to the street."""
+_USUAL_CELLS = 700
+
+
+class _Slices(NamedTuple):
+    """Poses (x, z, sine and cosine of the yaw) and their layers, and the number of poses of a slice of a path."""
+
+    poses: Float64Table
+    layers: Int64Table
+    step: int
+
+
+class _Layers(NamedTuple):
+    """Least column and row, columns, rows and first cell of each layer, and the size of a cell."""
+
+    of: Int64Table
+    cell_m: float
+
+
+class _Row(NamedTuple):
+    numbers: Int64s
+
+
+@in_c
+def _write_cells(
+    slices: _Slices, layers: _Layers, ahead: float, behind: float, half: float, ends: _Row, cells: _Row
+) -> int:
+    raise NotImplementedError
 
 
 class Raster:
@@ -41,9 +68,10 @@ class Raster:
         self._columns, self._rows = size[:, 0], size[:, 1]
         self._first = np.concatenate([[0], np.cumsum(size[:, 0] * size[:, 1])])
         self.size = int(self._first[-1])
+        self._layers = np.ascontiguousarray(np.column_stack([self._low, size, self._first[:-1]]))
 
-    def rectangles(self, poses: Floats, body: Floats, layers: Sequence[int]) -> list[Cells]:
-        """Return the cells that hold a car's outline with a margin at each pose.
+    def slices(self, poses: Floats, body: Floats, layers: Sequence[Sequence[int]], step: int) -> list[Cells]:
+        """Return the cells that hold a car's outline with a margin along each slice of a path, ascending.
 
         Parameters
         ----------
@@ -52,36 +80,32 @@ class Raster:
         body
             Distance from the rear axle to nose and tail, and half the width; shape (3,).
         layers
-            Layer of each pose; shape (n,).
+            One or two layers of each pose.
+        step
+            Number of poses of a slice; its last one is also the first one of the next slice.
         """
-        ahead, behind, half = body + MARGIN_M + CELL_M * math.sqrt(0.5)
-        reach = math.ceil(((ahead + behind) / 2 + half) / CELL_M) + 1
-        sin, cos = elementary.sin(poses[:, 2]), elementary.cos(poses[:, 2])
-        middle = (ahead - behind) / 2
-        steps = np.arange(-reach, reach + 1)
-        x, z = poses[:, 0], poses[:, 1]
-        cols = np.round((x - sin * middle) / CELL_M).astype(np.int64)[:, None] + steps
-        rows = np.round((z - cos * middle) / CELL_M).astype(np.int64)[:, None] + steps
-        away_x, away_z = cols * CELL_M - x[:, None], rows * CELL_M - z[:, None]
-        sin, cos = sin[:, None], cos[:, None]
-        forward = (-sin * away_x)[:, None, :] + (-cos * away_z)[:, :, None]
-        left = (-cos * away_x)[:, None, :] + (sin * away_z)[:, :, None]
-        pose, row, col = np.nonzero((forward <= ahead) & (forward >= -behind) & (np.abs(left) <= half))
-        layer = np.asarray(layers)[pose]
-        numbers = self._number(cols[pose, col], rows[pose, row], layer)
-        return np.split(numbers, np.searchsorted(pose, np.arange(1, len(poses))))
+        ahead, behind, half = (body + MARGIN_M + CELL_M * math.sqrt(0.5)).tolist()
+        turned = [elementary.sin(poses[:, 2]), elementary.cos(poses[:, 2])]
+        table = np.ascontiguousarray(np.concatenate([poses[:, :2], np.stack(turned, axis=1)], axis=1))
+        both = np.array([(each[0], each[-1]) for each in layers])
+        slices, of = _Slices(table, both, step), _Layers(self._layers, CELL_M)
+        ends = np.zeros((len(poses) - 1) // step, dtype=np.int64)
+        found = np.empty(_USUAL_CELLS * len(ends), dtype=np.int64)
+        count = _write_cells(slices, of, ahead, behind, half, _Row(ends), _Row(found))
+        if count > len(found):
+            found = np.empty(count, dtype=np.int64)
+            _write_cells(slices, of, ahead, behind, half, _Row(ends), _Row(found))
+        return np.split(found[:count], ends[:-1])
 
     def discs(self, places: Floats, radius_m: float, layer: int) -> list[Cells]:
         """Return the cells that hold a disc at each (x, z); shape (n, 2)."""
         radius = radius_m + CELL_M * math.sqrt(0.5)
         steps = np.arange(-math.ceil(radius / CELL_M) - 1, math.ceil(radius / CELL_M) + 2)
-        found = []
-        for x, z in places.tolist():
-            col, row = round(x / CELL_M) + steps, round(z / CELL_M) + steps
-            inside = np.hypot((col * CELL_M - x)[None, :], (row * CELL_M - z)[:, None]) <= radius
-            at = np.nonzero(inside)
-            found.append(self._number(col[at[1]], row[at[0]], layer))
-        return found
+        cols, rows = np.moveaxis(np.round(places / CELL_M).astype(np.int64)[:, :, None] + steps, 1, 0)
+        away_x, away_z = cols * CELL_M - places[:, :1], rows * CELL_M - places[:, 1:]
+        place, row, col = np.nonzero(np.hypot(away_x[:, None, :], away_z[:, :, None]) <= radius)
+        numbers = self._number(cols[place, col], rows[place, row], layer)
+        return np.split(numbers, np.searchsorted(place, np.arange(1, len(places))))
 
     def _number(self, col: Cells, row: Cells, layer: Cells | int) -> Cells:
         col = np.clip(col - self._low[layer, 0], 0, self._columns[layer] - 1)
@@ -89,13 +113,31 @@ class Raster:
         cells: Cells = self._first[layer] + row * self._columns[layer] + col
         return cells
 
+    def marked(self, is_marked: NDArray[np.bool_], layer: int) -> Floats:
+        """Return the middles (x, z) of marked cells of a layer; shape (n, 2)."""
+        own = np.flatnonzero(is_marked[self._first[layer] : self._first[layer + 1]])
+        return self._middles(own, layer)
+
+    def places(self, cells: Cells, layer: int) -> Floats:
+        """Return the middles (x, z) of those cells that are of a layer; shape (n, 2)."""
+        own = cells[(cells >= self._first[layer]) & (cells < self._first[layer + 1])] - self._first[layer]
+        return self._middles(own, layer)
+
+    def _middles(self, own: Cells, layer: int) -> Floats:
+        middles: Floats = (np.stack(np.divmod(own, self._columns[layer])[::-1], axis=1) + self._low[layer]) * CELL_M
+        return middles
+
     def are_near(self, marked: NDArray[np.bool_], places: Floats, layer: int, radius_m: float) -> NDArray[np.bool_]:
         """Return True for places (x, z) of a layer within a distance of marked cells; shape (n,)."""
         own = slice(int(self._first[layer]), int(self._first[layer + 1]))
         reach = math.ceil(radius_m / CELL_M)
         steps = np.arange(-reach, reach + 1) * CELL_M
-        disc = np.hypot(steps[:, None], steps[None, :]) <= radius_m
-        near = binary_dilation(marked[own].reshape(int(self._rows[layer]), int(self._columns[layer])), disc)
+        rows, cols = np.nonzero(np.hypot(steps[:, None], steps[None, :]) <= radius_m)
+        at, size = np.flatnonzero(marked[own]), own.stop - own.start
+        near = np.zeros(size, dtype=bool)
+        for offset in ((rows - reach) * int(self._columns[layer]) + cols - reach).tolist():
+            near[np.clip(at + offset, 0, size - 1)] = True
+        near = near.reshape(int(self._rows[layer]), int(self._columns[layer]))
         cells = np.round(places / CELL_M).astype(np.int64) - self._low[layer]
         found: NDArray[np.bool_] = near[cells[:, 1], cells[:, 0]]
         return found
@@ -124,14 +166,9 @@ class Ground:
         self._held = np.zeros(raster.size, dtype=np.int16)
         self.people = np.zeros(raster.size, dtype=np.int16)
 
-    def near_cars(
-        self, places: Floats, layer: int, radius_m: float, *, wanted: Sequence[Cells] = ()
-    ) -> NDArray[np.bool_]:
-        """Return True for places (x, z) within a distance of ground that a car holds, or wants; shape (n,)."""
-        held = self.owner > 0
-        for cells in wanted:
-            held[cells] = True
-        return self.raster.are_near(held, places, layer, radius_m)
+    def of_cars(self, layer: int) -> Floats:
+        """Return the middles (x, z) of the cells of a layer that cars hold; shape (n, 2)."""
+        return self.raster.marked(self.owner > 0, layer)
 
     def is_free(self, cells: Cells, agent: int) -> bool:
         """Return True if cells are held by nobody but a car itself."""
@@ -147,9 +184,3 @@ class Ground:
         """End one hold of a car on cells."""
         self._held[cells] -= 1
         self.owner[cells[self._held[cells] == 0]] = 0
-
-
-def united(cells: Iterable[Cells]) -> Cells:
-    """Return the distinct cells of several sets."""
-    found: Cells = np.unique(np.concatenate(list(cells)))
-    return found

@@ -3,8 +3,9 @@
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator
-from functools import lru_cache
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from functools import cached_property, lru_cache
 
 import numpy as np
 import shapely
@@ -16,8 +17,10 @@ from garage2usd.common.randomness import Step, generator
 from garage2usd.config.outputs import DriveConfig, Leg
 from garage2usd.config.traffic import TrafficConfig
 from garage2usd.driving import DesignCar, Pose
+from garage2usd.driving.manoeuvre import Gear
+from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.tracks import Track, Tracks
-from garage2usd.garage import Stall, StallUse
+from garage2usd.garage import LaneGraph, Stall, StallUse
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.native import elementary
 from garage2usd.traffic.demand import drawn_demand
@@ -31,9 +34,14 @@ from garage2usd.traffic.visits import Visit, car_track, outline
 _SPEEDS = DriveConfig(lane_speed_m_s=4.2, parking_speed_m_s=1.0, acceleration_m_s2=1.2, lateral_acceleration_m_s2=1.8)
 """Speeds of drivers who know garages: 15 km/h on aisles."""
 _PATIENCE_S, _STUCK_S = 45.0, 180.0
+_COUNTED = ("arrivals", "departures", "turned_away", "changed", "queued", "stuck", "walks")
 _CHOICES = 24
 _TRIED, _MOST = 12, 0.7
-_NOISE_M = 15.0
+_NOISE_M, _WRONG_WAY_M = 15.0, 5.0
+_SOON_S, _HALT_S = (10.0, 90.0), (40.0, 90.0)
+"""Time until a car leaves for whose stall another one waits, and time for which a car stands double-parked."""
+_EASES_M = (0.3, 0.6, 0.9, -0.3, -0.6, -0.9)
+"""Distances ahead that a parked car drives straight before it turns, if it cannot turn at once; the nearest first."""
 
 
 class Operation:
@@ -56,11 +64,9 @@ class Operation:
         self.garage, self._settings = garage, settings
         self._lanes = [level.lanes for level in garage.levels]
         driven = garage.lanes.driven
-        self.stalls = tuple(
-            stall
-            for stall in garage.stalls
-            if stall.takes_cars and stall.access in driven and stall.use is not StallUse.ACCESSIBLE
-        )
+        stalls = [stall for stall in garage.stalls if stall.takes_cars and stall.access in driven]
+        self.stalls = tuple(stall for stall in stalls if stall.use is not StallUse.ACCESSIBLE)
+        self.accessible = tuple(stall for stall in stalls if stall.use is StallUse.ACCESSIBLE)
         if not self.stalls:
             raise ConfigError("PATH", garage.source, "a garage with a stall that lanes join with the street")
         self.hull, self._planner = self._most_common()
@@ -87,19 +93,48 @@ class Operation:
         """Return the ground of the garage with nobody on it."""
         return Ground(self._raster)
 
-    def _trip(self, stall: Stall, leg: Leg, parked: Pose | None = None) -> Trip | None:
+    @cached_property
+    def _unruly(self) -> DrivePlanner:
+        """Planner of drives for which one-way aisles are open both ways."""
+        levels = [
+            replace(
+                level, lanes=LaneGraph(level.lanes.nodes, tuple(e._replace(one_way=False) for e in level.lanes.edges))
+            )
+            for level in self.garage.levels
+        ]
+        garage = replace(self.garage, levels=tuple(levels))
+        return DrivePlanner(garage, self._settings, car=self.hull, are_stalls_changing=True)
+
+    def wrong_way(self, stall: Stall) -> Trip | None:
+        """Return a trip to a stall that is driven against a one-way aisle for some metres; None if there is none."""
+        if all(not edge.one_way for lanes in self._lanes for edge in lanes.edges):
+            return None
+        trip = self.trip(stall, Leg.IN, obeys=False)
+        return trip if trip is not None and trip.against_m() >= _WRONG_WAY_M else None
+
+    def _trip(self, stall: Stall, leg: Leg, parked: Pose | None = None, *, obeys: bool = True) -> Trip | None:
         """Return the trip to a stall or away from it; None if none is clear of cars in all other stalls."""
-        found = self._planner.leg(stall, leg, parked=parked)
+        found, path = (self._planner if obeys else self._unruly).leg(stall, leg, parked=parked), None
+        for ahead_m in _EASES_M if parked is not None and found is None else ():
+            # a shorter car stands where the outline would reach into a wall: it drives straight ahead until it does not
+            assert parked is not None
+            found = self._planner.leg(stall, leg, parked=parked.moved(ahead_m))
+            if found is not None:
+                ease = Piece(Gear.FORWARD if ahead_m > 0 else Gear.REVERSE, abs(ahead_m), is_parking=True)
+                path = Path(parked, (ease, *found.path.pieces))
+                break
         if found is None or not found.is_full:
             return None
-        stretches, end_m = [], 0.0
+        end_m = path.length_m - found.path.length_m if path is not None else 0.0
+        spans = [span._replace(end_m=span.end_m + end_m) for span in found.spans]
+        stretches = []
         for length_m, level, is_ramp in found.stretches:
             end_m += length_m
             layer = len(self.garage.levels) + level if is_ramp else level
             stretches.append(Stretch(end_m, layer, None if is_ramp else level))
         return Trip(
-            found.path,
-            found.spans,
+            path or found.path,
+            spans,
             stretches,
             car=self.hull,
             settings=self._settings,
@@ -131,13 +166,14 @@ class _Run:
         self.ground = operation.new_ground()
         self.cars = Simulation(self.ground, operation._settings)  # noqa: SLF001 - the run is the operation's own
         self.draw = generator(seed, Step.TRAFFIC_CARS)
-        self.people = operation.walkers.begin(self.ground, generator(seed, Step.TRAFFIC_PEOPLE))
+        self.people = operation.walkers.begin(self.ground, settings, generator(seed, Step.TRAFFIC_PEOPLE))
         self.people.wanted = self.cars.wanted
         self.log: list[str] = []
         self.counts: Counter[str] = Counter()
         stalls = {stall.name: stall for stall in operation.garage.stalls}
         self.outlines: dict[int, tuple[int, shapely.Polygon]] = {}
         self.taken: set[str] = set()
+        self.awaited: set[str] = set()
         self.of_car: dict[int, Visit] = {}
         capacity = len(operation.stalls)
         movable = []
@@ -154,17 +190,32 @@ class _Run:
         for stall in operation.garage.stalls:
             if stall.is_occupied:
                 self.taken.add(stall.name)
-        demand = drawn_demand(settings, len(movable), capacity, generator(seed, Step.TRAFFIC))
+        staying = sum(visit.stall in operation.stalls for visit in self.of_car.values()) - len(movable)
+        demand = drawn_demand(settings, len(movable), capacity, generator(seed, Step.TRAFFIC), staying=staying)
         for visit, leave_s in zip(movable, demand.leave_s, strict=True):
             visit.leave_s = leave_s
-        self.staying = [visit for visit in movable if math.isfinite(visit.leave_s) and self._leads_out(visit)]
+        self.staying = self._leaving(movable)
         self.arrivals = list(demand.arrivals)
         self.street: list[tuple[Visit, float]] = []
 
-    def _leads_out(self, visit: Visit) -> bool:
-        """Return True if a path leads out of a stall for a car as it is parked at the start."""
-        assert visit.stall is not None
-        return self.operation.trip(visit.stall, Leg.OUT, visit.parked) is not None
+    def _leaving(self, parked: Sequence[Visit]) -> list[Visit]:
+        """Return the parked cars that leave; those that no path leads out hand their time on to one that stays."""
+        found: list[Visit] = []
+        others = [visit for visit in parked if math.isinf(visit.leave_s)]
+        for each in [visit for visit in parked if math.isfinite(visit.leave_s)]:
+            visit, leave_s = each, each.leave_s
+            while True:
+                visit.leave_s = leave_s
+                assert visit.stall is not None
+                if self.operation.trip(visit.stall, Leg.OUT, visit.parked) is not None:
+                    found.append(visit)
+                    break
+                visit.leave_s = math.inf
+                self.log.append(f"{visit.car.agent.name} stays, as no path leads it out of its stall as it is parked")
+                if not others:
+                    break
+                visit = others.pop(0)
+        return found
 
     @property
     def now_s(self) -> float:
@@ -187,6 +238,7 @@ class _Run:
                 self._admit()
                 self._call()
                 self._reconsider()
+                self._lift_barriers()
             self.people.advance(self.cars.step)
             self.cars.advance(self._ended)
         self._note_stuck()
@@ -199,77 +251,137 @@ class _Run:
             {
                 "seed": self.seed,
                 "settings": self.settings.model_dump(mode="json"),
-                **{name: self.counts[name] for name in ("arrivals", "departures", "turned_away", "changed", "walks")},
+                **{name: self.counts[name] for name in _COUNTED},
                 "cars_of_people": {name: f"car_{car:04}" for name, car in self.people.drivers().items()},
             },
             tuple(self.log),
         ).rounded()
 
     def _note_stuck(self) -> None:
-        """Name the cars that have waited for more than three minutes at the end."""
-        for driver in self.cars.drivers:
-            waited_s = (self.cars.step - driver.waits_since) * STEP_S if driver.waits_since >= 0 else 0.0
-            if waited_s > _STUCK_S:
-                self.log.append(f"car_{driver.number:04} has waited on an aisle for {waited_s:.0f} s at the end")
-        for visit in self.staying:
-            late_s = self.now_s - visit.leave_s
-            if late_s > _STUCK_S:
-                self.log.append(f"{visit.car.agent.name} has waited in its stall for {late_s:.0f} s at the end")
-        for visit, since in self.street:
-            if self.now_s - since > _STUCK_S:
-                self.log.append(
-                    f"{visit.car.agent.name} has waited on the street for {self.now_s - since:.0f} s at the end"
-                )
+        """Name the cars that have waited for more than three minutes, and people who have stood so long."""
+        self.log += self.people.stuck()
+        for visit in self.of_car.values():
+            for where, begin_s, waited_s in visit.waits(self.now_s):
+                if waited_s > _STUCK_S:
+                    self.counts["queued" if where == "on the street" else "stuck"] += 1
+                    self.log.append(f"{begin_s:.1f} s: {visit.car.agent.name} has to wait {where} for {waited_s:.0f} s")
 
     def _admit(self) -> None:
         """Let cars that have arrived drive in from the street."""
         while self.arrivals and self.arrivals[0][0] <= self.now_s:
             time, stay = self.arrivals.pop(0)
             car = drawn_car(len(self.of_car) + 1, self.operation.hull, self.draw)
-            visit = self.of_car[car.number] = Visit(car)
-            if self._choose(visit):
-                visit.leave_s = time + stay
+            visit = self.of_car[car.number] = Visit(car, come_s=time, leave_s=time + stay)
+            own = self.settings
+            shares = own.permits, own.waits_for_stall, own.double_parks, own.wrong_way
+            has_permit, waits, double_parks, errs = (self.draw.uniform(size=len(shares)) < shares).tolist()
+            has_permit = has_permit and self._choose(visit, among=self.operation.accessible)
+            if has_permit:
+                visit.behaviour = "permit"
+            if has_permit or (waits and self._wait_for_stall(visit)) or self._choose(visit):
+                if double_parks and not visit.behaviour:
+                    self._double_park(visit)
+                elif errs and not visit.behaviour and visit.stall is not None:
+                    visit.wrong_way = self.operation.wrong_way(visit.stall)
+                    visit.behaviour = "wrong_way" if visit.wrong_way is not None else ""
                 self.street.append((visit, self.now_s))
             else:
                 self.counts["turned_away"] += 1
                 self.log.append(f"{time:.1f} s: {car.agent.name} is turned away, as no free stall can take it")
         for visit, since in self.street[:]:
             assert visit.stall is not None
-            trip = self.operation.trip(visit.stall, Leg.IN)
+            trip = visit.wrong_way or self.operation.trip(visit.stall, Leg.IN)
             assert trip is not None
-            driver = self.cars.try_start(visit.car.number, trip)
+            driver = self.cars.try_start(visit.car.number, trip, visit.barrier)
             if driver is not None:
                 visit.begin(driver)
                 self.street.remove((visit, since))
                 self.counts["arrivals"] += 1
             elif self.now_s - since > _PATIENCE_S:
                 # a driver who cannot go on looks for another stall
-                self.taken.discard(visit.stall.name)
-                self._choose(visit)
+                old = visit.stall
+                if self._choose(visit):
+                    self._give_up(visit, old)
                 self.street[self.street.index((visit, since))] = visit, self.now_s
 
-    def _choose(self, visit: Visit, accepts: Callable[[Trip], bool] = lambda _: True, *, most: int = _CHOICES) -> bool:
+    def _choose(
+        self,
+        visit: Visit,
+        accepts: Callable[[Trip], bool] = lambda _: True,
+        *,
+        most: int = _CHOICES,
+        among: Sequence[Stall] | None = None,
+    ) -> bool:
         """Choose a free stall near a stair core for an arriving car, the first whose trip is accepted."""
-        free = [stall for stall in self.operation.stalls if stall.name not in self.taken]
+        stalls = self.operation.stalls if among is None else among
+        free = [stall for stall in stalls if stall.name not in self.taken]
         noise = self.draw.exponential(_NOISE_M, len(free))
         costs = [
             self.operation.walkers.distance_m(stall) + far for stall, far in zip(free, noise.tolist(), strict=True)
         ]
         for index in np.argsort(costs, kind="stable").tolist()[:most]:
             trip = self.operation.trip(free[index], Leg.IN)
-            if trip is None or self.operation.trip(free[index], Leg.OUT) is None or not accepts(trip):
+            leaves = visit.leave_s < 60 * self.settings.minutes
+            if trip is None or (leaves and self.operation.trip(free[index], Leg.OUT) is None) or not accepts(trip):
                 continue
             visit.stall = free[index]
             self.taken.add(free[index].name)
             return True
         return False
 
+    def _wait_for_stall(self, visit: Visit) -> bool:
+        """Let an arriving car wait for a stall whose car leaves soon; return False if there is none."""
+        for other in self.staying:
+            stall, soon_s = other.stall, other.leave_s - self.now_s
+            if stall not in self.operation.stalls or not _SOON_S[0] < soon_s < _SOON_S[1] or stall.name in self.awaited:
+                continue
+            into, out = self.operation.trip(stall, Leg.IN), self.operation.trip(stall, Leg.OUT, other.parked)
+            barrier = into.wait_beside(out) if into is not None and out is not None else None
+            if barrier is not None:
+                visit.stall, visit.awaits, visit.barrier = stall, other, barrier
+                visit.behaviour = "waits_for_stall"
+                self.awaited.add(stall.name)
+                return True
+        return False
+
+    def _double_park(self, visit: Visit) -> None:
+        """Let an arriving car stop for a minute or so at some place on its way where others can drive by or wait."""
+        assert visit.stall is not None
+        trip = self.operation.trip(visit.stall, Leg.IN)
+        places = trip.waits() if trip is not None else []
+        if places:
+            visit.barrier = places[int(self.draw.integers(len(places)))]
+            visit.halts_s, visit.behaviour = float(self.draw.uniform(*_HALT_S)), "double_parks"
+
+    def _lift_barriers(self) -> None:
+        """Let cars go on that have stood long enough, or whose stall is being left."""
+        for driver in self.cars.drivers:
+            visit = self.of_car[driver.number]
+            if driver.barrier is None:
+                continue
+            if visit.awaits is not None:
+                driver.barrier = None if visit.awaits.has_left else driver.barrier
+            elif driver.waits_since >= 0 and driver.held == driver.barrier + 1:
+                driver.barrier = (
+                    None if (self.cars.step - driver.waits_since) * STEP_S >= visit.halts_s else driver.barrier
+                )
+
+    def _give_up(self, visit: Visit, stall: Stall) -> None:
+        """Free a stall for others whose visitor has chosen another one."""
+        if visit.awaits is None or stall.name not in self.awaited:
+            self.taken.discard(stall.name)
+        self.awaited.discard(stall.name)
+        visit.awaits = visit.barrier = visit.wrong_way = None
+        if not visit.begun:
+            visit.behaviour = ""
+
     def _reconsider(self) -> None:
         """Let drivers who cannot go on to their stall choose another one that lies on their way."""
         for driver in self.cars.drivers[:]:
             visit = self.of_car[driver.number]
             waited = self.cars.step - driver.waits_since if driver.waits_since >= 0 else 0
-            if waited * STEP_S < _PATIENCE_S or visit.is_leaving:
+            patience_s = _PATIENCE_S if driver.barrier is None else _STUCK_S
+            if waited * STEP_S < patience_s or visit.is_leaving:
                 continue
             driver.waits_since = self.cars.step
             old = visit.stall
@@ -281,7 +393,7 @@ class _Run:
                 return other is not None
 
             if old is not None and self._choose(visit, goes_on, most=len(self.operation.stalls)):
-                self.taken.discard(old.name)
+                self._give_up(visit, old)
                 self.counts["changed"] += 1
                 visit.begin(others[0])
 
@@ -296,6 +408,7 @@ class _Run:
                     self.people.to_car(visit.car.number, visit.stall, self._parked_outline(visit), self.outlines)
             if self.settings.people and not self.people.has_arrived(visit.car.number):
                 continue
+            visit.ready_s = min(visit.ready_s, self.now_s)
             self._leave(visit)
 
     def _leave(self, visit: Visit) -> None:
@@ -317,7 +430,9 @@ class _Run:
         self.cars.leave_ground(driver)
         if visit.has_left:
             assert visit.stall is not None
-            self.taken.discard(visit.stall.name)
+            if visit.stall.name not in self.awaited:
+                self.taken.discard(visit.stall.name)
+            self.awaited.discard(visit.stall.name)
             return
         visit.parked = None
         self.outlines[visit.car.number] = self._parked_outline(visit)

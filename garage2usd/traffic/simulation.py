@@ -4,6 +4,7 @@ A car drives on only over ground that it holds, and it holds ground up to a plac
 two such places, a junction, a narrow aisle or a manoeuvre, is reserved at once or not at all, so that no car stops
 where it blocks others for good.
 """
+# Over 300 lines: who holds ground, who waits for whom and who goes first change the same cars.
 
 import math
 from collections.abc import Callable
@@ -25,6 +26,10 @@ _AHEAD_M = 2.5
 """Ground held beyond the braking distance in metres."""
 _RETRY_STEPS, _LOOK_SLICES = 4, 60
 """Steps between two tries to go on, and number of slices ahead in which a car finds others that stand in its way."""
+_YIELD_STEPS = 40
+"""Steps after which a car that lets others go first goes on all the same, as where one comes from each side."""
+_AT_ONCE_M = 3.0
+"""Two cars come to a junction at once if the second is within this distance of the place where it would reserve it."""
 _NEAR_M, _AT_END_M = 0.002, 1e-6
 
 
@@ -44,6 +49,10 @@ class Driver:
         Number of slices held, from the first one on.
     freed
         Number of slices that were released again.
+    barrier
+        Slice at whose end it waits until this is None again.
+    came_at, yields_at
+        Steps at which it came to the ground that it wants next, and at which it began to let others go first.
     samples
         Step, distance, speed and state at each step.
     """
@@ -58,6 +67,9 @@ class Driver:
     next_stop: int = 0
     retry_at: int = 0
     waits_since: int = -1
+    barrier: int | None = None
+    came_at: int = -1
+    yields_at: int = -1
     samples: list[tuple[int, float, float, int]] = field(default_factory=list)
 
     @property
@@ -85,9 +97,9 @@ class Simulation:
         self._is_own = np.zeros(len(ground.owner), dtype=bool)
         self._standing: dict[int, Cells] = {}
 
-    def try_start(self, number: int, trip: Trip) -> Driver | None:
+    def try_start(self, number: int, trip: Trip, barrier: int | None = None) -> Driver | None:
         """Let a car begin a trip if the ground up to the first place to wait is free."""
-        driver = Driver(number, trip)
+        driver = Driver(number, trip, barrier=barrier)
         if not self._extend(driver, 0.0):
             return None
         self.drivers.append(driver)
@@ -107,10 +119,8 @@ class Simulation:
         other.held = other.freed = int(way_m / SLICE_M)
         other.next_stop = sum(stop.way_m <= way_m for stop in trip.stops)
         if not self._extend(other, way_m + _AHEAD_M):
-            cells = driver.trip.cells
-            for number in range(freed, driver.held):
-                self.ground.hold(cells[number], driver.number)
-            driver.freed = freed
+            held, driver.held, driver.freed = driver.held, freed, freed
+            self._hold(driver, held - 1)
             self._stand(driver, driver.held - 1)
             return None
         self.drivers[self.drivers.index(driver)] = other
@@ -136,23 +146,51 @@ class Simulation:
     def _extend(self, driver: Driver, wanted_m: float) -> bool:
         """Hold the ground up to a distance, and on to a place to wait; return False if some of it is not free."""
         trip = driver.trip
-        cells, groups = trip.cells, trip.groups
         while driver.held < trip.slices and (driver.held * SLICE_M <= wanted_m or driver.held == 0):
-            last = groups[driver.held]
+            last = trip.groups[driver.held]
             slices = range(driver.held, last + 1)
-            if trip.hint in slices and not self.ground.is_free(cells[trip.hint], driver.number):
+            if driver.barrier is not None and last > driver.barrier:
                 return False
-            for number in slices:
-                if not self.ground.is_free(cells[number], driver.number):
-                    trip.hint = number
-                    return False
-            if self._closes_circle(driver, last):
+            driver.came_at = self.step if driver.came_at < 0 else driver.came_at
+            if trip.hint in slices and not self.ground.is_free(trip.cells[trip.hint], driver.number):
                 return False
-            for number in slices:
-                self.ground.hold(cells[number], driver.number)
+            if not self.ground.is_free(trip.cells_between(driver.held, last + 1), driver.number):
+                is_free = self.ground.is_free
+                trip.hint = next(each for each in slices if not is_free(trip.cells[each], driver.number))
+                return False
+            if self._closes_circle(driver, last) or self._gives_way(driver, last):
+                return False
+            driver.came_at = driver.yields_at = -1
+            self._hold(driver, last)
             self._stand(driver, last)
-            driver.held = last + 1
         return True
+
+    def _gives_way(self, driver: Driver, last: int) -> bool:
+        """Return True if a car that wants the same ground, and can have it, goes first by the rule of the road."""
+        is_late = driver.yields_at >= 0 and self.step - driver.yields_at > _YIELD_STEPS
+        if driver.held in {0, last} or is_late:
+            return False
+        rivals = [other for other in self.drivers if other is not driver and _wants_on(other)]
+        rivals = [other for other in rivals if goes_first(other, driver)]
+        own = driver.trip.cells_between(driver.held, last + 1) if rivals else ()
+        for other in rivals:
+            end = other.trip.groups[other.held]
+            cells = other.trip.cells_between(other.held, end + 1)
+            self._is_own[own] = True
+            is_same = bool(self._is_own[cells].any())
+            self._is_own[own] = False
+            if is_same and self.ground.is_free(cells, other.number) and not self._closes_circle(other, end):
+                driver.yields_at = self.step if driver.yields_at < 0 else driver.yields_at
+                return True
+        return False
+
+    def _hold(self, driver: Driver, last: int) -> None:
+        """Hold the ground of a car up to a slice."""
+        trip = driver.trip
+        for number in range(driver.held, last + 1):
+            cells = trip.cells if number == driver.freed else trip.entered
+            self.ground.hold(cells[number], driver.number)
+        driver.held = last + 1
 
     def _stand(self, driver: Driver, last: int | None) -> None:
         """Note the ground on which a car will stand at the end of a slice; nowhere if that is None."""
@@ -217,9 +255,8 @@ class Simulation:
             driver.pause_steps = round(stop.pause_s / STEP_S)
             driver.next_stop += 1
         passed = min(int(way_to / SLICE_M), driver.held - 1)
-        cells = trip.cells
         while driver.freed < passed:
-            self.ground.release(cells[driver.freed])
+            self.ground.release(trip.left[driver.freed])
             driver.freed += 1
         low, high = trip.parking_m
         stands = speed_to == 0.0 and way_to < stop.way_m
@@ -233,8 +270,36 @@ class Simulation:
 
     def leave_ground(self, driver: Driver) -> None:
         """Release all ground of a car."""
-        cells = driver.trip.cells
+        trip = driver.trip
         for number in range(driver.freed, driver.held):
-            self.ground.release(cells[number])
+            self.ground.release((trip.cells if number == driver.held - 1 else trip.left)[number])
         driver.freed = driver.held
         self._stand(driver, None)
+
+
+def _wants_on(driver: Driver) -> bool:
+    """Return True for a car that reserves a junction, or the like, now or within some metres."""
+    if not 0 < driver.held < driver.trip.slices or driver.barrier is not None:
+        return False
+    ahead_m = driver.speed_m_s**2 / (2 * _BRAKING_M_S2) + _AHEAD_M + _AT_ONCE_M
+    return driver.held * SLICE_M <= driver.way_m + ahead_m and driver.trip.groups[driver.held] > driver.held
+
+
+def goes_first(other: Driver, driver: Driver) -> bool:
+    """Return True if another car that comes to a junction at once with a car goes first.
+
+    Where traffic keeps to the right, who comes from the right goes first (StVO section 8; Uniform Vehicle Code section
+    11-401; China's regulation on the Road Traffic Safety Law, article 52). Where it keeps to the left nobody has
+    priority (Highway Code rule 146): who came first goes first. In both, who turns across the oncoming lane lets
+    oncoming cars pass (StVO section 9; Uniform Vehicle Code section 11-402; Highway Code rule 180).
+    """
+    begin, end = driver.trip.turn_at(driver.held)
+    its_begin, its_end = other.trip.turn_at(other.held)
+    across = math.remainder(its_begin - begin, math.tau)
+    outwards = -1.0 if driver.trip.keeps_left else 1.0
+    crosses, it_crosses = ((to - start) * outwards > math.pi / 4 for start, to in ((begin, end), (its_begin, its_end)))
+    if abs(across) >= 3 * math.pi / 4:
+        return crosses and not it_crosses
+    if driver.trip.keeps_left:
+        return abs(across) > math.pi / 4 and 0 <= other.came_at < driver.came_at
+    return math.pi / 4 < across

@@ -17,7 +17,7 @@ from garage2usd.driving.road import FloorSpan, tilt
 from garage2usd.driving.timing import timed
 from garage2usd.garage import LaneGraph
 from garage2usd.native import elementary
-from garage2usd.traffic.ground import Cells, Floats, Raster, united
+from garage2usd.traffic.ground import Cells, Floats, Raster
 
 SLICE_M = 0.5
 """Length of the slices of a path whose ground is held at once."""
@@ -29,6 +29,7 @@ _OWN_HALF_M = 0.05
 """Least distance of a waiting car from the middle of an aisle for two-way traffic."""
 _ABREAST_M = 2.1
 """Least width beside a waiting car for one from ahead to pass."""
+_BESIDE_SLICES = 60
 _NEAR_RAMP_M = 6.0
 """Distance from the end of a ramp within which a car holds the ground of both the ramp and the level."""
 
@@ -92,6 +93,8 @@ class Trip:
         Greatest speed at every 0.1 m.
     stops
         Standstills, the end included.
+    keeps_left
+        True where traffic keeps to the left.
     hint
         Slice that was not free when it was last asked for, to be asked for first.
     """
@@ -111,7 +114,7 @@ class Trip:
         keeps_left: bool = False,
     ) -> None:
         self.path, self.car, self.stretches, self._lanes = path, car, tuple(stretches), lanes
-        self._raster, self._keeps_left = raster, keeps_left
+        self._raster, self.keeps_left = raster, keeps_left
         self._spans = tuple(spans)
         motion = timed(path, settings, car=car, spans=spans)
         starts = np.cumsum([0.0, *(float(run.way_m[-1]) for run in motion.runs)])
@@ -135,7 +138,7 @@ class Trip:
             limits[here] += np.where(limits[here] > 0.98 * braking, 0.5, 0.0)
         self.limits_m_s: list[float] = np.maximum(limits, 0.1).tolist()
 
-    @property
+    @cached_property
     def slices(self) -> int:
         """Number of slices."""
         return max(math.ceil(self.length_m / SLICE_M - 1e-9), 1)
@@ -169,28 +172,30 @@ class Trip:
 
     @cached_property
     def cells(self) -> list[Cells]:
-        """The cells of each slice."""
+        """The cells of each slice, ascending."""
         poses, plan = self._nodes
         body = np.array([self.car.ahead_m, self.car.rear_overhang_m, self.car.width_m / 2])
-        layers = self.layers_at(plan)
-        most = max(map(len, layers))
-        drawn = [
-            self._raster.rectangles(poses, body, [each[min(number, len(each) - 1)] for each in layers])
-            for number in range(most)
-        ]
-        whole = [united(parts) if len(layer) > 1 else parts[0] for layer, *parts in zip(layers, *drawn, strict=True)]
-        step = _NODES_A_SLICE - 1
-        return [united(whole[step * each : step * (each + 1) + 1]) for each in range(self.slices)]
+        return self._raster.slices(poses, body, self.layers_at(plan), _NODES_A_SLICE - 1)
+
+    @cached_property
+    def entered(self) -> list[Cells]:
+        """The cells of each slice that the slice before does not have; of the first slice all."""
+        return [self.cells[0], *(_without(after, before) for before, after in pairwise(self.cells))]
+
+    @cached_property
+    def left(self) -> list[Cells]:
+        """The cells of each slice that the next slice does not have; of the last slice all."""
+        return [*(_without(before, after) for before, after in pairwise(self.cells)), self.cells[-1]]
 
     def cells_between(self, begin: int, end: int) -> Cells:
-        """Return the cells of the slices from one up to another, some of them several times."""
+        """Return the cells of the slices from one up to another."""
         flat, starts = self._flat
-        return flat[starts[begin] : starts[end]]
+        return np.concatenate([self.cells[begin], flat[starts[begin + 1] : starts[max(end, begin + 1)]]])
 
     @cached_property
     def _flat(self) -> tuple[Cells, Cells]:
-        """The cells of all slices, and where each slice begins."""
-        return np.concatenate(self.cells), np.cumsum([0, *map(len, self.cells)])
+        """The cells that all slices enter, and where those of each slice begin."""
+        return np.concatenate(self.entered), np.cumsum([0, *map(len, self.entered)])
 
     @cached_property
     def groups(self) -> list[int]:
@@ -209,6 +214,40 @@ class Trip:
     def next_wait(self, number: int) -> int:
         """Return the first slice at or after one at whose end a car may wait; the last one beyond the end."""
         return self.groups[min(number, self.slices - 1)]
+
+    def turn_at(self, number: int) -> tuple[float, float]:
+        """Return the yaw at the begin of a slice, and at the next place to wait."""
+        yaw, step = self._nodes[0][:, 2], _NODES_A_SLICE - 1
+        return float(yaw[number * step]), float(yaw[(self.next_wait(number) + 1) * step])
+
+    def waits(self) -> list[int]:
+        """Return the slices before the manoeuvre into a stall at whose ends a car may wait on an aisle."""
+        most = min(self.parking_m[0], self.length_m) / SLICE_M - 1
+        return [number for number, end in enumerate(self.groups) if number == end and number < most]
+
+    def wait_beside(self, other: "Trip") -> int | None:
+        """Return the last slice at whose end a car can wait until another one has driven by, if there is one near."""
+        passed = np.unique(np.concatenate(other.cells))
+        near = self.waits()[-_BESIDE_SLICES:]
+        return next((number for number in reversed(near) if not np.isin(self.cells[number], passed).any()), None)
+
+    def against_m(self) -> float:
+        """Return the distance that the car drives forward against one-way aisles."""
+        poses, plan = self._nodes
+        ahead = np.stack([-elementary.sin(poses[:, 2]), -elementary.cos(poses[:, 2])], axis=1)
+        ends = [stretch.end_m for stretch in self.stretches[:-1]]
+        stretch = np.searchsorted(ends, plan, side="right")
+        forward = self.signs(np.interp(plan, self._plan_of[1], self._plan_of[0])) > 0
+        is_against = np.zeros(len(poses), dtype=bool)
+        for number, each in enumerate(self.stretches):
+            for start, along, length_m, width_m, one_way, _ in (
+                _aisles(self._lanes[each.level]) if each.level is not None else ()
+            ):
+                away = poses[:, :2] - start
+                run, right = away @ along, away @ np.array([-along[1], along[0]])
+                here = (stretch == number) & (run >= 0) & (run <= length_m) & (np.abs(right) <= width_m / 2)
+                is_against |= here & forward & one_way & (ahead @ along < -_IN_LINE)
+        return float(is_against.sum()) * SLICE_M / (_NODES_A_SLICE - 1)
 
     def _may_wait(self, poses: Floats, plan: Floats) -> NDArray[np.bool_]:
         """Find the poses at which a waiting car leaves room for oncoming and for crossing traffic.
@@ -234,7 +273,7 @@ class Trip:
                 if one_way:
                     here &= same > 0
                 else:
-                    aside = right * np.sign(same) * (-1 if self._keeps_left else 1)
+                    aside = right * np.sign(same) * (-1 if self.keeps_left else 1)
                     here &= (aside >= self.car.width_m / 2 + _OWN_HALF_M) & (
                         aside - self.car.width_m / 2 + width_m / 2 >= _ABREAST_M
                     )
@@ -304,6 +343,12 @@ class Trip:
         is_same = math.hypot(at[0] - pose[0], at[2] - pose[1]) < _SAME_M
         is_same = is_same and abs(math.remainder(at[3] - pose[2], math.tau)) < _SAME_RAD
         return way if is_same and int(self.levels(np.array([way]))[0]) == level else None
+
+
+def _without(cells: Cells, others: Cells) -> Cells:
+    """Return the cells that are not among others; both ascend."""
+    found: Cells = cells[others[np.minimum(np.searchsorted(others, cells), len(others) - 1)] != cells]
+    return found
 
 
 @lru_cache(maxsize=64)

@@ -1,7 +1,7 @@
 """Visits of cars: where a car is and what it waits for, and its track in the end."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import shapely
@@ -12,6 +12,7 @@ from garage2usd.garage import Stall
 from garage2usd.native import elementary
 from garage2usd.traffic.fleet import Car
 from garage2usd.traffic.simulation import STEP_S, Driver
+from garage2usd.traffic.trips import Trip
 
 
 @dataclass(eq=False)
@@ -26,12 +27,24 @@ class Visit:
         The stall that it is in or drives to.
     parked
         Its pose in the stall, if it is parked there at the start.
-    leave_s
-        Time at which its stay ends.
+    come_s, leave_s
+        Times at which it comes to the garage and at which its stay ends.
+    ready_s
+        Time at which its driver is ready to drive out.
     driver
         The car on its present trip, or on its last.
     begun
         The car on all its trips, those included that it left for another stall.
+    behaviour
+        Special behaviour that it is labelled with.
+    barrier
+        Slice of its trip at whose end it waits: for another visit that leaves its stall to it, or double-parked.
+    awaits
+        That other visit.
+    halts_s
+        Time for which it stands double-parked.
+    wrong_way
+        Its trip to the stall, if it drives against a one-way aisle.
     is_leaving
         True after its stay.
     has_left
@@ -41,9 +54,16 @@ class Visit:
     car: Car
     stall: Stall | None = None
     parked: Pose | None = None
+    come_s: float = 0.0
     leave_s: float = math.inf
+    ready_s: float = math.inf
     driver: Driver | None = None
     begun: list[Driver] = field(default_factory=list)
+    behaviour: str = ""
+    barrier: int | None = None
+    awaits: "Visit | None" = None
+    halts_s: float = 0.0
+    wrong_way: Trip | None = None
     is_leaving: bool = False
     has_left: bool = False
 
@@ -51,6 +71,21 @@ class Visit:
         """Begin a trip."""
         self.driver = driver
         self.begun.append(driver)
+
+    def waits(self, end_s: float) -> list[tuple[str, float, float]]:
+        """Return the waits of the car up to the end of a run: place, begin and duration in seconds."""
+        found = []
+        starts = [driver.samples[0][0] * STEP_S for driver in self.begun]
+        if self.stall is not None and self.car.stands is None:
+            found.append(("on the street", self.come_s, (starts[0] if starts else end_s) - self.come_s))
+        if math.isfinite(self.ready_s):
+            found.append(("in its stall", self.ready_s, (starts[-1] if self.has_left else end_s) - self.ready_s))
+        samples = [(step, state) for driver in self.begun for step, _, _, state in driver.samples]
+        steps, states = np.array(samples, dtype=np.int64).reshape(-1, 2).T
+        edges = np.flatnonzero(np.diff(states == AgentState.WAITS, prepend=False, append=False))
+        for first, past in edges.reshape(-1, 2).tolist():
+            found.append(("on an aisle", steps[first] * STEP_S, (past - first) * STEP_S))
+        return found
 
 
 def outline(middle: tuple[float, float], yaw_rad: float, half_m: float, width_m: float) -> shapely.Polygon:
@@ -63,7 +98,7 @@ def outline(middle: tuple[float, float], yaw_rad: float, half_m: float, width_m:
 
 def car_track(visit: Visit, end_s: float) -> Track:
     """Return the track of a car from its trips, up to the end of the run."""
-    agent = visit.car.agent
+    agent = replace(visit.car.agent, behaviour=visit.behaviour)
     parts, stalls, count = [], [], 0
     for driver in visit.begun:
         steps, ways, speed, state = (np.array(column) for column in zip(*driver.samples, strict=True))

@@ -53,6 +53,30 @@ def played(program, scenario, seconds):
     return found[found[:, 0] <= seconds], collisions
 
 
+def agents_played(program, scenario, names, folder, step_s=0.05):
+    """The rows of each agent, time, x, y, z, heading, pitch, shape (n, 6), by its name."""
+    log = folder / "agents.csv"
+    command = [program, "--headless", "--osc", scenario, "--csv_logger", log, "--fixed_timestep", step_s]
+    command += ["--traj_filter", 0]
+    subprocess.run(
+        [str(word) for word in command], cwd=folder, check=True, capture_output=True, text=True, timeout=1800
+    )
+    rows = {}
+    with log.open() as lines:
+        header = next([cell.strip() for cell in line.split(",")] for line in lines if "World_Position_X" in line)
+        first = header.index("#1 Entity_Name [-]")
+        wanted = ("Position_X", "Position_Y", "Position_Z", "Heading_Angle", "Pitch_Angle")
+        offsets = [next(at for at in range(first, len(header)) if f"World_{word}" in header[at]) for word in wanted]
+        for line in lines:
+            cells = [cell.strip() for cell in line.split(",")]
+            # a row has those alone that are there
+            for at in range(first, len(cells)):
+                if cells[at] in names:
+                    row = [cells[1], *(cells[at + offset - first] for offset in offsets)]
+                    rows.setdefault(cells[at], []).append([float(cell) for cell in row])
+    return {name: np.array(own) for name, own in rows.items()}
+
+
 def main(program, samples):
     faults = 0
     for sample in samples:

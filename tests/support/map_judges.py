@@ -123,6 +123,13 @@ def run_sumo(network, routes, folder, *options):
     return run.stderr, run.returncode != 0
 
 
+def run_sumo_tool(tool, *arguments, folder):
+    """Run a program of SUMO's tools, for which SUMO without a window is that with one."""
+    home = _sumo_home(folder)
+    binaries = {"GUISIM_BINARY": str(JUDGES / "bin/sumo"), "SUMO_HOME": home}
+    return _run(JUDGES / "bin/python", Path(home) / "tools" / tool, *arguments, folder=folder, **binaries)
+
+
 def run_python(text, folder):
     """What a program in Python prints that imports the judges."""
     return _run(JUDGES / "bin/python", "-c", text, folder=folder)

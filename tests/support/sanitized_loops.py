@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from garage2usd.config import BayConfig, PlanConfig, SiteConfig
-from garage2usd.driving.car import Pose
+from garage2usd.driving import path as paths
+from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.obstacles import Scene
 from garage2usd.driving.turns import Steering, joining_pieces
 from garage2usd.driving.way_search import Task, reeds_shepp_words, search
@@ -54,7 +55,11 @@ def plan_and_drive():
     elementary.power(np.abs(NUMBERS), NUMBERS)
     elementary.arctan2(NUMBERS[:, None], NUMBERS)
     elementary.turned(NUMBERS)
-    list(joining_pieces(Pose(0.0, 0.0, 0.3), Pose(4.0, -19.0, 0.2), Steering(0.2, 0.1)))
+    start = Pose(0.0, 0.0, 0.3)
+    for pieces in joining_pieces(start, Pose(4.0, -19.0, 0.2), Steering(0.2, 0.1)):
+        path = paths.Path(start, pieces)
+        path.at([0.0, 5.0, path.length_m])
+        path.over_middle_m(DesignCar(), np.array([[0.0, -1.0, 0.0, 0.0, -9.0, 9.0, -9.0, 9.0, 1.5]]), far_cost=2.0)
 
 
 if __name__ == "__main__":

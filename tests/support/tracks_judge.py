@@ -39,6 +39,10 @@ OVERLAP_M2 = 1e-6
 """Rounding: outlines that share less touch."""
 
 
+_KINDS = {"person": "person", "shopping_trolley": "trolley"}
+"""Classes of agents that are no cars."""
+
+
 class Touch(NamedTuple):
     """Two things that overlap or are close, from a first to a last time; the least clearance or most area, and when."""
 
@@ -83,7 +87,7 @@ class _Moving:
     def __init__(self, track, steps, mirrors):
         agent, times = track.agent, np.asarray(track.time_s)
         self.name, self.agent = agent.name, agent
-        self.kind = "person" if agent.kind == "person" else "car"
+        self.kind = _KINDS.get(agent.kind, "car")
         # a car of the stage stands there before its track begins
         begins = 0.0 if agent.prim else times[0]
         at = np.arange(math.ceil(begins * HZ - 1e-6), math.floor(times[-1] * HZ + 1e-6) + 1)
@@ -111,7 +115,7 @@ def _outline(agent, mirrors):
     """The outline at the origin, nose to -Z, in (x, z): a car's body, with mirrors if asked for, or a person's box."""
     wide, long = agent.width_m / 2, agent.length_m / 2
     body = shapely.box(-wide, -long, wide, long)
-    if mirrors and agent.body and agent.kind != "person":
+    if mirrors and agent.body and agent.kind not in _KINDS:
         body = shapely.union_all([body, *map(shapely.Polygon, CarSpec(agent.body, agent.paint).outlines())])
     return body
 
@@ -294,7 +298,7 @@ def _motion(tracks):
             "yaw_rate": yaw,
             "speed_error": np.abs(speed - (said[1:] + said[:-1]) / 2),
         }
-        if agent.kind != "person":
+        if agent.kind not in _KINDS:
             # the rear axle does not slip sideways
             back = agent.rear_axle_m
             axle_x = track.x_m + back * np.sin(track.yaw_rad)

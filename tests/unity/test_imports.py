@@ -39,12 +39,14 @@ def test_the_package_compiles_without_a_warning(tmp_path, defines):
 
 
 @pytest.mark.skipif(reader.missing() is not None, reason=str(reader.missing()))
-def test_the_script_of_the_guide_compiles(tmp_path):
+def test_the_scripts_of_the_guide_compile(tmp_path):
     compile_layer(tmp_path)
-    (script,) = (block for block in blocks(REPOSITORY / "docs" / "guides" / "unity.md") if block.language == "csharp")
-    source = tmp_path / "ToTheStall.cs"
-    source.write_text(script.text)
-    compile_assembly(tmp_path / "Guide.dll", [source], LAYER, ())
+    scripts = [block for block in blocks(REPOSITORY / "docs" / "guides" / "unity.md") if block.language == "csharp"]
+    assert len(scripts) == 2
+    for number, script in enumerate(scripts):
+        source = tmp_path / f"Script{number}.cs"
+        source.write_text(script.text)
+        compile_assembly(tmp_path / f"Guide{number}.dll", [source], LAYER, ())
 
 
 @pytest.mark.skipif(reader.missing() is not None, reason=str(reader.missing()))

@@ -84,7 +84,7 @@ namespace Garage.Unity
 
         /// <summary>Labels (class) of objects that may move, and so are not static.</summary>
         [Tooltip("Labels (class) of objects that may move, and so are not static.")]
-        public string[] movableLabels = { "car", "van", "truck", "number_plate", "barrier" };
+        public string[] movableLabels = { "car", "van", "truck", "person", "number_plate", "barrier" };
 
         /// <summary>Makes cameras of the stage's, switched off.</summary>
         [Tooltip("Makes cameras of the stage's, switched off.")]

@@ -1,7 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.Globalization;
-using System.Text;
 using UnityEngine;
 
 namespace Garage.Unity
@@ -13,12 +11,9 @@ namespace Garage.Unity
     public sealed class LabelTable
     {
         readonly Dictionary<string, int> ids = new Dictionary<string, int>();
-        readonly byte[] json;
-        int at;
 
-        LabelTable(byte[] json)
+        LabelTable()
         {
-            this.json = json;
         }
 
         /// <summary>Number of objects.</summary>
@@ -37,156 +32,32 @@ namespace Garage.Unity
         /// and id. Throws FormatException.</summary>
         public static LabelTable Read(byte[] json)
         {
-            var table = new LabelTable(json);
-            table.Each('{', '}', () =>
+            var table = new LabelTable();
+            var reader = new JsonReader(json);
+            reader.EachKey(key =>
             {
-                bool isObjects = table.Key() == "objects";
-                if (isObjects) { table.Each('{', '}', table.Objects); }
-                else { table.Skip(0); }
+                if (key == "objects") { reader.EachKey(above => table.Objects(reader, above)); }
+                else { reader.Skip(); }
             });
             return table;
         }
 
-        void Objects()
+        void Objects(JsonReader reader, string above)
         {
-            string above = Key();
-            Each('[', ']', () =>
+            reader.Each('[', ']', () =>
             {
                 string name = null;
                 int id = 0, column = 0;
-                Each('[', ']', () =>
+                reader.Each('[', ']', () =>
                 {
-                    if (column == 0) { name = Text(); }
-                    else if (column == 1) { id = Number(); }
-                    else { Skip(0); }
+                    if (column == 0) { name = reader.Text(); }
+                    else if (column == 1) { id = reader.Whole(); }
+                    else { reader.Skip(); }
                     column++;
                 });
-                if (id <= 0) { throw Wrong("an object needs a name and an id"); }
+                if (id <= 0) { throw reader.Wrong("an object needs a name and an id"); }
                 ids[above + "/" + name] = id;
             });
-        }
-
-        FormatException Wrong(string what)
-        {
-            return new FormatException("byte " + at + ": " + what);
-        }
-
-        byte Next()
-        {
-            while (at < json.Length && json[at] <= ' ') { at++; }
-            if (at >= json.Length) { throw Wrong("the text ends too early"); }
-            return json[at];
-        }
-
-        void Expect(char letter)
-        {
-            if (Next() != letter) { throw Wrong("'" + letter + "' is missing"); }
-            at++;
-        }
-
-        void Each(char open, char close, Action one)
-        {
-            Expect(open);
-            if (Next() == close)
-            {
-                at++;
-                return;
-            }
-            for (;;)
-            {
-                one();
-                if (Next() == close)
-                {
-                    at++;
-                    return;
-                }
-                Expect(',');
-            }
-        }
-
-        string Key()
-        {
-            string key = Text();
-            Expect(':');
-            return key;
-        }
-
-        string Text()
-        {
-            Expect('"');
-            int start = at;
-            bool isPlain = true;
-            while (at < json.Length && json[at] != '"')
-            {
-                isPlain &= json[at] != '\\';
-                at += json[at] == '\\' ? 2 : 1;
-            }
-            if (at >= json.Length) { throw Wrong("a string does not end"); }
-            string text = Encoding.UTF8.GetString(json, start, at - start);
-            at++;
-            return isPlain ? text : Unescaped(text);
-        }
-
-        string Unescaped(string text)
-        {
-            var plain = new StringBuilder();
-            for (int i = 0; i < text.Length; i++)
-            {
-                if (text[i] != '\\')
-                {
-                    plain.Append(text[i]);
-                    continue;
-                }
-                char letter = text[++i];
-                int code;
-                int known = "nrtbf".IndexOf(letter);
-                if (letter != 'u')
-                {
-                    plain.Append(known < 0 ? letter : "\n\r\t\b\f"[known]);
-                    continue;
-                }
-                string digits = text.Substring(Math.Min(i + 1, text.Length - 1), Math.Min(4, text.Length - i - 1));
-                if (!int.TryParse(digits, NumberStyles.AllowHexSpecifier, CultureInfo.InvariantCulture, out code))
-                {
-                    throw Wrong("a letter is told wrongly");
-                }
-                plain.Append((char)code);
-                i += digits.Length;
-            }
-            return plain.ToString();
-        }
-
-        int Number()
-        {
-            Next();
-            long number = 0;
-            int start = at;
-            for (; at < json.Length && json[at] >= '0' && json[at] <= '9' && number <= int.MaxValue; at++)
-            {
-                number = 10 * number + json[at] - '0';
-            }
-            if (at == start || number > int.MaxValue) { throw Wrong("an id is no whole number"); }
-            return (int)number;
-        }
-
-        void Skip(int depth)
-        {
-            byte letter = Next();
-            if (depth > 100) { throw Wrong("values are nested too deep"); }
-            if (letter == '"') { Text(); }
-            else if (letter == '[') { Each('[', ']', () => Skip(depth + 1)); }
-            else if (letter == '{')
-            {
-                Each('{', '}', () =>
-                {
-                    Key();
-                    Skip(depth + 1);
-                });
-            }
-            else
-            {
-                while (at < json.Length && json[at] != ',' && json[at] != ']' && json[at] != '}') { at++; }
-            }
         }
 
         /// <summary>Numbers all labelled objects below a root: as the table says, and on from its largest id where it
@@ -210,7 +81,8 @@ namespace Garage.Unity
             foreach (SemanticLabels labels in rest) { labels.InstanceId = ++largest; }
         }
 
-        static string PathOf(Transform place, Dictionary<Transform, string> known)
+        /// <summary>The path of the prim that an object comes of; those that are known hold its root.</summary>
+        internal static string PathOf(Transform place, Dictionary<Transform, string> known)
         {
             string path;
             if (known.TryGetValue(place, out path)) { return path; }

@@ -31,8 +31,7 @@ _SHAPE = 512, 512
 
 def levels(value: Field) -> Pixels:
     """Quantise sRGB values to 8 bits."""
-    rounded: Pixels = np.clip(np.rint(value), 0, 255).astype(np.uint8)
-    return rounded
+    return np.clip(np.rint(value), 0, 255).astype(np.uint8)
 
 
 def shaded(value: Field, tint: tuple[float, float, float]) -> Pixels:

@@ -1,13 +1,12 @@
 """Car markets as data: shares of body classes and paints, and of cars parked nose out."""
 
-import tomllib
 from collections.abc import Mapping
 from functools import cache
-from importlib import resources
 from typing import Annotated, Literal, get_args
 
 from pydantic import AfterValidator, Field
 
+from garage2usd.common.documents import shipped_toml
 from garage2usd.common.settings import Settings, validated
 from garage2usd.config.vehicles import PAINTS, SEGMENTS
 
@@ -85,8 +84,7 @@ class Market(Settings):
 @cache
 def load_market(name: str) -> Market:
     """Load a market by its name, one of `MARKET_NAMES`."""
-    text = (resources.files("garage2usd.config.markets") / f"{name}.toml").read_text(encoding="utf-8")
-    return validated(Market, tomllib.loads(text), within="market")
+    return validated(Market, shipped_toml("garage2usd.config.markets", name), within="market")
 
 
 @cache

@@ -229,16 +229,12 @@ def _stain_lane(floor: _SquareStains, panel: Spec, setback_m: float, drawn: NDAr
         floor.put(f"{mark.value.capitalize()}_{slot}", spec, place, yaw, lift_m)
     there, variant, size, across, along = drawn[len(_ON_LANES)].tolist()
     if tile.axis_is_x is not None and there < rate * _BRAKED_SHARE:
-        yaw = edge_yaw_rad((Edge.LEFT if tile.axis_is_x else Edge.UP) if size < 1 / 2 else _positive_edge(tile))
+        ends = (Edge.LEFT, Edge.RIGHT) if tile.axis_is_x else (Edge.UP, Edge.DOWN)
+        yaw = edge_yaw_rad(ends[size >= 1 / 2])
         marks = TyreMarkSpec(int(variant * 2), _BRAKE_LENGTHS_M[int(size * 8) % 2])
         place = _offset_within(tile, setback_m, stain_box(marks, (0.0, 0.0), yaw), across, along)
         if place is not None:
             floor.put("BrakeMarks", marks, place, yaw, _TYRE_LIFT_M)
-
-
-def _positive_edge(tile: Tile) -> Edge:
-    """Return the edge of a straight lane square on the positive side of its axis."""
-    return Edge.RIGHT if tile.axis_is_x else Edge.DOWN
 
 
 def _drain_box(drain: Placement, spec: DrainSpec) -> Box:

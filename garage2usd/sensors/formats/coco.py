@@ -97,7 +97,7 @@ def coco_keypoints(frames: Iterable[tuple[CocoImage, Iterable[SlotRecord]]], *, 
     annotations: list[dict[str, Any]] = []
     for number, (image, records) in enumerate(frames, 1):
         images.append(image.entry(number))
-        grounds = [(record, _ground(record)) for record in records]
+        grounds = [(each, shapely.MultiPolygon(list(map(shapely.Polygon, each.outline_px)))) for each in records]
         found = [(record, ground) for record, ground in grounds if ground.area >= _LEAST_AREA_PX]
         for record, ground in found:
             annotations.append({"id": len(annotations) + 1, "image_id": number, **_annotation(record, ground)})
@@ -201,10 +201,6 @@ def _category_of(stall: Stall) -> int:
     if stall.use is StallUse.MOTORCYCLE:
         return _MOTORCYCLE_SLOT
     return _SLOT if stall.takes_cars else _KEPT_FREE
-
-
-def _ground(record: SlotRecord) -> shapely.MultiPolygon:
-    return shapely.MultiPolygon([shapely.Polygon(part) for part in record.outline_px])
 
 
 def _annotation(record: SlotRecord, ground: shapely.MultiPolygon) -> dict[str, Any]:

@@ -7,62 +7,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from garage2usd.common.documents import shipped_toml
 from garage2usd.objects import CLASSES
 from garage2usd.reading.labels import Labels
 
 Record = dict[str, Any]
 _NOISE, _DRIVEABLE, _MANMADE, _OTHER = "noise", "flat.driveable_surface", "static.manmade", "static.other"
-CATEGORIES = (
-    _NOISE,
-    "animal",
-    "human.pedestrian.adult",
-    "human.pedestrian.child",
-    "human.pedestrian.construction_worker",
-    "human.pedestrian.personal_mobility",
-    "human.pedestrian.police_officer",
-    "human.pedestrian.stroller",
-    "human.pedestrian.wheelchair",
-    "movable_object.barrier",
-    "movable_object.debris",
-    "movable_object.pushable_pullable",
-    "movable_object.trafficcone",
-    "static_object.bicycle_rack",
-    "vehicle.bicycle",
-    "vehicle.bus.bendy",
-    "vehicle.bus.rigid",
-    "vehicle.car",
-    "vehicle.construction",
-    "vehicle.emergency.ambulance",
-    "vehicle.emergency.police",
-    "vehicle.motorcycle",
-    "vehicle.trailer",
-    "vehicle.truck",
-    _DRIVEABLE,
-    "flat.other",
-    "flat.sidewalk",
-    "flat.terrain",
-    _MANMADE,
-    _OTHER,
-    "static.vegetation",
-    "vehicle.ego",
-)
+_TABLES = shipped_toml("garage2usd.sensors.formats", "nuscenes")
+CATEGORIES = tuple(_TABLES["categories"])
 """Categories of nuScenes-lidarseg; the index in the list is the value in its files."""
-BOXED = {
-    "car": "vehicle.car",
-    "van": "vehicle.car",
-    "truck": "vehicle.truck",
-    "traffic_cone": "movable_object.trafficcone",
-    "barrier": "movable_object.barrier",
-    "waste_bin": "movable_object.pushable_pullable",
-    "cardboard_box": "movable_object.debris",
-    "pallet": "movable_object.debris",
-    "bag": "movable_object.debris",
-    "shopping_trolley": "movable_object.pushable_pullable",
-    "pram": "human.pedestrian.stroller",
-    "bicycle": "vehicle.bicycle",
-    "motorbike": "vehicle.motorcycle",
-    "person": "human.pedestrian.adult",
-}
+BOXED: dict[str, str] = _TABLES["boxed"]
 """Semantic classes of objects with nuScenes boxes, and their categories."""
 _PARTS = {"number_plate": "vehicle.car"}
 """Semantic classes of parts of boxed objects, and the categories of those objects."""

@@ -1,6 +1,6 @@
 """ROS 2 bags of recordings: pictures with calibration, point clouds, and transforms of vehicle and sensors."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
 from typing import Any, Literal
@@ -148,8 +148,14 @@ class _Bag:
     def _points(self, shot: Shot, cloud: PointCloud, frame: str) -> object:
         rows = point_rows(cloud)
         fields = [
-            self._make("sensor_msgs/msg/PointField", name=name, offset=offset, datatype=kind, count=1)
-            for name, offset, kind in _fields()
+            self._make(
+                "sensor_msgs/msg/PointField",
+                name=name,
+                offset=offset,
+                datatype=_TYPE_OF[dtype.kind][dtype.itemsize],
+                count=1,
+            )
+            for name, (dtype, offset, *_) in (POINT_ROW.fields or {}).items()
         ]
         return self._make(
             "sensor_msgs/msg/PointCloud2",
@@ -193,12 +199,6 @@ class _Bag:
 
 def _stamp(shot: Shot) -> int:
     return _BEGINS_S * _NANOSECONDS + round(shot.time_s * _NANOSECONDS)
-
-
-def _fields() -> Iterator[tuple[str, int, int]]:
-    """Yield name, offset and type of each field of a point."""
-    for name, (dtype, offset, *_) in (POINT_ROW.fields or {}).items():
-        yield name, offset, _TYPE_OF[dtype.kind][dtype.itemsize]
 
 
 def _model(camera: Camera) -> Mapping[str, Any]:

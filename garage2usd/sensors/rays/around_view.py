@@ -76,8 +76,7 @@ class AroundView(Lens):
 
     def ground(self, pixels: ArrayLike) -> Floats:
         """Map pixels, shape (n, 2), to points (X, Y) of the ground; float64, shape (n, 2)."""
-        ground: Floats = (np.asarray(pixels, dtype=np.float64) - self.centre_px) * self.metres_per_px
-        return ground
+        return (np.asarray(pixels, dtype=np.float64) - self.centre_px) * self.metres_per_px
 
     def sectors(self, ground_m: ArrayLike) -> NDArray[np.int64]:
         """Return the index in `SECTORS` of each point (X, Y) of the ground; int64, shape (n,)."""
@@ -105,8 +104,7 @@ class AroundView(Lens):
             taken[taken] = self.sectors(ground[taken]) == sector
             shown[taken] = ground[taken]
             nearest_m[taken] = distance_m[taken]
-        pixels: Floats = shown / self.metres_per_px + self.centre_px
-        return pixels
+        return shown / self.metres_per_px + self.centre_px
 
     def rays(self, pixels: ArrayLike) -> Floats:
         """Return the rays of pixels from their cameras; NaN within the car and outside all fields of view."""
@@ -122,8 +120,7 @@ class AroundView(Lens):
 
     def starts(self, pixels: ArrayLike) -> Floats:
         """Return the positions of the cameras in whose sectors pixels lie; see `Lens.starts`."""
-        places: Floats = np.array([eye.place_m for eye in self.eyes])[self.sectors(self.ground(pixels))]
-        return places
+        return np.array([eye.place_m for eye in self.eyes])[self.sectors(self.ground(pixels))]
 
     def parameters(self) -> Mapping[str, object]:
         """Return the parameters of the around view and of its cameras; see `Lens.parameters`."""

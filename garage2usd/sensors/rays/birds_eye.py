@@ -53,8 +53,7 @@ class Orthographic(Lens):
 
     def project(self, points: ArrayLike) -> Floats:
         """Project points in metres orthographically to pixels; see `Lens.project`."""
-        pixels: Floats = np.asarray(points, dtype=np.float64)[:, :2] / self.metres_per_px + self.centre_px
-        return pixels
+        return np.asarray(points, dtype=np.float64)[:, :2] / self.metres_per_px + self.centre_px
 
     def rays(self, pixels: ArrayLike) -> Floats:
         """Return the parallel rays of pixels, which start at Z = 0; see `Lens.rays` and `starts`."""

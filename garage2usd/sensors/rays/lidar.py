@@ -237,7 +237,4 @@ def _intensity(
 
 def _directions(azimuth: NDArray[Any], elevation: NDArray[Any]) -> NDArray[np.float64]:
     level = np.cos(elevation)
-    directions: NDArray[np.float64] = np.stack(
-        [level * np.cos(azimuth), level * np.sin(azimuth), np.sin(elevation)], axis=1
-    )
-    return directions
+    return np.stack([level * np.cos(azimuth), level * np.sin(azimuth), np.sin(elevation)], axis=1)

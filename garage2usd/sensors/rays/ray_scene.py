@@ -289,8 +289,7 @@ def _pieces(placed: PlacedObject, part: DrawnPart, looks: MeshLooks) -> list[_Pi
 
 def _are_opaque(opacity: NDArray[np.float64], look: SurfaceLook) -> NDArray[np.bool_]:
     """Test if texels of a surface stop rays, by the material's own opacity threshold if it has one."""
-    opaque: NDArray[np.bool_] = opacity >= look.opacity_threshold if look.opacity_threshold else opacity > _OPAQUE
-    return opaque
+    return opacity >= look.opacity_threshold if look.opacity_threshold else opacity > _OPAQUE
 
 
 def _is_below(path: str, roots: Collection[str]) -> bool:

@@ -1,5 +1,6 @@
 """LiDAR reflectance: the share of a pulse that a surface returns, by material class and angle of incidence."""
 
+import fnmatch
 from enum import StrEnum
 from typing import Any, NamedTuple
 
@@ -7,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.assets import MATERIALS, Material, Touch, pascal_case
+from garage2usd.common.documents import shipped_toml
 from garage2usd.scenes.surfaces import SurfaceLook
 
 
@@ -46,22 +48,9 @@ class Reflectance(NamedTuple):
     exponent: float = 1.0
 
 
-REFLECTANCES = {
-    MaterialClass.CONCRETE: Reflectance(0.35, 0.35),
-    MaterialClass.ASPHALT: Reflectance(0.17, 0.17),
-    MaterialClass.COATING: Reflectance(0.15, 0.60, 0.10, 20.0),
-    MaterialClass.ROAD_PAINT: Reflectance(0.75, 0.75, 0.05, 10.0),
-    MaterialClass.LACQUER: Reflectance(0.05, 0.80, 0.30, 200.0),
-    MaterialClass.METAL: Reflectance(0.50, 0.50, 0.60, 20.0),
-    MaterialClass.PLASTIC: Reflectance(0.05, 0.70, 0.10, 30.0),
-    MaterialClass.RUBBER: Reflectance(0.04, 0.50),
-    MaterialClass.GLASS: Reflectance(0.10, 0.10, 0.80, 500.0),
-    MaterialClass.MIRROR: Reflectance(0.90, 0.90, 0.98, 2000.0),
-    MaterialClass.RETROREFLECTOR: Reflectance(10.0, 10.0),
-    MaterialClass.OTHER: Reflectance(0.05, 0.80),
-}
-"""Reflectance of each material class, typical values around 905 nm. Retroreflective prismatic sheeting returns many
-times the light of a white surface and saturates a sensor up to grazing angles."""
+_TABLES = shipped_toml("garage2usd.sensors.rays", "reflectance")
+REFLECTANCES = {MaterialClass(name): Reflectance(**given) for name, given in _TABLES["classes"].items()}
+"""Reflectance of each material class."""
 
 _OF_TOUCH = {
     Touch.CONCRETE: MaterialClass.CONCRETE,
@@ -71,41 +60,10 @@ _OF_TOUCH = {
     Touch.PLASTIC: MaterialClass.PLASTIC,
 }
 _OF_KEY = {
-    **dict.fromkeys(
-        (
-            "paint_white",
-            "paint_white_worn",
-            "paint_stall",
-            "paint_stall_worn",
-            "paint_edge",
-            "paint_number",
-            "paint_band",
-            "paint_ghost",
-            "paint_yellow",
-            "paint_fresh",
-            "paint_worn",
-        ),
-        MaterialClass.ROAD_PAINT,
-    ),
-    "asphalt_repair": MaterialClass.ASPHALT,
-    "floor_asphalt": MaterialClass.ASPHALT,
-    "floor_asphalt_patched": MaterialClass.ASPHALT,
-    "ceiling_insulation": MaterialClass.OTHER,
-    "glass": MaterialClass.GLASS,
-    "glass_dark": MaterialClass.GLASS,
-    "cabinet_glass": MaterialClass.GLASS,
-    "puddle_water": MaterialClass.GLASS,
-    "drain_gaps": MaterialClass.OTHER,
-    "mirror": MaterialClass.MIRROR,
-    **{key: MaterialClass.RETROREFLECTOR for key in MATERIALS if key.startswith("number_plate")},
-    "sign_blue": MaterialClass.RETROREFLECTOR,
-    "sign_ring": MaterialClass.RETROREFLECTOR,
-    "lamp_front": MaterialClass.PLASTIC,
-    "lamp_front_lit": MaterialClass.PLASTIC,
-    **dict.fromkeys(
-        [key for key in MATERIALS if key.startswith(("cloth_", "skin_", "hair_", "leather_", "cardboard", "wood_"))],
-        MaterialClass.OTHER,
-    ),
+    key: MaterialClass(name)
+    for name, patterns in _TABLES["materials"].items()
+    for pattern in patterns
+    for key in fnmatch.filter(MATERIALS, pattern)
 }
 """Material classes by material name, which the tactile profile does not determine."""
 _METALLIC = 0.5

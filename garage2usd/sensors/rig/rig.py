@@ -1,15 +1,13 @@
 """Sensor rigs: the cameras and LiDARs of a car or a column and their mounts, read from TOML into frozen models."""
 
-import tomllib
 from collections.abc import Mapping
 from functools import cache
-from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, ValidationInfo, field_validator
 
-from garage2usd.common.documents import read_toml
+from garage2usd.common.documents import read_toml, shipped_toml
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.settings import Settings, validated
 from garage2usd.config.files import absolute_in
@@ -179,5 +177,4 @@ def rig_from_mapping(settings: Mapping[str, Any]) -> Rig:
 
 @cache
 def _shipped(name: str) -> Rig:
-    text = (resources.files("garage2usd.sensors") / "rigs" / f"{name}.toml").read_text(encoding="utf-8")
-    return rig_from_mapping(tomllib.loads(text))
+    return rig_from_mapping(shipped_toml("garage2usd.sensors", f"rigs/{name}"))

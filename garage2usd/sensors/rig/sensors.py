@@ -324,8 +324,7 @@ class SpinningLidar(Lidar):
         """Elevation of each beam over the horizon."""
         if self.channels is None or self.lowest_deg is None or self.highest_deg is None:
             return self.elevations_deg
-        beams: tuple[float, ...] = tuple(np.linspace(self.lowest_deg, self.highest_deg, self.channels).tolist())
-        return beams
+        return tuple(np.linspace(self.lowest_deg, self.highest_deg, self.channels).tolist())
 
 
 class SolidStateLidar(Lidar):

@@ -200,7 +200,7 @@ class Looks:
             self.remarks.add(f"textures that {' and '.join(sorted(wraps - {'repeat'}))} outside are repeated", name)
 
 
-def read_scene(stage: Usd.Stage, path: Path) -> Scene:
+def read_scene(stage: Usd.Stage, path: Path, looks: Looks | None = None) -> Scene:
     """Read a stage as a viewer scene.
 
     Parameters
@@ -209,13 +209,15 @@ def read_scene(stage: Usd.Stage, path: Path) -> Scene:
         The stage.
     path
         The stage's file; ``<stem>_labels.json`` beside it provides the instance ids.
+    looks
+        Collects shapes and surfaces; the scene also has those that are added later, such as those of agents.
 
     Raises
     ------
     StageError
         If nothing in the stage can be drawn, or the file beside it is not a label table.
     """
-    looks = Looks()
+    looks = looks or Looks()
     objects = looks.objects(stage, metres_y_up(stage))
     if not objects:
         raise StageError(path, "nothing in it can be drawn")

@@ -11,7 +11,7 @@ from typing import Self
 from urllib.parse import urlsplit
 
 from garage2usd.common.errors import OutputError
-from garage2usd.driving.tracks import Tracks
+from garage2usd.view.viewer.agents import ShownTraffic
 from garage2usd.view.viewer.scene import Scene
 from garage2usd.view.viewer.wire import encode_colliders, encode_scene
 
@@ -106,9 +106,9 @@ class ViewerServer:
         self._thread.join()
         self._server.server_close()
 
-    def show(self, scene: Scene, tracks: Tracks | None = None) -> None:
-        """Publish a scene, and tracks to play in it; requests for it wait until then."""
-        self._encoded = encode_scene(scene, tracks)
+    def show(self, scene: Scene, traffic: ShownTraffic | None = None) -> None:
+        """Publish a scene, and traffic to play in it; requests for it wait until then."""
+        self._encoded = encode_scene(scene, traffic)
         self._scene = scene
         self._ready.set()
 

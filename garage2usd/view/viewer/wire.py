@@ -6,18 +6,19 @@ its type.
 """
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.assets import MATERIALS
-from garage2usd.assets.colours import material_colour
 from garage2usd.assets.light import EXPOSURE_EV
-from garage2usd.driving.tracks import Tracks
+from garage2usd.assets.skeletons import PARENTS
 from garage2usd.garage import Stall
 from garage2usd.reading.lanes import GUIDE_LIFT_M, Lanes
+from garage2usd.stage.cameras import FRAMES_PER_SECOND
+from garage2usd.stage.track_people import Gait, figure_of
+from garage2usd.view.viewer.agents import ShownSkin, ShownTraffic
 from garage2usd.view.viewer.reading import collider_lines
 from garage2usd.view.viewer.scene import Scene, Shape, moved
 
@@ -25,15 +26,18 @@ _MAGIC = b"G2UV"
 _ALIGNMENT = 4
 
 
-def encode_scene(scene: Scene, tracks: Tracks | None = None) -> bytes:
-    """Encode a scene, and tracks to play in it, in the format that the page reads (``web/src/scene_file.ts``)."""
+def encode_scene(scene: Scene, traffic: ShownTraffic | None = None) -> bytes:
+    """Encode a scene, and traffic to play in it, in the format that the page reads (``web/src/scene_file.ts``)."""
     buffers = _Buffers()
-    shapes = _shapes(scene.shapes, buffers)
-    labels = list(scene.counts())
-    paths, squares = [placed.path for placed in scene.objects], sorted({placed.square for placed in scene.objects})
+    skins = traffic.skins if traffic else {}
+    shapes = _shapes(scene.shapes, skins, buffers)
+    parts = [part for agent in traffic.agents for part in agent.parts] if traffic else []
+    objects = [*scene.objects, *parts]
+    labels = list(dict.fromkeys([*scene.counts(), *(part.label for part in parts)]))
+    paths, squares = [placed.path for placed in scene.objects], sorted({placed.square for placed in objects})
     square_of = {square: number for number, square in enumerate(squares)}
     label_of = {label: number for number, label in enumerate(labels)}
-    matrices = np.array([placed.matrix for placed in scene.objects])
+    matrices = np.array([placed.matrix for placed in objects])
     header: dict[str, Any] = {
         "name": scene.name,
         "facts": dict(scene.facts),
@@ -50,15 +54,15 @@ def encode_scene(scene: Scene, tracks: Tracks | None = None) -> bytes:
         "objects": {
             "paths": paths,
             "ids": [scene.ids.get(path, 0) for path in paths],
-            "label": buffers.add(np.array([label_of[placed.label] for placed in scene.objects], np.uint32)),
-            "square": buffers.add(np.array([square_of[placed.square] for placed in scene.objects], np.uint32)),
-            "shape": buffers.add(np.array([placed.shape for placed in scene.objects], np.uint32)),
-            "palette": buffers.add(np.array([placed.palette for placed in scene.objects], np.uint32)),
+            "label": buffers.add(np.array([label_of[placed.label] for placed in objects], np.uint32)),
+            "square": buffers.add(np.array([square_of[placed.square] for placed in objects], np.uint32)),
+            "shape": buffers.add(np.array([placed.shape for placed in objects], np.uint32)),
+            "palette": buffers.add(np.array([placed.palette for placed in objects], np.uint32)),
             # points are rows, so that the first three columns are the rows of the shader's matrix
             "matrix": buffers.add(matrices[:, :, :3].transpose(0, 2, 1).astype(np.float32)),
         },
         "lanes": _lanes(scene.lanes, buffers) if scene.lanes.nodes or scene.lanes.stalls else None,
-        "tracks": None if tracks is None else _tracks(tracks, buffers),
+        "tracks": None if traffic is None else _tracks(traffic, len(paths), buffers),
         "arrays": buffers.places,
     }
     text = json.dumps(header, separators=(",", ":"), allow_nan=False).encode()
@@ -91,39 +95,56 @@ class _Buffers:
         return len(self.places) - 1
 
 
-def _tracks(tracks: Tracks, buffers: _Buffers) -> dict[str, Any]:
-    """Header of tracks; appends times, poses and levels of all samples."""
+def _tracks(traffic: ShownTraffic, objects: int, buffers: _Buffers) -> dict[str, Any]:
+    """Header of tracks whose parts are numbered from `objects` on; appends times, poses and levels of all samples."""
+    tracks = [agent.track for agent in traffic.agents]
     firsts = np.cumsum([0, *map(len, tracks)]).tolist()
-    columns = ("time_s", "x_m", "y_m", "z_m", "yaw_rad", "pitch_rad")
-    samples = np.concatenate(
+    parts = np.cumsum([objects, *(len(agent.parts) for agent in traffic.agents)]).tolist()
+    columns = ("time_s", "x_m", "y_m", "z_m", "yaw_rad", "pitch_rad", "steering_rad")
+    samples = _joined(
         [
-            np.empty((0, len(columns))),
-            *(np.stack([getattr(track, name) for name in columns], axis=1) for track in tracks),
-        ]
-    ).astype(np.float32)
-    levels = np.concatenate([np.empty(0, np.uint32), *(track.level.astype(np.uint32) for track in tracks)])
+            np.stack([*(getattr(agent.track, name) for name in columns), agent.rolled_rad], axis=1)
+            for agent in traffic.agents
+        ],
+        np.float32,
+        len(columns) + 1,
+    )
     return {
-        "step": tracks.step_s,
-        "duration": tracks.duration_s,
+        "step": traffic.step_s,
+        "duration": traffic.duration_s,
         "agents": [
             {
-                "name": track.agent.name,
-                "kind": track.agent.kind,
-                "size": [track.agent.width_m, track.agent.height_m, track.agent.length_m],
-                "rgb": material_colour(MATERIALS[f"car_paint_{track.agent.paint}"]) if track.agent.paint else None,
-                "prim": track.agent.prim,
+                "name": agent.track.agent.name,
+                "kind": agent.track.agent.kind,
+                "size": [agent.track.agent.width_m, agent.track.agent.height_m, agent.track.agent.length_m],
+                "prim": agent.track.agent.prim,
                 "first": first,
-                "count": len(track),
+                "count": len(agent.track),
+                "parts": [
+                    {"object": number, "steers": "Front" in part.path, "rolls": part.path.endswith("Wheel")}
+                    for number, part in enumerate(agent.parts, start)
+                ],
+                "gait": agent.gait and _gait(agent.gait, figure_of(agent.track.agent)[2], buffers),
             }
-            for track, first in zip(tracks, firsts[:-1], strict=True)
+            for agent, first, start in zip(traffic.agents, firsts[:-1], parts[:-1], strict=True)
         ],
         "times": buffers.add(samples[:, 0]),
         "poses": buffers.add(samples[:, 1:]),
-        "levels": buffers.add(levels),
+        "levels": buffers.add(_joined([track.level for track in tracks], np.uint32)),
     }
 
 
-def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
+def _gait(gait: Gait, factor: float, buffers: _Buffers) -> dict[str, Any]:
+    """Header of the poses of a person; appends their times, rotations of joints, and places of the hips."""
+    return {
+        "factor": factor,
+        "times": buffers.add((gait.frames[gait.poses] / FRAMES_PER_SECOND).astype(np.float32)),
+        "rotations": buffers.add(gait.motion.rotations.astype(np.float32)),
+        "hips": buffers.add(gait.motion.hips_m.astype(np.float32)),
+    }
+
+
+def _shapes(shapes: Sequence[Shape], skins: Mapping[int, ShownSkin], buffers: _Buffers) -> dict[str, Any]:
     """Header of all shapes; appends their vertices and indices, translucent pieces last."""
     entries = []
     positions: list[NDArray[Any]] = []
@@ -132,7 +153,7 @@ def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
     slots: list[NDArray[Any]] = []
     indices: list[NDArray[Any]] = []
     vertices = triangles = 0
-    for shape in shapes:
+    for number, shape in enumerate(shapes):
         opaque: list[NDArray[np.uint32]] = []
         blended: list[NDArray[np.uint32]] = []
         first = 0
@@ -158,6 +179,7 @@ def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
                 "opaque": [3 * triangles, 3 * opaque_count],
                 "blended": [3 * (triangles + opaque_count), 3 * (count - opaque_count)],
                 "colliders": len(shape.colliders),
+                "skin": number in skins and _skin(skins[number], buffers),
                 "doubleSided": any(piece.mesh.double_sided for piece in shape.pieces),
                 "lights": [
                     {
@@ -179,6 +201,15 @@ def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
         "coordinates": buffers.add(_joined(coordinates, np.float32, 2)),
         "slots": buffers.add(_joined(slots, np.uint8)),
         "indices": buffers.add(_joined(indices, np.uint32, 3)),
+    }
+
+
+def _skin(skin: ShownSkin, buffers: _Buffers) -> dict[str, Any]:
+    return {
+        "joints": buffers.add(skin.joints),
+        "weights": buffers.add(skin.weights),
+        "rest": skin.rest_m.round(6).tolist(),
+        "parents": list(PARENTS),
     }
 
 

@@ -164,13 +164,12 @@ def compare(case, course):
     archive = new_archive(case.plan.archive_size, padded=len(ground.cells), steps=horizon)
     room = sarsa.new_room(ground, archive)
     memory = sarsa.new_memory(parameters, bits=case.table_bits)
-    curve, steps, episode = np.zeros(case.episodes), 0, 0
+    curve, steps, episode = np.zeros(case.episodes), np.zeros(1, np.int64), 0
     while episode < case.episodes:
         last = min(episode + case.batch, case.episodes)
-        done, more = sarsa.learn(ground, board, parameters, memory, archive, room, random, curve, episode, last)
-        steps += more
+        done = sarsa.learn(ground, board, parameters, memory, archive, room, random, curve, episode, last, steps)
         assert curve[:done].tolist() == course.curve[:done]
-        assert (steps, random[0], *memory.course.tolist()) == course.states[done]
+        assert (steps[0], random[0], *memory.course.tolist()) == course.states[done]
         if done < last:
             memory = sarsa.grown(memory)
         episode = done

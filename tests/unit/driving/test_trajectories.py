@@ -22,7 +22,7 @@ from garage2usd.driving import DesignCar, Gear, Pose
 from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.timing import timed
 from garage2usd.driving.trajectory import write_trajectory_csv, write_trajectory_json
-from garage2usd.driving.turns import _NODES, Steering, _write_straight, joining_pieces
+from garage2usd.driving.turns import NODES, Steering, _write_straight, joining_pieces
 from garage2usd.maps.drives import DrivePlanner
 
 DEFAULTS = DriveConfig().model_dump()
@@ -286,6 +286,6 @@ def test_the_straight_between_two_turns_is_that_of_their_chords(sharpness):
     first = np.array([-2.4, -1.0, -1e-3, 0.0, 1e-9, 0.5, 0.8, 2.4])
     found = np.zeros((len(first), 2))
     for row, angle in zip(found, first.tolist(), strict=True):
-        _write_straight(0.2, sharpness, _NODES, len(_NODES), across.real, across.imag, angle, turned, row)
+        _write_straight(0.2, sharpness, NODES, len(NODES), across.real, across.imag, angle, turned, row)
     expected = (across - steering.chords(first)) * np.exp(-1j * first) - steering.chords(turned - first)
     assert found @ [1, 1j] == pytest.approx(expected, abs=1e-12)

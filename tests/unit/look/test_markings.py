@@ -11,8 +11,9 @@ from garage2usd.assets import PaintedTexture
 from garage2usd.assets.colours import linear_rgb, material_colour
 from garage2usd.assets.glyphs import GLYPH_PITCH, GLYPH_WIDTH
 from garage2usd.config import GarageConfig
-from garage2usd.config.look import StallPattern
+from garage2usd.config.look import LookConfig, StallPattern
 from garage2usd.look import drawn_look, finishes_of
+from garage2usd.look.draws import _GROUPS
 from garage2usd.objects.panel import Paint, Surface
 from garage2usd.objects.stall_number import NumberFrameSpec, NumberSpec, WallNumberSpec
 from garage2usd.structure.grid import Cell
@@ -278,6 +279,11 @@ def test_no_numbers_where_fittings_have_none():
     config = GarageConfig(fittings={"stall_numbers": False}, look={"numbers": {"place": "wall"}})
     assert not config.fittings.stall_numbers
     assert not garage(numbers={"place": "none"}).layout.of_kind("stall_number")
+
+
+def test_the_shares_name_every_axis_of_a_look():
+    shares = {f"{group}.{axis}" for group, axes in _GROUPS.items() for axis in axes}
+    assert shares == set(LookConfig(drawn=True).axes)
 
 
 def test_most_drawn_lines_close_the_entry():

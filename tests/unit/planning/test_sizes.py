@@ -94,8 +94,8 @@ def test_annealed_lanes_keep_the_rules_and_the_books(seed, stretch_squares):
     before = improve(ground, board, sizes, room, random, 0, 0, 1.0, 1.0)
     keeps_rules = board.tally[FAULTS] == 0
     value = anneal_labels(
-        ground, board, new_trial_move(ground), sizes, room, random, 60_000, (0.6, 0.1), (4.0, 40.0, 5.0, 20.0),
-        4 * len(ground.squares),
+        ground, board, new_trial_move(ground), sizes, room, random, 60_000, np.array((0.6, 0.1)),
+        np.array((4.0, 40.0, 5.0, 20.0)), 4 * len(ground.squares),
     )  # fmt: skip
     found = structure_of(site, ground, board, sizes)
     assert not circulation(found).faults(ground.rules)

@@ -211,8 +211,8 @@ def text_writers(tree):
             modes = [word.value for word in [*call.args, *(each.value for each in call.keywords if each.arg == "mode")]
                      if isinstance(word, ast.Constant) and isinstance(word.value, str)]  # fmt: skip
             writes = any(set(mode) <= set("rwaxt+") and set(mode) & set("wax+") for mode in modes)
-            is_of_tar = isinstance(call.func, ast.Attribute) and getattr(call.func.value, "id", None) == "tarfile"
-            if name == "write_text" or (name in {"open", "fdopen"} and writes and not is_of_tar):
+            is_of_other = getattr(getattr(call.func, "value", None), "id", None) in {"tarfile", "av"}
+            if name == "write_text" or (name in {"open", "fdopen"} and writes and not is_of_other):
                 yield call
 
 

@@ -37,6 +37,27 @@ def test_arrivals_per_hour_are_those_asked_for():
     assert abs(np.mean(counts) - 90) < 5
 
 
+def test_as_many_leave_as_come_where_arrivals_are_asked_for():
+    settings = TrafficConfig(minutes=25, arrivals_per_hour=150.0)
+    came, left = [], []
+    for seed in range(60):
+        demand = drawn_demand(settings, 90, 165, np.random.default_rng(seed))
+        stays = [time + stay for time, stay in demand.arrivals]
+        came.append(len(stays))
+        left.append(sum(np.array([*demand.leave_s, *stays]) < 1500))
+    # both are 62.5 on average, with a standard deviation of the mean of about 1
+    assert abs(np.mean(came) - 62.5) < 4
+    assert abs(np.mean(left) - np.mean(came)) < 5
+
+
+def test_cars_that_stay_count_as_present():
+    settings = TrafficConfig(minutes=600, hour=8.0)
+    hours = np.array([8.0])
+    draws = [drawn_demand(settings, 60, 300, np.random.default_rng(seed), staying=90) for seed in range(20)]
+    present = 90 + np.mean([_present(demand, hours) for demand in draws])
+    assert abs(present / 300 - settings.occupancy(16.0)) <= 0.05
+
+
 def test_stays_are_log_normal():
     settings = TrafficConfig(minutes=1440, stay_minutes=50.0, stay_spread=0.6)
     stays = [stay for _, stay in drawn_demand(settings, 0, 2000, np.random.default_rng(1)).arrivals]

@@ -4,6 +4,7 @@ import math
 import pickle
 import xml.etree.ElementTree as ET
 from dataclasses import replace
+from operator import attrgetter
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ import garage2usd
 from garage2usd.as_built.garage import garage_as_made
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.vehicles import body_named
+from garage2usd.driving.tracks import Agent, AgentClass, AgentState
 from garage2usd.track_forms import TRACK_SUFFIXES, write_tracks
 
 
@@ -50,6 +52,7 @@ def test_each_form_is_whole_and_has_its_files_beside_it(written, garage, tracks,
     names = {suffix: sorted(file.suffix for file in files) for suffix, files in written.items()}
     assert names.pop(".csv") == [".csv", ".json"]
     assert names.pop(".xosc") == [".xodr", ".xosc"]
+    assert names.pop(".fcd.xml") == [".xml", ".xml"]
     assert all(len(files) == 1 for files in names.values())
     for suffix, files in written.items():
         assert files[0].name == f"run{suffix}"
@@ -106,7 +109,19 @@ def test_asam_finds_nothing_in_the_scenario(written, tmp_path):
     assert issues_of(written[".xosc"][0], tmp_path) == []
 
 
-def test_asam_s_utilities_read_the_trace(written, tracks):
+OSI_VALUES = [
+    attrgetter(f"{name}.{part}")
+    for name, parts in (
+        ("position", "xyz"),
+        ("orientation", ("yaw", "pitch")),
+        ("velocity", "xyz"),
+        ("acceleration", "xyz"),
+    )
+    for part in parts
+]
+
+
+def test_asam_s_utilities_read_the_trace_back_equal(written, tracks):
     from osi_utilities.tracefile.readers.multi import MultiTraceReader
 
     with MultiTraceReader() as reader:
@@ -116,6 +131,7 @@ def test_asam_s_utilities_read_the_trace(written, tracks):
     assert messages[0].version.version_major == 3
     times = np.array([message.timestamp.seconds + message.timestamp.nanos * 1e-9 for message in messages])
     assert np.diff(times) == pytest.approx(tracks.step_s)
+    assert {moving.id.value for message in messages for moving in message.moving_object} == {*range(1, len(tracks) + 1)}
     for number, track in enumerate(tracks, 1):
         rows = [
             (time, moving)
@@ -125,22 +141,26 @@ def test_asam_s_utilities_read_the_trace(written, tracks):
         ]
         own = np.array([time for time, _ in rows])
         assert own[[0, -1]] == pytest.approx(track.time_s[[0, -1]])
-        x, y, z, yaw, pitch = track.at(own).T
+        assert len(own) == round((track.time_s[-1] - track.time_s[0]) / tracks.step_s) + 1
         base = [moving.base for _, moving in rows]
-        places = np.array([(one.position.x, one.position.y, one.position.z) for one in base])
-        expected = np.stack([x, -z, y + track.agent.height_m / 2], axis=1)
-        assert np.abs(places - expected).max() < 1e-4
-        angles = np.array([(one.orientation.yaw, one.orientation.pitch) for one in base])
-        assert np.abs(angles[:, 0]).max() <= math.pi + 1e-5
+        told = np.array([[read(one) for read in OSI_VALUES] for one in base])
+        x, y, z, yaw, pitch = track.at(own).T
+        places = np.stack([x, -z, y + track.agent.height_m / 2], axis=1)
         ahead = nose(yaw, pitch)
-        assert np.stack([np.cos(angles[:, 0]), np.sin(angles[:, 0])], axis=1) == pytest.approx(
-            ahead[:, :2] / np.linalg.norm(ahead[:, :2], axis=1)[:, None], abs=1e-4
-        )
-        assert angles[:, 1] == pytest.approx(-pitch, abs=1e-4)
+        speed, rate = (np.interp(own, track.time_s, column) for column in (track.speed_m_s, track.acceleration_m_s2))
+        before = np.searchsorted(track.time_s, own + 1e-9, side="right") - 1
+        stands = np.isin(track.state[before], (AgentState.PARKED, AgentState.STANDS))
+        speed[stands] = rate[stands] = 0
+        heading = np.angle(np.exp(1j * (yaw + np.pi / 2)))
+        expected = [*places.T, heading, -pitch, *(ahead * speed[:, None]).T, *(ahead * rate[:, None]).T]
+        off = told - np.stack(expected, axis=1)
+        off[:, 3] = np.angle(np.exp(1j * off[:, 3]))
+        # equal to the last decimal that is written
+        assert np.abs(off).max() < 5.1e-6
+        assert np.abs(told[:, 3]).max() <= math.pi + 1e-5
         # velocities are rates of the places
-        speeds = np.array([(one.velocity.x, one.velocity.y, one.velocity.z) for one in base])
-        rates = np.gradient(places, own, axis=0)
-        assert np.median(np.linalg.norm(speeds - rates, axis=1)) < 0.02
+        rates = np.gradient(told[:, :3], own, axis=0)
+        assert np.median(np.linalg.norm(told[:, 5:8] - rates, axis=1)) < 0.02
         moving = rows[0][1]
         assert moving.source_reference[0].identifier[0] == track.agent.name
         kind = "TYPE_PEDESTRIAN" if track.agent.kind == "person" else "TYPE_VEHICLE"
@@ -222,6 +242,83 @@ def test_a_layer_and_a_table_are_read_by_their_readers(written, tracks):
 
     for suffix in (".parquet", ".csv"):
         assert len(read_tracks(written[suffix][0])) == len(tracks)
+
+
+def test_each_form_but_layers_carries_class_and_behaviour(garage, tracks, tmp_path):
+    """A child that runs, a trolley that rolls, and a car that drives the wrong way; a car of each class."""
+    person, trolley = (
+        named(tracks, "person_000"),
+        Agent("trolley", AgentClass.TROLLEY, 0.9, 0.6, 1.0, behaviour="rolls"),
+    )
+    child = replace(person, agent=replace(person.agent, name="child", height_m=1.2, behaviour="runs"))
+    car = named(tracks, "car_000")
+    wrong = replace(car, agent=replace(car.agent, name="wrong", behaviour="wrong_way"))
+    large = [
+        replace(car, agent=replace(car.agent, name=kind, kind=AgentClass(kind), body="")) for kind in ("van", "truck")
+    ]
+    busy = tracks_of(person, child, replace(person, agent=trolley), wrong, *large)
+    files = {
+        suffix: write_tracks(tmp_path / f"run{suffix}", busy, garage)
+        for suffix in (".xosc", ".fcd.xml", ".mcap", ".pkl")
+    }
+    agents = {track.agent.name: track.agent for track in busy}
+
+    entities = {one.get("name"): one[0] for one in ET.parse(files[".xosc"][0]).getroot().iter("ScenarioObject")}
+    tags = {name: entities[name].tag for name in agents}
+    assert tags == dict.fromkeys(agents, "Vehicle") | {
+        "person_000": "Pedestrian",
+        "child": "Pedestrian",
+        "trolley": "MiscObject",
+    }
+    assert [entities[name].get("vehicleCategory") for name in ("wrong", "van", "truck")] == ["car", "van", "truck"]
+    for name, agent in agents.items():
+        told = [one.get("value") for one in entities[name].iter("Property") if one.get("name") == "behaviour"]
+        assert told == ([agent.behaviour] if agent.behaviour else [])
+
+    rows = {one.get("id"): one for step in ET.parse(files[".fcd.xml"][0]).getroot() for one in step}
+    assert {name: row.tag for name, row in rows.items()} == dict.fromkeys(agents, "vehicle") | {
+        "person_000": "person",
+        "child": "person",
+        "trolley": "container",
+    }
+    types = {one.get("id"): one.attrib for one in ET.parse(files[".fcd.xml"][1]).getroot()}
+    assert {row.get("type") for row in rows.values()} == set(types)
+    assert {name: types[row.get("type")]["vClass"] for name, row in rows.items()} == {
+        "person_000": "pedestrian",
+        "child": "pedestrian",
+        "trolley": "container",
+        "wrong": "passenger",
+        "van": "delivery",
+        "truck": "truck",
+    }
+    assert rows["child"].get("type") == "person.runs"
+    assert float(types["person.runs"]["height"]) == 1.2
+
+    from osi_utilities.tracefile.readers.multi import MultiTraceReader
+
+    with MultiTraceReader() as reader:
+        assert reader.open(files[".mcap"][0])
+        moving = {
+            one.source_reference[0].identifier[0]: one for result in reader for one in result.message.moving_object
+        }
+    assert {name: one.type for name, one in moving.items()} == {
+        name: getattr(
+            one, {"person": "TYPE_PEDESTRIAN", "shopping_trolley": "TYPE_OTHER"}.get(agents[name].kind, "TYPE_VEHICLE")
+        )
+        for name, one in moving.items()
+    }
+    for name, agent in agents.items():
+        assert [*moving[name].source_reference[0].identifier] == [name, agent.behaviour][: 1 + bool(agent.behaviour)]
+
+    told = pickle.loads(files[".pkl"][0].read_bytes())["tracks"]  # noqa: S301 - our own
+    assert {name: one["type"] for name, one in told.items()} == dict.fromkeys(agents, "VEHICLE") | {
+        "person_000": "PEDESTRIAN",
+        "child": "PEDESTRIAN",
+        "trolley": "OTHER",
+    }
+    assert {name: (one["metadata"]["class"], one["metadata"]["behaviour"]) for name, one in told.items()} == {
+        name: (agent.kind, agent.behaviour) for name, agent in agents.items()
+    }
 
 
 def test_an_empty_garage_is_written_in_each_form(garage, tracks, tmp_path):

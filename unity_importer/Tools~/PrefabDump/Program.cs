@@ -31,7 +31,7 @@ namespace Garage.Unity.Dump
     /// <c>time FILE COUNT</c> what it costs, <c>load FILE</c> what the loader of players makes, <c>ways FILE FROM TO
     /// ...</c> ways between
     /// stalls, <c>near FILE X Y Z ...</c> the nearest lanes, <c>drive FILE COUNT</c> where the sample is at so many
-    /// tenths of a second; <c>batch</c> takes such commands from lines of the standard input, parts separated
+    /// tenths of a second, <c>traffic FILE TABLE SECOND ...</c> where agents of tracks are; <c>batch</c> takes such commands from lines of the standard input, parts separated
     /// by tabs.
     /// </summary>
     static class Program
@@ -53,7 +53,8 @@ namespace Garage.Unity.Dump
             if (arguments.Length < 2)
             {
                 Console.Error.WriteLine("usage: PrefabDump prefab FILE [SETTING=VALUE ...] | time FILE COUNT | load FILE"
-                    + " | ways FILE FROM TO ... | near FILE X Y Z ... | drive FILE COUNT | batch");
+                    + " | ways FILE FROM TO ... | near FILE X Y Z ... | drive FILE COUNT | traffic FILE TABLE SECOND ..."
+                    + " | batch");
                 return 2;
             }
             output.WriteLine(Answer(arguments));
@@ -91,6 +92,7 @@ namespace Garage.Unity.Dump
                 case "ways": return LaneDump.Ways(Imported(file, new string[0]), rest);
                 case "drive": return LaneDump.Drive(Imported(file, new string[0]), int.Parse(rest[0]));
                 case "near": return LaneDump.Near(Imported(file, new string[0]), rest);
+                case "traffic": return TrafficDump.Play(Imported(file, new string[0]), rest);
                 default: return "{\"error\":\"unknown command\"}";
             }
         }

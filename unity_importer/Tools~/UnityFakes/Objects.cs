@@ -181,6 +181,16 @@ namespace UnityEngine
         }
     }
 
+    public enum PrimitiveType { Sphere = 0, Capsule = 1, Cylinder = 2, Cube = 3, Plane = 4, Quad = 5 }
+
+    /// <summary>A file of text in a project.</summary>
+    public class TextAsset : Object
+    {
+        internal byte[] stored = new byte[0];
+
+        public byte[] bytes { get { return (byte[])stored.Clone(); } }
+    }
+
     public sealed class GameObject : Object
     {
         // the transform first; few enough to look through
@@ -212,6 +222,25 @@ namespace UnityEngine
         public void SetActive(bool value)
         {
             isActive = value;
+        }
+
+        /// <summary>Its mesh is empty; its collider tells its size: of a cube 1, of the others 2 up and 1
+        /// across.</summary>
+        public static GameObject CreatePrimitive(PrimitiveType type)
+        {
+            var made = new GameObject(type.ToString());
+            made.AddComponent<MeshFilter>().sharedMesh = new Mesh();
+            made.AddComponent<MeshRenderer>();
+            if (type == PrimitiveType.Cube) { made.AddComponent<BoxCollider>().size = Vector3.one; }
+            else if (type == PrimitiveType.Capsule || type == PrimitiveType.Cylinder)
+            {
+                CapsuleCollider collider = made.AddComponent<CapsuleCollider>();
+                collider.radius = 0.5f;
+                collider.height = 2;
+                collider.direction = 1;
+            }
+            else { throw new NotSupportedException("no " + type + " is made here"); }
+            return made;
         }
 
         public T AddComponent<T>() where T : Component

@@ -20,6 +20,8 @@ class Batch {
   private shown: Uint32Array;
   private shownCount = -1;
   count = 0;
+  /** Whether one of the listed objects may have moved. */
+  moved = false;
   private readonly buffer: THREE.InstancedInterleavedBuffer;
 
   constructor(
@@ -49,7 +51,7 @@ class Batch {
     const { count, list } = this;
     this.mesh.visible = count > 0;
     (this.mesh.geometry as THREE.InstancedBufferGeometry).instanceCount = count;
-    let same = count === this.shownCount;
+    let same = count === this.shownCount && !this.moved;
     for (let k = 0; same && k < count; k++) same = list[k] === this.shown[k];
     if (same || count === 0) return;
     const data = this.buffer.array as Float32Array;
@@ -81,6 +83,8 @@ export interface Drawn {
 
 export class Instances {
   readonly group = new THREE.Group();
+  /** Objects of agents that are there. */
+  moving: number[] = [];
   readonly drawn: Drawn = { objects: 0, triangles: 0, calls: 0 };
   /** Whether each object is in a layer that is on. */
   readonly visible: Uint8Array;
@@ -91,6 +95,7 @@ export class Instances {
   private readonly frustum = new THREE.Frustum();
   private readonly projection = new THREE.Matrix4();
   private readonly box = new THREE.Box3();
+  private readonly sphere = new THREE.Sphere();
 
   private constructor(
     private readonly scene: SceneFile,
@@ -98,11 +103,12 @@ export class Instances {
     private readonly chunks: Chunk[],
     materials: SurfaceMaterials,
   ) {
-    this.visible = new Uint8Array(scene.count).fill(1);
-    this.instances = new Float32Array(STRIDE * scene.count);
-    this.scales = new Float32Array(scene.count);
+    const total = scene.shape.length;
+    this.visible = new Uint8Array(total).fill(1);
+    this.instances = new Float32Array(STRIDE * total);
+    this.scales = new Float32Array(total);
     const members = new Uint32Array(scene.shapes.length);
-    for (let object = 0; object < scene.count; object++) {
+    for (let object = 0; object < total; object++) {
       members[scene.shape[object]] += 1;
       const matrix = scene.matrix.subarray(12 * object, 12 * object + 12);
       this.scales[object] = Math.max(...[0, 1, 2].map((axis) => Math.hypot(matrix[axis], matrix[axis + 4], matrix[axis + 8])));
@@ -120,7 +126,7 @@ export class Instances {
 
   private batchesOf(number: number, members: number, materials: SurfaceMaterials): ShapeBatches {
     const { scene } = this;
-    const { vertices, opaque, blended, doubleSided } = scene.shapes[number];
+    const { vertices, opaque, blended, doubleSided, skin } = scene.shapes[number];
     const [first, count] = vertices;
     const geometry = new THREE.BufferGeometry();
     const positions = scene.positions.subarray(3 * first, 3 * (first + count));
@@ -128,9 +134,13 @@ export class Instances {
     geometry.setAttribute("normal", new THREE.BufferAttribute(scene.normals.subarray(4 * first, 4 * (first + count)), 4, true));
     geometry.setAttribute("uv", new THREE.BufferAttribute(scene.coordinates.subarray(2 * first, 2 * (first + count)), 2));
     geometry.setAttribute("slot", new THREE.BufferAttribute(scene.slots.subarray(first, first + count), 1));
+    if (skin) {
+      geometry.setAttribute("joints", new THREE.BufferAttribute(scene.bytes(skin.joints), 4));
+      geometry.setAttribute("weights", new THREE.BufferAttribute(scene.bytes(skin.weights), 4, true));
+    }
     const box = this.boxes.local.subarray(6 * number, 6 * number + 6);
     const radius = Math.hypot(box[3] - box[0], box[4] - box[1], box[5] - box[2]) / 2;
-    const material = doubleSided ? materials.opaqueTwoSided : materials.opaque;
+    const material = skin ? materials.skinned : doubleSided ? materials.opaqueTwoSided : materials.opaque;
     const levels: Batch[] = [];
     const strays: number[] = [];
     if (opaque[1]) {
@@ -162,6 +172,13 @@ export class Instances {
     return { levels, strays, blended: glass, radius };
   }
 
+  /** Put an object of an agent somewhere; `person` is the number of its skin's pose. */
+  move(object: number, matrix: THREE.Matrix4, person = 0): void {
+    const e = matrix.elements;
+    for (let row = 0; row < 3; row++) for (let k = 0; k < 4; k++) this.instances[STRIDE * object + 4 * row + k] = e[4 * k + row];
+    this.instances[STRIDE * object + 15] = person;
+  }
+
   /** Choose what is drawn, and how finely; `coarse` from 1 on makes it coarser. */
   update(camera: THREE.PerspectiveCamera, heightPx: number, coarse: number): void {
     const { scene, boxes, box, frustum } = this;
@@ -170,10 +187,23 @@ export class Instances {
     const least = coarse > 1 ? 2 * LEAST_PX : LEAST_PX;
     const pixels = heightPx / (2 * Math.tan((camera.fov * Math.PI) / 360));
     const { x, y, z } = camera.position;
-    for (const { levels, blended } of this.shapes) {
-      for (const batch of levels) batch.count = 0;
-      if (blended) blended.count = 0;
+    const all = this.shapes.flatMap(({ levels, blended }) => (blended ? [...levels, blended] : levels));
+    for (const batch of all) {
+      batch.count = 0;
+      batch.moved = false;
     }
+    const list = (object: number, distance: number, reach: number, moved: boolean) => {
+      if ((pixels * reach) / distance < least) return;
+      const { levels, strays, blended } = this.shapes[scene.shape[object]];
+      const most = (STRAY_PX * coarse * distance) / (pixels * this.scales[object]);
+      let level = levels.length - 1;
+      while (level > 0 && strays[level] > most) level -= 1;
+      for (const batch of [levels[level], blended]) {
+        if (!batch) continue;
+        batch.list[batch.count++] = object;
+        batch.moved ||= moved;
+      }
+    };
     for (const chunk of this.chunks) {
       box.min.fromArray(chunk.box, 0);
       box.max.fromArray(chunk.box, 3);
@@ -188,20 +218,18 @@ export class Instances {
         const dx = Math.max(w[at] - x, 0, x - w[at + 3]);
         const dy = Math.max(w[at + 1] - y, 0, y - w[at + 4]);
         const dz = Math.max(w[at + 2] - z, 0, z - w[at + 5]);
-        const distance = Math.max(0.05, Math.hypot(dx, dy, dz));
         const reach = Math.hypot(w[at + 3] - w[at], w[at + 4] - w[at + 1], w[at + 5] - w[at + 2]);
-        const size = (pixels * reach) / distance;
-        if (size < least) continue;
-        const { levels, strays, blended } = this.shapes[scene.shape[object]];
-        if (levels.length) {
-          const most = (STRAY_PX * coarse * distance) / (pixels * this.scales[object]);
-          let level = levels.length - 1;
-          while (level > 0 && strays[level] > most) level -= 1;
-          const batch = levels[level];
-          batch.list[batch.count++] = object;
-        }
-        if (blended) blended.list[blended.count++] = object;
+        list(object, Math.max(0.05, Math.hypot(dx, dy, dz)), reach, false);
       }
+    }
+    for (const object of this.moving) {
+      const { radius } = this.shapes[scene.shape[object]];
+      const at = STRIDE * object;
+      this.sphere.center.set(this.instances[at + 3], this.instances[at + 7], this.instances[at + 11]);
+      // origins of cars and people lie within their bodies' spheres
+      this.sphere.radius = 2 * radius;
+      if (!frustum.intersectsSphere(this.sphere)) continue;
+      list(object, Math.max(0.05, this.sphere.center.distanceTo(camera.position) - radius), 2 * radius, true);
     }
     const { drawn } = this;
     drawn.objects = drawn.triangles = drawn.calls = 0;

@@ -223,7 +223,7 @@ function drawShade(
   { level, floor }: { level: number; floor: number },
 ): void {
   for (let object = 0; object < scene.count; object++) {
-    if (scene.level[object] !== level || !SHADING.has(scene.labelOf(object)) || boxes.world[6 * object + 1] > floor + 0.6) continue;
+    if (scene.replaced.has(object) || scene.level[object] !== level || !SHADING.has(scene.labelOf(object)) || boxes.world[6 * object + 1] > floor + 0.6) continue;
     fill(context, footprint(scene, boxes, object));
   }
 }

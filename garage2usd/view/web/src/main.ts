@@ -26,7 +26,8 @@ const HINTS = {
   walk: "W A S D: walk · Shift: run · Mouse or drag: look · Click: what is it · Esc: free the mouse · 1: orbit",
 };
 
-type Mode = "orbit" | "walk";
+/** One rides along with an agent in pictures of a film. */
+type Mode = "orbit" | "walk" | "ride";
 
 class Viewer {
   readonly renderer: THREE.WebGLRenderer;
@@ -50,6 +51,8 @@ class Viewer {
   firstFrameMs = 0;
   /** Milliseconds that the latest pictures took to draw, while moving. */
   readonly frameTimes: number[] = [];
+  private filming = false;
+  private filmScale = 1;
   private dirty = true;
   private cut: boolean | null = null;
   private last = performance.now();
@@ -82,7 +85,7 @@ class Viewer {
     this.orbit.zoomToCursor = true;
     this.orbit.addEventListener("change", () => this.touch());
     this.world.add(instances.group, this.colliders.group, this.frame.lines);
-    this.traffic = scene.tracks && new Traffic(scene, scene.tracks, () => this.touch());
+    this.traffic = scene.tracks && new Traffic(scene, scene.tracks, instances, materials.bones, () => this.touch());
     if (this.traffic) {
       this.world.add(this.traffic.group);
       this.traffic.listen();
@@ -139,6 +142,7 @@ class Viewer {
   }
 
   private tick(now: number): void {
+    if (this.filming) return;
     const elapsed = (now - this.last) / 1000;
     const seconds = Math.min(0.1, elapsed);
     this.last = now;
@@ -185,18 +189,63 @@ class Viewer {
     this.renderer.setPixelRatio(window.devicePixelRatio);
   }
 
+  /**
+   * Show nothing but the picture, `scale` times as fine as it is given out, for `still`: from above a level, or from the
+   * eyes of an agent.
+   */
+  film(camera: string, level: number, scale: number): void {
+    this.filming = true;
+    document.documentElement.dataset["film"] = "yes";
+    this.filmScale = scale;
+    this.resize();
+    const rider = this.scene.tracks?.agents.findIndex(({ name }) => name === camera) ?? -1;
+    if (this.traffic) this.traffic.rider = rider;
+    if (rider >= 0) this.setMode("ride");
+    else {
+      this.setLevel(level);
+      this.overview();
+    }
+    this.quality.settle();
+    this.renderer.setPixelRatio(scale);
+  }
+
+  /** The picture at a time, as the address of a PNG. */
+  still(time: number): string {
+    this.traffic?.seek(time);
+    this.quality.settle();
+    this.draw();
+    const { domElement: drawn } = this.renderer;
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [drawn.width / this.filmScale, drawn.height / this.filmScale];
+    const context = canvas.getContext("2d");
+    if (!context) throw new Error("The browser gives no canvas.");
+    context.imageSmoothingQuality = "high";
+    context.drawImage(drawn, 0, 0, canvas.width, canvas.height);
+    return canvas.toDataURL("image/png");
+  }
+
+  private ride(): void {
+    const { traffic, camera } = this;
+    if (!traffic) return;
+    const { place, yaw, pitch } = traffic.eyesOf(traffic.rider, this.scene.header.facts["drivesOn"] === "left");
+    camera.position.copy(place);
+    camera.rotation.set(pitch, yaw, 0, "YXZ");
+  }
+
   private draw(): void {
     this.dirty = false;
     const { camera } = this;
     if (this.mode === "walk") this.walker.place(camera);
-    camera.near = this.mode === "walk" ? 0.06 : Math.max(0.1, 0.02 * this.orbit.getDistance());
+    if (this.mode === "ride") this.ride();
+    camera.near = this.mode !== "orbit" ? 0.06 : Math.max(0.1, 0.02 * this.orbit.getDistance());
     camera.far = 60 + 3 * this.reach;
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
     if (this.mode === "walk") this.setLevel(this.levelAt(this.walker.feet.y));
+    if (this.mode === "ride") this.setLevel(this.levelAt(camera.position.y - 1));
     this.cutAway(camera.position.y > this.ceilingHeights[this.level]);
     const ratio = this.renderer.getPixelRatio();
-    this.traffic?.place(this.mode === "walk" ? 0 : this.level);
+    this.traffic?.place(this.mode === "orbit" ? this.level : 0);
     this.instances.update(camera, element("view").clientHeight * ratio, this.quality.moving ? this.quality.coarse : 1);
     this.renderer.render(this.world, camera);
     this.map.draw(this.eye(), this.selected < 0 ? null : footprint(this.scene, this.boxes, this.selected));
@@ -271,13 +320,13 @@ class Viewer {
   applyLayers(): void {
     const labels = this.scene.header.labels.map((label) => !this.hiddenLabels.has(label));
     const { visible } = this.instances;
-    const top = this.mode === "walk" ? 0 : this.level;
-    for (let object = 0; object < this.scene.count; object++) {
-      const level = this.scene.level[object];
-      const isCut = level === this.level && this.cut === true && OVERHEAD.has(this.scene.labelOf(object));
+    const top = this.mode === "orbit" ? this.level : 0;
+    for (let object = 0; object < visible.length; object++) {
+      const level = this.scene.level[object] ?? top;
+      const isCut = object < this.scene.count && level === this.level && this.cut === true && OVERHEAD.has(this.scene.labelOf(object));
       visible[object] = level >= top && !isCut && labels[this.scene.label[object]] ? 1 : 0;
     }
-    for (const object of this.traffic?.replaced ?? []) visible[object] = 0;
+    for (const object of this.scene.replaced) visible[object] = 0;
     for (const guide of [this.lanes, this.stalls]) guide?.children.forEach((child, level) => (child.visible = level >= top));
     if (this.colliders.group.visible) this.colliders.show(visible);
     this.touch();
@@ -369,6 +418,8 @@ class Viewer {
     const corners = [[x0, z0], [x1, z0], [x1, z1], [x0, z1]].map(([x, z]) => new THREE.Vector3(x, this.floor, z));
     this.orbit.target.set((x0 + x1) / 2, this.floor, (z0 + z1) / 2);
     const away = new THREE.Vector3(0.1, 1, 0.62).normalize();
+    // a film has the long side across
+    if (this.filming) away.set(x1 - x0 < z1 - z0 ? 0.5 : 0, 1, x1 - x0 < z1 - z0 ? 0 : 0.5).normalize();
     // as near as all corners stay clear of the panels
     const free = this.freeView();
     for (let distance = 10; distance < 1e4; distance *= 1.04) {
@@ -388,6 +439,7 @@ class Viewer {
 
   /** What no panel covers, from -1 to 1 as a camera has it. */
   private freeView(): { left: number; right: number; bottom: number; top: number } {
+    if (this.filming) return { left: -0.97, right: 0.97, bottom: -0.97, top: 0.92 };
     const [width, height] = [window.innerWidth, window.innerHeight];
     const [bar, layers, map] = ["bar", "layers", "map"].map((id) => element(id).getBoundingClientRect());
     return {
@@ -427,10 +479,10 @@ class Viewer {
     this.walker.active = mode === "walk";
     this.walker.release();
     this.orbit.enabled = mode === "orbit";
-    this.camera.fov = mode === "walk" ? WALK_FOV : ORBIT_FOV;
+    this.camera.fov = mode === "orbit" ? ORBIT_FOV : WALK_FOV;
     element("mode-orbit").ariaPressed = String(mode === "orbit");
     element("mode-walk").ariaPressed = String(mode === "walk");
-    element("hints").textContent = HINTS[mode];
+    element("hints").textContent = mode === "ride" ? "" : HINTS[mode];
     document.documentElement.dataset["mode"] = mode;
     if (mode === "orbit" && document.pointerLockElement) document.exitPointerLock();
     this.applyLayers();

@@ -38,6 +38,11 @@ export class Quality {
     this.rested = false;
   }
 
+  /** Take the picture as one that stands still. */
+  settle(): void {
+    this.rested = true;
+  }
+
   get moving(): boolean {
     return !this.rested;
   }

@@ -36,6 +36,8 @@ export interface Shape {
   /** How many colliders it has. */
   colliders: number;
   doubleSided: boolean;
+  /** Of a person: arrays of the four joints of each vertex and their weights, and the joints at rest. */
+  skin: { joints: number; weights: number; rest: [number, number, number][]; parents: number[] } | false;
   lights: Light[];
 }
 
@@ -113,15 +115,17 @@ export interface Agent {
   kind: string;
   /** Width, height and length. */
   size: [number, number, number];
-  /** Linear; none of a person. */
-  rgb: [number, number, number] | null;
   /** Path of the parked car of the stage that it is; empty for others. */
   prim: string;
   first: number;
   count: number;
+  /** Numbers of its objects; wheels roll, and those in front also steer. */
+  parts: { object: number; steers: boolean; rolls: boolean }[];
+  /** Arrays of the poses of a person, and the factor from its figure to its stature. */
+  gait: { factor: number; times: number; rotations: number; hips: number } | null;
 }
 
-/** Five numbers a sample: x, y, z, yaw and pitch. */
+/** Seven numbers a sample: x, y, z, yaw, pitch, steering and the turn of the wheels. */
 export interface TrackFile {
   step: number;
   duration: number;
@@ -143,6 +147,7 @@ export interface Lanes {
 
 export class SceneFile {
   readonly header: Header;
+  private readonly start: number;
   readonly shapes: Shape[];
   readonly positions: Float32Array;
   readonly normals: Int8Array;
@@ -161,15 +166,18 @@ export class SceneFile {
   readonly matrix: Float32Array;
   readonly lanes: Lanes | null;
   readonly tracks: TrackFile | null;
+  /** Parked cars of the stage that are agents, and their number plates. */
+  readonly replaced = new Set<number>();
 
-  constructor(data: ArrayBuffer) {
+  constructor(private readonly data: ArrayBuffer) {
     const head = new DataView(data);
     if (head.getUint32(0, true) !== MAGIC) throw new Error("This is no scene of garage2usd.");
     const size = head.getUint32(4, true);
     this.header = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 8, size))) as Header;
     const { arrays, shapes, objects, lanes } = this.header;
     const at = (number: number) => 8 + size + arrays[number].at;
-    const floats = (number: number) => new Float32Array(data, at(number), arrays[number].count);
+    this.start = 8 + size;
+    const floats = (number: number) => this.floats(number);
     const words = (number: number) => new Uint32Array(data, at(number), arrays[number].count);
     this.shapes = shapes.entries;
     this.positions = floats(shapes.positions);
@@ -189,6 +197,22 @@ export class SceneFile {
     this.lanes = lanes && { ...lanes, nodes: floats(lanes.nodes), edges: words(lanes.edges) };
     const { tracks } = this.header;
     this.tracks = tracks && { ...tracks, times: floats(tracks.times), poses: floats(tracks.poses), levels: words(tracks.levels) };
+    const numberOf = new Map(this.paths.map((path, object) => [path, object]));
+    for (const { prim } of tracks?.agents ?? [])
+      for (const path of [prim, prim.replace(/\/Car_(\d+)$/, "/NumberPlate_$1")]) {
+        const object = numberOf.get(path);
+        if (object !== undefined) this.replaced.add(object);
+      }
+  }
+
+  floats(number: number): Float32Array {
+    const { at, count } = this.header.arrays[number];
+    return new Float32Array(this.data, this.start + at, count);
+  }
+
+  bytes(number: number): Uint8Array {
+    const { at, count } = this.header.arrays[number];
+    return new Uint8Array(this.data, this.start + at, count);
   }
 
   /** How many levels there are, at least one. */
@@ -196,6 +220,7 @@ export class SceneFile {
     return Math.max(1, this.header.levels.length);
   }
 
+  /** How many objects the stage has; those of agents follow them. */
   get count(): number {
     return this.paths.length;
   }
@@ -207,7 +232,8 @@ export class SceneFile {
   /** How many objects each class has, in the order of `header.labels`. */
   counts(): number[] {
     const counts = this.header.labels.map(() => 0);
-    for (const label of this.label) counts[label] += 1;
+    for (let object = 0; object < this.count; object++) if (!this.replaced.has(object)) counts[this.label[object]] += 1;
+    for (const { parts } of this.tracks?.agents ?? []) counts[this.label[parts[0].object]] += 1;
     return counts;
   }
 }

@@ -20,12 +20,32 @@ varying vec3 vPlace;
 varying vec3 vNormalW;
 varying vec2 vCoordinate;
 
+#ifdef SKINNED
+attribute vec4 joints;
+attribute vec4 weights;
+uniform highp sampler2D bones; // three rows for each joint, a line for each person
+
+vec4 boneRow(int row) {
+  vec4 blended = vec4(0.0);
+  for (int k = 0; k < 4; k++) blended += weights[k] * texelFetch(bones, ivec2(3 * int(joints[k]) + row, int(info.w + 0.5)), 0);
+  return blended;
+}
+#endif
+
 void main() {
   vec4 p = vec4(position, 1.0);
+  vec3 facing = normal;
+#ifdef SKINNED
+  vec4 bone0 = boneRow(0);
+  vec4 bone1 = boneRow(1);
+  vec4 bone2 = boneRow(2);
+  p = vec4(dot(bone0, p), dot(bone1, p), dot(bone2, p), 1.0);
+  facing = vec3(dot(bone0.xyz, normal), dot(bone1.xyz, normal), dot(bone2.xyz, normal));
+#endif
   vPlace = vec3(dot(row0, p), dot(row1, p), dot(row2, p));
   // cofactors turn normals whatever the scale
   vNormalW = vec3(
-    dot(cross(row1.xyz, row2.xyz), normal), dot(cross(row2.xyz, row0.xyz), normal), dot(cross(row0.xyz, row1.xyz), normal));
+    dot(cross(row1.xyz, row2.xyz), facing), dot(cross(row2.xyz, row0.xyz), facing), dot(cross(row0.xyz, row1.xyz), facing));
   vInfo = vec3(info.x + slot, info.yz);
   vCoordinate = uv;
   gl_Position = projectionMatrix * viewMatrix * vec4(vPlace, 1.0);
@@ -145,12 +165,20 @@ export class SurfaceMaterials {
   readonly opaque: THREE.ShaderMaterial;
   readonly opaqueTwoSided: THREE.ShaderMaterial;
   readonly blended: THREE.ShaderMaterial;
+  readonly skinned: THREE.ShaderMaterial;
+  /** Poses of people: three rows for each joint, a line for each person. */
+  readonly bones: THREE.DataTexture;
   /** First entry of each palette. */
   readonly paletteStart: number[] = [];
   readonly uniforms: Uniforms;
 
   constructor(scene: SceneFile, layers: Layers, light: LightPlan) {
+    const people = scene.tracks?.agents.filter(({ gait }) => gait).length ?? 0;
+    const texels = 3 * Math.max(1, ...scene.shapes.map(({ skin }) => (skin ? skin.rest.length : 0)));
+    const rows = Math.max(1, people);
+    this.bones = new THREE.DataTexture(new Float32Array(4 * texels * rows), texels, rows, THREE.RGBAFormat, THREE.FloatType);
     const uniforms = {
+      bones: { value: this.bones },
       palette: { value: this.paletteTexture(scene, layers) },
       labels: { value: labelTexture(scene) },
       layers: { value: layers.texture },
@@ -166,6 +194,7 @@ export class SurfaceMaterials {
     const common = { vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms, defines };
     this.opaque = new THREE.ShaderMaterial(common);
     this.opaqueTwoSided = new THREE.ShaderMaterial({ ...common, side: THREE.DoubleSide });
+    this.skinned = new THREE.ShaderMaterial({ ...common, defines: { ...defines, SKINNED: "" } });
     this.blended = new THREE.ShaderMaterial({
       ...common,
       side: THREE.DoubleSide,
