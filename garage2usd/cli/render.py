@@ -1,5 +1,4 @@
 """The command ``garage2usd render``."""
-# Over 300 lines: all options of one command, with what each refuses.
 
 import sys
 from pathlib import Path
