@@ -1,8 +1,8 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
 Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, floor, optimisers, rules, circulation,
-scale, stages, levels, exports, datasets, workers, looks, lidar, parking, parking_learnt, unity, traffic, compiled and
-binding.
+scale, stages, levels, exports, datasets, workers, living, looks, lidar, parking, parking_learnt, unity, traffic, compiled
+and binding.
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.
@@ -26,6 +26,7 @@ from exports import exports
 from floor_use import floor_use
 from levels import levels
 from lidar import lidar
+from living import living
 from looks import looks
 from optimisers import optimisers
 from parking import parking, parking_learnt
@@ -60,6 +61,7 @@ def main() -> None:
         "exports": exports,
         "datasets": datasets,
         "workers": workers,
+        "living": living,
         "looks": looks,
         "lidar": lidar,
         "parking": parking,

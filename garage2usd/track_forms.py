@@ -116,9 +116,14 @@ def check_tracks_file(path: str | Path) -> str:
         raise ConfigError("output", str(path), f"a path that ends in {', '.join(TRACK_SUFFIXES)}")
     check_name(place, of_layer=suffix in _LAYERS)
     check_file(place, with_it=[_beside(place, suffix)] if suffix in _BESIDE else [])
+    require_form(suffix)
+    return suffix
+
+
+def require_form(suffix: str) -> None:
+    """Check that the packages for the form of an extension are installed; raise MissingExtraError if not."""
     if suffix in _OF_EXTRA:
         require(f"tracks as {suffix}", [_OF_EXTRA[suffix]], extra="traffic")
-    return suffix
 
 
 def write_tracks(
@@ -164,6 +169,37 @@ def write_tracks(
         places = {file: place.parent / file.relative_to(staging) for file in beside}
         published = publish_at({**places, draft: place})
     return published[-1], *published[:-1]
+
+
+def write_predictions(path: Path, tracks: Tracks, garage: BuiltGarage) -> int:
+    """Write the prediction tasks of tracks to a Parquet table, or to a new folder of ScenarioNet; return their number.
+
+    Raises
+    ------
+    ConfigError
+        If the folder exists.
+    OutputError
+        If it cannot be written; it appears whole or not at all.
+    MissingExtraError
+        If a table needs an extra that is not installed.
+    """
+    from garage2usd.maps import prediction_tasks as forms  # noqa: PLC0415 - tracks do without it
+
+    tasks = forms.prediction_tasks(tracks)
+    is_table = path.suffix.lower() == ".parquet"
+    if is_table:
+        require("prediction tasks as a table", ["pyarrow"], extra="traffic")
+        check_file(path)
+    elif path.exists():
+        raise ConfigError("predictions", str(path), "a table that ends in .parquet, or a new folder")
+    with staging_folder(path) as staging:
+        draft = staging / path.name
+        if is_table:
+            forms.write_prediction_table(draft, tasks)
+        else:
+            forms.write_prediction_scenarios(draft, tasks, garage)
+        publish_at({draft: path})
+    return len(tasks)
 
 
 def _beside(place: Path, suffix: str) -> Path:

@@ -1,6 +1,7 @@
 """Options, types of values, tables and error lines that all commands share."""
 
 import logging
+import math
 import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
@@ -221,6 +222,24 @@ class Place(click.ParamType[tuple[float, float, float]]):
         except ValueError:
             self.fail(f"{value!r} is not a place such as 12,1.6,-8.5", param, ctx)
         return x, y, z
+
+
+class Span(click.ParamType[tuple[float, float]]):
+    """A first and a last second, as ``30:60``."""
+
+    name = "S:S"
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, float]:
+        """Read the two numbers."""
+        if isinstance(value, tuple):
+            return value
+        try:
+            first, last = map(float, str(value).split(":"))
+        except ValueError:
+            self.fail(f"{value!r} is not a span such as 30:60", param, ctx)
+        if not 0 <= first <= last < math.inf:
+            self.fail(f"{value!r} is not a span of seconds from 0 on, the first one first", param, ctx)
+        return first, last
 
 
 class Several(click.ParamType[tuple[str, ...]]):

@@ -8,13 +8,13 @@ import click
 from click.shell_completion import CompletionItem
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.options import INPUT_FILE, Place, Several, Size, device_option, echo_table, output_option
+from garage2usd.cli.options import INPUT_FILE, Place, Several, Size, Span, device_option, echo_table, output_option
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from garage2usd.recordings import Recorded
+    from garage2usd.recordings import Recorded, Traffic
 
 _PICTURES = ("colour", "depth", "normals", "instance", "semantic", "semantic_preview")
 _POINTS = ("pcd", "bin", "npz")
@@ -96,6 +96,28 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     "--every-m", metavar="M", type=click.FloatRange(0.01), help="With --rig: metres between two places.  [default: 1]"
 )
 @click.option(
+    "--tracks",
+    metavar="FILE",
+    type=INPUT_FILE,
+    help="With --rig: traffic, as `garage2usd traffic` writes it (.parquet, .csv): agents stand where they are at the "
+    "time of each picture, and move while a LiDAR turns.",
+)
+@click.option(
+    "--ego",
+    metavar="CAR|avp",
+    help="With --tracks: the car of the tracks that carries the rig, or avp for a car of its own that drives to a free "
+    "stall (or that of --along) and back. A rig in the world needs none.",
+)
+@click.option(
+    "--every-s", metavar="S", type=click.FloatRange(0.01), help="With --tracks: seconds between poses.  [default: 0.5]"
+)
+@click.option(
+    "--between",
+    metavar="S:S",
+    type=Span(),
+    help="With --tracks: first and last second that is recorded.  [default: all]",
+)
+@click.option(
     "--scale",
     metavar="X",
     type=click.FloatRange(0, 16, min_open=True),
@@ -118,6 +140,9 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     type=click.FloatRange(0.001, 1),
     help="With --rig: a bird's-eye view at each place too, of 600 x 600 pixels that are M metres wide.",
 )
+@click.option(
+    "--flow", is_flag=True, default=None, help="With --rig: the optical flow of each picture to the next pose too."
+)
 @click.option("--without-cars", is_flag=True, default=None, help="With --birds-eye: it looks through parked cars.")
 @output_option("Folder of the data set.", metavar="FOLDER", default="dataset", file_okay=False)
 def render(
@@ -137,10 +162,15 @@ def render(
     rig: str | None,
     along: str | None,
     every_m: float | None,
+    tracks: Path | None,
+    ego: str | None,
+    every_s: float | None,
+    between: tuple[float, float] | None,
     scale: float | None,
     points: tuple[str, ...] | None,
     also: tuple[str, ...] | None,
     birds_eye: float | None,
+    flow: bool | None,
     without_cars: bool | None,
     output: Path,
 ) -> None:
@@ -161,6 +191,7 @@ def render(
       garage2usd render garage.usdz --at 12,1.6,8 --look-at 30,1,8 --size 640x360
       garage2usd render garage.usdz --rig lidar.toml --along 1:A1-08 --points npz --also nuscenes -o drive
       garage2usd render garage.usdz --rig avp_surround --along 1:A1-08 --scale 0.5 -o drive
+      garage2usd render garage.usdz --rig lidar_32 --tracks run.parquet --ego avp --points npz --also nuscenes
       garage2usd render garage.usdz --rig avp_surround --along 1:A1-08 --birds-eye 0.02 --slots coco,dmpr-ps -o drive
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.render import Device, Picture, SlotFormat, render_stage  # noqa: PLC0415 - keeps --help instant
@@ -173,8 +204,9 @@ def render(
 
         own = {"camera": cameras or None, "frames": frames, "at": at_m, "look-at": look_at_m, "size": size}
         _refuse(own, "without --rig, which has its own")
-        if along is None:
-            _refuse({"every-m": every_m}, "only with --along")
+        if along is None or tracks is not None:
+            _refuse({"every-m": every_m}, "only with --along and without --tracks")
+        traffic = _traffic(tracks, ego, every_s, between)
         if birds_eye is None:
             _refuse({"without-cars": without_cars}, "only with --birds-eye")
         above = None if birds_eye is None else BirdsEye(metres_per_px=birds_eye, cars=not without_cars)
@@ -186,6 +218,7 @@ def render(
                 rig=rig,
                 along=along,
                 every_m=every_m or 1.0,
+                traffic=traffic,
                 scale=scale or 1.0,
                 samples=samples,
                 seed=seed,
@@ -194,6 +227,7 @@ def render(
                 pictures=kinds if has_pictures else [],
                 slots=told,
                 birds_eye=above,
+                flow=bool(flow),
                 points=[CloudFormat(kind) for kind in points or _POINTS],
                 sequences=[Sequence(kind) for kind in also or ()],
                 progress=progress,
@@ -201,6 +235,8 @@ def render(
             )
         _tell(recorded, also or ())
         return
+    in_traffic = {"tracks": tracks, "ego": ego, "every-s": every_s, "between": between, "flow": flow}
+    _refuse(in_traffic, "only with --rig")
     with_rig: dict[str, object] = {"along": along, "every-m": every_m, "scale": scale, "points": points, "also": also}
     _refuse({**with_rig, "birds-eye": birds_eye, "without-cars": without_cars}, "only with --rig")
     with Bars(sys.stderr) as progress:
@@ -233,13 +269,26 @@ def _refuse(options: "Mapping[str, object]", allowed: str) -> None:
             raise ConfigError(option, value, allowed)
 
 
+def _traffic(
+    tracks: Path | None, ego: str | None, every_s: float | None, between: tuple[float, float] | None
+) -> "Traffic | None":
+    """Read the tracks around a recording."""
+    if tracks is None:
+        _refuse({"ego": ego, "every-s": every_s, "between": between}, "only with --tracks")
+        return None
+    from garage2usd.maps.track_tables import read_tracks  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.recordings import Traffic  # noqa: PLC0415
+
+    return Traffic(read_tracks(tracks), ego or "", every_s or 0.5, between)
+
+
 def _tell(made: "Recorded", also: tuple[str, ...]) -> None:
     """Tell the files of a recording."""
     shots = made.recording.shots
     places, sensors = len({shot.pose for shot in shots}), list(dict.fromkeys(shot.sensor.name for shot in shots))
     echo_table(
         [
-            ("places", f"{places} in {shots[-1].time_s:.1f} s"),
+            ("places", f"{places} in {shots[-1].time_s - shots[0].time_s:.1f} s"),
             ("sensors", ", ".join(sensors)),
             ("frames", str(len(shots))),
             ("files", ", ".join(dict.fromkeys(kind for shot in shots for kind in shot.files))),

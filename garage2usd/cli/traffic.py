@@ -2,11 +2,16 @@
 
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from garage2usd.cli.bars import Bars
 from garage2usd.cli.options import INPUT_FILE
+from garage2usd.common.errors import ConfigError
+
+if TYPE_CHECKING:
+    from garage2usd.driving.tracks import Tracks
 
 _SUFFIXES = ".parquet, .csv, .usda, .usdc, .xosc, .fcd.xml, .mcap, .pkl"
 _SHOWN = 8
@@ -30,6 +35,18 @@ _SHOWN = 8
     multiple=True,
     help=f"Write the tracks; the form follows from the name: {_SUFFIXES}. May be given several times.",
 )
+@click.option(
+    "--tracks",
+    metavar="FILE",
+    type=INPUT_FILE,
+    help="Take these tracks (.parquet, .csv) of the garage instead of operating it.",
+)
+@click.option(
+    "--predictions",
+    metavar="FILE|FOLDER",
+    type=click.Path(path_type=Path),
+    help="Write prediction tasks, of 2 s of past and 6 s of future: a table (.parquet), or a folder of ScenarioNet.",
+)
 def traffic(
     *,
     path: Path,
@@ -38,6 +55,8 @@ def traffic(
     hour: float | None,
     arrivals_per_hour: float | None,
     people: bool | None,
+    tracks: Path | None,
+    predictions: Path | None,
     outputs: tuple[Path, ...],
 ) -> None:
     """Operate a garage for some minutes: cars arrive, look for a stall, park, stay and leave; people walk.
@@ -53,29 +72,47 @@ def traffic(
       garage2usd traffic garage.usdz
       garage2usd traffic garage.usdz --minutes 25 --seed 7 -o tracks.parquet
       garage2usd traffic garage.usdz --hour 17.5 -o traffic.usdc -o traffic.xosc
+      garage2usd traffic garage.usdz --tracks tracks.parquet --predictions tasks.parquet
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.common.settings import validated  # noqa: PLC0415 - keeps --help instant
     from garage2usd.config.traffic import TrafficConfig  # noqa: PLC0415
     from garage2usd.garage_sources import read_built  # noqa: PLC0415
-    from garage2usd.track_forms import check_tracks_file, write_tracks  # noqa: PLC0415
+    from garage2usd.track_forms import check_tracks_file, write_predictions, write_tracks  # noqa: PLC0415
     from garage2usd.traffic import Operation  # noqa: PLC0415
 
     for output in outputs:
         check_tracks_file(output)
     given = {"minutes": minutes, "hour": hour, "arrivals_per_hour": arrivals_per_hour, "people": people}
+    asked = {name: value for name, value in given.items() if value is not None}
+    if tracks is not None and asked:
+        name, value = next(iter(asked.items()))
+        raise ConfigError(name.replace("_", "-"), value, "only without --tracks")
     with Bars(sys.stderr) as progress:
         source = read_built(path, progress=progress)
-        asked = {name: value for name, value in given.items() if value is not None}
-        settings = validated(TrafficConfig, {**source.traffic.model_dump(), **asked}, within="traffic")
-        tracks = Operation(source.garage).run(settings, seed=seed, progress=progress)
+        if tracks is not None:
+            from garage2usd.maps.track_tables import read_tracks  # noqa: PLC0415 - of an extra
+
+            run = read_tracks(tracks)
+        else:
+            settings = validated(TrafficConfig, {**source.traffic.model_dump(), **asked}, within="traffic")
+            run = Operation(source.garage).run(settings, seed=seed, progress=progress)
     for output in outputs:
-        write_tracks(output, tracks, source.garage)
-    facts = tracks.facts
-    click.echo(
-        f"{facts['arrivals']:>6}  cars arrive, {facts['departures']} leave, {facts['turned_away']} find no stall"
-    )
-    click.echo(f"{facts['walks']:>6}  walks")
-    for line in tracks.log[:_SHOWN]:
+        write_tracks(output, run, source.garage)
+    if predictions is not None:
+        count = write_predictions(predictions, run, source.garage)
+        click.echo(f"{count:>6}  prediction tasks")
+    _tell(run)
+
+
+def _tell(run: "Tracks") -> None:
+    """Print the counts of a run and what it has to say."""
+    facts = run.facts
+    if "arrivals" in facts:
+        click.echo(
+            f"{facts['arrivals']:>6}  cars arrive, {facts['departures']} leave, {facts['turned_away']} find no stall"
+        )
+        click.echo(f"{facts['walks']:>6}  walks")
+    for line in run.log[:_SHOWN]:
         click.echo(line)
-    if len(tracks.log) > _SHOWN:
-        click.echo(f"and {len(tracks.log) - _SHOWN} lines more")
+    if len(run.log) > _SHOWN:
+        click.echo(f"and {len(run.log) - _SHOWN} lines more")

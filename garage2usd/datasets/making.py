@@ -24,6 +24,7 @@ from garage2usd.datasets.recipe import RECIPE_FILE, Recipe
 from garage2usd.datasets.shards import Shard, failed_row, made_rows, make_shard, shards_of, sweep
 from garage2usd.datasets.variety import PlanFigures
 from garage2usd.exports import check_formats
+from garage2usd.track_forms import require_form
 
 if TYPE_CHECKING:
     from garage2usd.datasets.cluster import Workers
@@ -104,6 +105,8 @@ def make_dataset(
     recipe.check()
     if recipe.make.drives:
         check_drives(recipe.make.drives)
+    for form in recipe.make.traffic.forms if recipe.make.traffic else ():
+        require_form(f".{form}")
     check_formats(f".{name}" for name in recipe.make.exports)
     check_writable(folder)
     _check_folder(recipe, folder, resume=resume)

@@ -73,6 +73,10 @@ class ManifestRow(Record):
         proven.
     normal_stalls, complex_stalls, extreme_stalls, unproven_stalls
         Numbers of stalls for cars of each level, and of those without a proven drive; 0 if difficulty is not rated.
+    arrivals, departures, walks
+        Numbers of cars that arrive and leave while the garage is operated, and of walks of people; 0 without traffic.
+    encounters, least_ttc_s, waits, longest_wait_s
+        As of `garage2usd.traffic.encounters.Encounters`; the least time to a collision is -1 if there is none.
     check_errors, check_warnings
         Numbers of findings of the rules that `garage2usd build` checks.
     files
@@ -124,6 +128,13 @@ class ManifestRow(Record):
     complex_stalls: int = 0
     extreme_stalls: int = 0
     unproven_stalls: int = 0
+    arrivals: int = 0
+    departures: int = 0
+    walks: int = 0
+    encounters: int = 0
+    least_ttc_s: float = -1.0
+    waits: int = 0
+    longest_wait_s: float = 0.0
     check_errors: int = 0
     check_warnings: int = 0
     files: tuple[FileEntry, ...] = ()

@@ -21,6 +21,7 @@ from garage2usd.config.files import FOLDERS
 from garage2usd.datasets.difficulty import Level
 from garage2usd.datasets.distribution import Weight, distribution_of
 from garage2usd.datasets.drives import DrivesConfig
+from garage2usd.datasets.operated import TrafficOutputs
 from garage2usd.datasets.recipe_settings import (
     MOST_EVEN,
     drawn_place,
@@ -94,7 +95,10 @@ class MakeConfig(Settings):
     exports: tuple[Literal["add.xml", "dxf", "geojson", "glb", "osm", "osm.xml", "xodr", "xosc", "yaml"], ...] = ()
     """Formats to which each stage is exported, as by `build --with`."""
     drives: DrivesConfig | None = None
-    """Settings of drives recorded with a rig, as by `render --rig` (``.drive_0.zip``); none if left out."""
+    """Settings of drives recorded with a rig, as by `render --rig` (``.drive_0.zip``); none if left out. With `traffic`
+    they are drives in it."""
+    traffic: TrafficOutputs | None = None
+    """Settings of the outputs of the garage in operation, as by `garage2usd traffic`; none if left out."""
     gzip: bool = False
     """True to compress text files (maps, reports, labels) to ``.gz``, a tenth of their size."""
     self_contained: bool = False
@@ -109,8 +113,8 @@ class MakeConfig(Settings):
 
     @model_validator(mode="after")
     def _has_stage(self) -> Self:
-        if (self.exports or self.drives or self.self_contained) and not self.stage:
-            raise ValueError("stage = true where stages are exported, driven through or self-contained")
+        if (self.exports or self.drives or self.traffic or self.self_contained) and not self.stage:
+            raise ValueError("stage = true where stages are exported, operated, driven through or self-contained")
         return self
 
 

@@ -20,6 +20,7 @@ from garage2usd.datasets.difficulty import StallDifficulty, garage_difficulty, s
 from garage2usd.datasets.drawn_plan import DrawnPlan
 from garage2usd.datasets.drives import record_drives
 from garage2usd.datasets.manifest import FileEntry, LinkEntry, ManifestRow
+from garage2usd.datasets.operated import operate
 from garage2usd.datasets.plans import remade
 from garage2usd.datasets.recipe import MakeConfig, Recipe
 from garage2usd.driving import StallProof, prove_stalls
@@ -192,18 +193,23 @@ def _write_all(make: MakeConfig, drawn: DrawnPlan, config: GarageConfig, place: 
     write_report(place.with_name(f"{place.name}.report.json"), report)
     stage = _write_files(garage, place, make, assets)
     difficulty = dict[str, Any]()
-    if make.difficulty or make.drives:
+    tracks, operated = None, dict[str, Any]()
+    if make.traffic and stage:
+        tracks, operated = operate(stage, make.traffic, config.traffic, seed=drawn.seed)
+    if make.difficulty or (make.drives and tracks is None):
         proofs = [prove_stalls(level.layout, most_explained=0) for level in garage.levels]
         if make.difficulty:
             rated = _difficulties(garage, proofs)
             difficulty = _write_difficulty(rated, place.with_name(f"{place.name}.difficulty.json"))
-        if make.drives and stage:
+        if make.drives and stage and tracks is None:
             every = [
                 replace(proof, stall=level.place.in_whole(proof.stall))
                 for level, proven in zip(garage.levels, proofs, strict=True)
                 for proof in proven
             ]
             record_drives(stage, make.drives, every, seed=drawn.seed, settings=config.maps.drive)
+    if make.drives and stage and tracks is not None:
+        record_drives(stage, make.drives, (), seed=drawn.seed, settings=config.maps.drive, tracks=tracks)
     links = (
         LinkEntry(kind=link.kind, upper=link.upper, lower=link.lower, direction=link.direction)
         for link in reported_links(garage)
@@ -214,6 +220,7 @@ def _write_all(make: MakeConfig, drawn: DrawnPlan, config: GarageConfig, place: 
         "links": tuple(links),
         **garage_figures(garage.levels),
         **difficulty,
+        **operated,
     }
     return _Made(figures, [finding for findings, _ in judged for finding in findings])
 

@@ -24,6 +24,7 @@ from garage2usd.datasets.manifest import MANIFEST_SCHEMA, ManifestRow, rows_of_t
 from garage2usd.datasets.recipe import ASSET_FOLDER, RECIPE_FILE, Distinct, Recipe, load_recipe
 from garage2usd.datasets.shards import SHARD_FOLDER, shard_members
 from garage2usd.garage_sources import check
+from garage2usd.maps.track_tables import read_tracks
 from garage2usd.structure.symmetry import levels_digest
 
 _STAGES = (".usdc", ".usdz")
@@ -190,7 +191,22 @@ def _faults_of_shard(folder: Path, recipe: Recipe, task: _Task) -> Iterator[Faul
             for suffix in _STAGES:
                 stage = staging / SHARD_FOLDER / f"{row.key}{suffix}"
                 if stage.is_file():
+                    yield from _of_tracks(stage, row)
                     yield from _of_stage(stage, row.key, recipe.drawn(row.seed, row.number)[0])
+
+
+def _of_tracks(stage: Path, row: ManifestRow) -> Iterator[Fault]:
+    """Yield faults of a garage's table of tracks, where there is one."""
+    table = stage.with_name(f"{stage.stem}.tracks.parquet")
+    if not table.is_file():
+        return
+    try:
+        facts = read_tracks(table).facts
+    except Garage2UsdError as error:
+        yield Fault(row.key, f"its tracks cannot be read: {getattr(error, 'reason', error)}")
+        return
+    if (facts.get("arrivals"), facts.get("departures")) != (row.arrivals, row.departures):
+        yield Fault(row.key, "its tracks have other arrivals and departures than its row")
 
 
 def _of_stage(stage: Path, key: str, config: GarageConfig) -> Iterator[Fault]:

@@ -97,10 +97,10 @@ class Stall:
         """True if the stall is of the size class for compact cars, which the design car is not."""
         return self.size == "compact"
 
-    def vacated(self) -> "Stall":
-        """Return the stall without a parked car."""
+    def vacated(self, *, is_taken: bool = False) -> "Stall":
+        """Return the stall without a parked car, or with another one."""
         kept = ((fact, value) for fact, value in self.facts if fact not in {"occupied", "blocked_by"})
-        return replace(self, facts=(*kept, ("occupied", 0)))
+        return replace(self, facts=(*kept, ("occupied", int(is_taken))))
 
     @property
     def takes_cars(self) -> bool:

@@ -32,6 +32,12 @@ def write_scenario_net(path: Path, tracks: Tracks, garage: BuiltGarage, *, step_
         The garage, whose lanes are the map.
     step_s
         Time step.
+    """
+    path.write_bytes(pickle.dumps(scenario_of(tracks, garage, step_s=step_s), protocol=_PROTOCOL))
+
+
+def scenario_of(tracks: Tracks, garage: BuiltGarage, *, step_s: float = STEP_S) -> dict[str, Any]:
+    """Return tracks in the form of MetaDrive's ``ScenarioDescription``; parameters as of `write_scenario_net`.
 
     Notes
     -----
@@ -47,7 +53,7 @@ def write_scenario_net(path: Path, tracks: Tracks, garage: BuiltGarage, *, step_
         vehicles, key=lambda track: (track.time_s[0] == 0, float(track.time_s[-1] - track.time_s[0])), default=None
     )
     stem = Path(tracks.source).stem or "garage"
-    scenario: dict[str, Any] = {
+    return {
         "id": f"{stem}-{tracks.facts.get('seed', 0)}",
         "version": f"garage2usd {VERSION}",
         "length": len(times),
@@ -65,7 +71,6 @@ def write_scenario_net(path: Path, tracks: Tracks, garage: BuiltGarage, *, step_
             "source_file": tracks.source,
         },
     }
-    path.write_bytes(pickle.dumps(scenario, protocol=_PROTOCOL))
 
 
 def _agent(track: Track, times: np.ndarray[Any, np.dtype[np.float64]]) -> dict[str, Any]:

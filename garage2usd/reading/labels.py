@@ -57,6 +57,8 @@ class Labels:
         Class id by the object's id.
     plates
         The number plates of cars by their own ids.
+    parts
+        Id of the object that each other part with an own id belongs to, such as a pose of a person who walks.
     """
 
     classes_version: int
@@ -64,10 +66,11 @@ class Labels:
     ids: Mapping[str, int]
     class_ids: Mapping[int, int]
     plates: Mapping[int, NumberPlates] = field(default_factory=dict)
+    parts: Mapping[int, int] = field(default_factory=dict)
 
     def instance_of(self, number: int) -> int:
-        """Return an object's id in instance pictures and point clouds: number plates have the id of their car."""
-        return self.plates[number].car if number in self.plates else number
+        """Return an object's id in instance pictures and point clouds: plates and parts have the id of their object."""
+        return self.plates[number].car if number in self.plates else self.parts.get(number, number)
 
     def instances_of(self, ids: NDArray[_Id]) -> NDArray[_Id]:
         """Return the instance ids in pictures and point clouds for an array of object ids, 0 for none; of any shape."""

@@ -14,14 +14,17 @@ from garage2usd.config.outputs import DriveConfig
 from garage2usd.reading.labels import read_labels
 from garage2usd.reading.whole_garage import open_garage
 from garage2usd.recordings.birds_eye import check_birds_eye, ego_mask
+from garage2usd.recordings.flow import write_flow
+from garage2usd.recordings.own_drive import AVP
 from garage2usd.recordings.scene import EGO_FOLDER, POINTS_FOLDER, Scene
 from garage2usd.recordings.sequences import Sequence, check_sequences, write_sequence
+from garage2usd.recordings.traffic import Traffic
 from garage2usd.recordings.way import Way
 from garage2usd.render import Picture, SlotFormat
 from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
 from garage2usd.render.devices import CPU, Device, default_samples, find_device
 from garage2usd.render.pictures import with_needed, write_mask
-from garage2usd.render.tables import NEEDED, SlotLabels, check_slots, write_frames
+from garage2usd.render.tables import NEEDED, check_slots, write_frames
 from garage2usd.sensors.formats.recording import Recording, write_calibration
 from garage2usd.sensors.rays.birds_eye import BirdsEye
 from garage2usd.sensors.rays.point_cloud import CloudFormat
@@ -35,9 +38,10 @@ if TYPE_CHECKING:
     from garage2usd.recordings.sweeps import Sweeps
     from garage2usd.render.pictures import VisibleInstance
 
-__all__ = ["CloudFormat", "Device", "Recorded", "Sequence", "check_recording", "record"]
+__all__ = ["AVP", "CloudFormat", "Device", "Recorded", "Sequence", "Traffic", "check_recording", "record"]
 
 _LEAST_STEP_M = 0.01
+_LEAST_STEP_S = 0.01
 _CALIBRATION = "calibration"
 
 
@@ -73,12 +77,14 @@ def record(  # noqa: PLR0915 - all steps of a recording, in order
     rig: str | Path | Rig,
     along: str | None = None,
     every_m: float = 1.0,
+    traffic: Traffic | None = None,
     scale: float = 1.0,
     samples: int | None = None,
     seed: int = 0,
     pictures: Collection[Picture] = tuple(Picture),
     slots: Collection[SlotFormat] | None = None,
     birds_eye: BirdsEye | None = None,
+    flow: bool = False,
     points: Collection[CloudFormat] = tuple(CloudFormat),
     sequences: Collection[Sequence] = (),
     settings: DriveConfig | None = None,
@@ -106,6 +112,10 @@ def record(  # noqa: PLR0915 - all steps of a recording, in order
         world.
     every_m
         Distance between two poses along the drive.
+    traffic
+        Tracks of agents, which stand where they are at the time of each pose and move during the sweeps of LiDARs.
+        Their car `ego` carries the sensors, and poses have equal steps of time. `along` only tells the stall of a car
+        with a drive of its own. Parked cars of the stage that move are hidden.
     scale
         Scale of the sides of the pictures.
     samples, seed, pictures, slots, device, blender, announce
@@ -114,6 +124,8 @@ def record(  # noqa: PLR0915 - all steps of a recording, in order
     birds_eye
         Settings of additional bird's-eye views at each pose, with masks of free space and of the vehicle; None for
         none.
+    flow
+        True to write the optical flow of each picture to that of the next pose, as `garage2usd.recordings.flow` does.
     points
         File formats of the LiDARs' point clouds.
     sequences
@@ -147,13 +159,13 @@ def record(  # noqa: PLR0915 - all steps of a recording, in order
     kinds, formats = check_recording(
         chosen, pictures=pictures, slots=slots, birds_eye=birds_eye, points=points, sequences=asked, blender=blender
     )
-    _check_along(chosen, along, birds_eye)
+    _check_way(chosen, traffic, along, birds_eye)
     check_writable(folder)
     check_file(folder / "frames.json")
     drawn_on = find_device(device, has_rays=True, blender=find_blender(blender)) if chosen.cameras else CPU
     opened = open_garage(path)
     progress("drive", 0, 1)
-    way = Way(opened, path, along, every_m, settings or DriveConfig())
+    way = Way(opened, path, along, every_m, settings or DriveConfig(), traffic)
     scene = Scene(opened, read_labels(opened, path), way, chosen, birds_eye)
     progress("drive", 1, 1)
     if slots is not None:
@@ -163,7 +175,7 @@ def record(  # noqa: PLR0915 - all steps of a recording, in order
         from garage2usd.recordings.sweeps import Sweeps  # noqa: PLC0415 - pictures do not need its extra
 
         sweeps = Sweeps(opened, scene.labels, way, chosen, formats, seed)
-    needed = {*(() if slots is None and birds_eye is None else NEEDED), *scene.needed(kinds)}
+    needed = {*(() if slots is None and birds_eye is None and not flow else NEEDED), *scene.needed(kinds)}
     drawn = with_needed(kinds, needed)
     count = samples or default_samples(view.size_px for view in scene.views)
     key = scene.key(path, drawn, samples=count, seed=seed, device=drawn_on)
@@ -174,12 +186,14 @@ def record(  # noqa: PLR0915 - all steps of a recording, in order
         visible: list[list[VisibleInstance] | None] = []
         views = scene.views
         made = [finished / kind for kind in kinds]
-        about: dict[str, object] = {"rig": chosen.model_dump(mode="json"), "drive": way.about}
+        about: dict[str, object] = {"rig": chosen.model_dump(mode="json"), "drive": way.about, **way.traffic_facts}
         if chosen.cameras:
             drawing = scene.drawing(work, finished, drawn, samples=count, seed=seed, device=drawn_on)
             visible = drawing.draw(work, progress, announce)
             views = [replace(view, facts=drawing.facts(view)) for view in views]
             made += _write_calibrations(chosen, finished)
+            flowing, views = write_flow(scene, views, finished) if flow else ([], views)
+            made += flowing
             if scene.birds_eye is not None:
                 made.append(scene.birds_eye.write_masks(finished, chosen.body))
         if sweeps is not None and formats:
@@ -189,9 +203,8 @@ def record(  # noqa: PLR0915 - all steps of a recording, in order
             about["sweeps"] = sweeps.write(finished, work, progress)
             made.append(finished / POINTS_FOLDER)
         if sweeps is not None:
-            made += _write_sequences(
-                asked, _recording(scene, sweeps, path, finished, kinds), finished, sweeps, progress
-            )
+            whole = _recording(scene, sweeps, path, finished, kinds)
+            made += _write_sequences(asked, whole, finished, sweeps, work, progress)
         table = write_frames(
             finished / "frames.json",
             [(view, seen, []) for view, seen in zip(views, visible, strict=True)],
@@ -200,8 +213,7 @@ def record(  # noqa: PLR0915 - all steps of a recording, in order
             stage=path,
             about=about,
         )
-        free = () if way.stall is None else (way.stall.name,)
-        told = [] if slots is None else SlotLabels(opened, scene.labels, scene.views, finished, free).write(slots)
+        told = [] if slots is None else scene.slot_labels(finished).write(slots)
         places = publish([*made, *told, table], folder)
     return Recorded(folder, places[-1], _recording(scene, sweeps, path, folder, kinds))
 
@@ -266,6 +278,27 @@ def _check_along(rig: Rig, along: str | None, birds_eye: BirdsEye | None) -> Non
         raise ConfigError("along", None, "a drive, along which bird's-eye views are recorded")
 
 
+def _check_way(rig: Rig, traffic: Traffic | None, along: str | None, birds_eye: BirdsEye | None) -> None:
+    """Check before the work that a rig can record along a drive, or in traffic.
+
+    Raises
+    ------
+    ConfigError
+        If a sensor or a bird's-eye view needs an ego, a time is invalid, or a stall is given for a car of the tracks.
+    """
+    if traffic is None:
+        _check_along(rig, along, birds_eye)
+        return
+    if traffic.every_s < _LEAST_STEP_S:
+        raise ConfigError("every_s", traffic.every_s, f"{_LEAST_STEP_S} s or more")
+    if along is not None and traffic.ego != AVP:
+        raise ConfigError("along", along, f"only for the ego {AVP}, as a car of the tracks has a way of its own")
+    moving = next((sensor for sensor in rig.recorded if sensor.mount != "world"), None)
+    if not traffic.ego and (moving is not None or birds_eye is not None):
+        whose = f"the sensor {moving.name}, which is not mounted in the world" if moving else "bird's-eye views"
+        raise ConfigError("ego", None, f"{AVP}, or a car of the tracks, for {whose}")
+
+
 def _modules_for(rig: Rig, sequences: Collection[Sequence], birds_eye: BirdsEye | None) -> Iterator[str]:
     """Yield the Python modules that recording with a rig requires besides Blender.
 
@@ -296,12 +329,17 @@ def _write_calibrations(rig: Rig, finished: Path) -> list[Path]:
 
 
 def _write_sequences(
-    asked: Collection[Sequence], recording: Recording, finished: Path, sweeps: "Sweeps", progress: Progress
+    asked: Collection[Sequence],
+    recording: Recording,
+    finished: Path,
+    sweeps: "Sweeps",
+    work: Path,
+    progress: Progress,
 ) -> Iterator[Path]:
     for kind in Sequence:
         if kind in asked:
             progress(kind.value, 0, 1)
-            yield write_sequence(kind, recording, finished, sweeps)
+            yield write_sequence(kind, recording, finished, sweeps, work)
             progress(kind.value, 1, 1)
 
 

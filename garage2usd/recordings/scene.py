@@ -19,10 +19,11 @@ from garage2usd.render import Picture
 from garage2usd.render.cameras import USD_FROM_OPENCV, View
 from garage2usd.render.devices import ComputeDevice
 from garage2usd.render.drawing import MOTION_NEEDS, Drawing
+from garage2usd.render.tables import SlotLabels
 from garage2usd.sensors.formats.recording import Recording, Shot
 from garage2usd.sensors.rays.birds_eye import BirdsEye
 from garage2usd.sensors.rig.around_view_camera import AroundViewCamera
-from garage2usd.sensors.rig.poses import VehiclePose
+from garage2usd.sensors.rig.poses import Matrix, VehiclePose
 from garage2usd.sensors.rig.rig import Rig
 from garage2usd.sensors.rig.sensors import Camera
 from garage2usd.stage.ego_car import EGO_PATH, write_stage_with_car
@@ -45,22 +46,26 @@ class Scene:
             ids={**labels.ids, EGO_PATH: self._ego_id},
             class_ids={**labels.class_ids, self._ego_id: cars[0] if cars else 0},
         )
+        if way.agents is not None:
+            self.labels = way.agents.labelled(self.labels, self._ego_id + 1)
         self._left_out = [labels.ids[name] for name in labels.with_plates(way.left_out) if name in labels.ids]
         self.shots = [(camera, number, pose) for number, pose in enumerate(way.poses) for camera in rig.cameras]
         views = [self._view(camera, number, pose) for camera, number, pose in self.shots]
         left_out = [*self._left_out, self._ego_id]
         self.birds_eye = (
-            BirdsEyeViews(birds_eye, way, labels, left_out=left_out, ego_folder=EGO_FOLDER) if birds_eye else None
+            BirdsEyeViews(birds_eye, way, self.labels, left_out=left_out, ego_folder=EGO_FOLDER) if birds_eye else None
         )
         self.views = [*views, *(self.birds_eye.views if self.birds_eye else ())]
 
     def hidden(self) -> list[list[int]]:
         """Return for each view the ids of hidden objects: its own car, and the car parked in the target stall."""
+        absent = [self._way.agents.hidden(pose) if self._way.agents else [] for pose in range(len(self._way.poses))]
         shots = [
-            self._left_out if self._sees_vehicle(camera) else [*self._left_out, self._ego_id]
-            for camera, _, _ in self.shots
+            [*self._left_out, *([] if self._sees_vehicle(camera) else [self._ego_id]), *absent[pose]]
+            for camera, pose, _ in self.shots
         ]
-        return [*shots, *(self.birds_eye.hidden if self.birds_eye else ())]
+        above = zip(self.birds_eye.hidden, absent, strict=True) if self.birds_eye else ()
+        return [*shots, *([*hidden, *others] for hidden, others in above)]
 
     def unseen(self) -> list[list[int]]:
         """Return for each view the ids of objects of other levels that it looks through."""
@@ -96,13 +101,20 @@ class Scene:
         """Create the render job of the recording's views, with the vehicle in the stage for other cameras."""
         with_car = work / "stage.usdc"
         with_car.unlink(missing_ok=True)
-        write_stage_with_car(with_car, self._stage, self._rig.body, is_lit=self._is_lit)
+        agents = self._way.agents
+        others = agents.models if agents else ()
+        write_stage_with_car(with_car, self._stage, self._rig.body, is_lit=self._is_lit, others=others)
+        of_agents = [agents.moved(pose, self._way.to_stage) if agents else {} for pose in range(len(self._way.poses))]
+
+        def placed(number: int, pose: VehiclePose, *, has_ego: bool) -> dict[int, Matrix]:
+            return of_agents[number] | ({self._ego_id: self._way.car_moved(pose)} if has_ego else {})
+
         moved = [
-            self._way.car_moved(pose) if self._is_lit or self._sees_vehicle(camera) else None
-            for camera, _, pose in self.shots
+            placed(number, pose, has_ego=self._is_lit or self._sees_vehicle(camera))
+            for camera, number, pose in self.shots
         ]
         if self.birds_eye:
-            moved += [self._way.car_moved(pose) if self._is_lit else None for pose in self._way.poses]
+            moved += [placed(number, pose, has_ego=self._is_lit) for number, pose in enumerate(self._way.poses)]
         return Drawing(
             open_stage(with_car),
             self.labels,
@@ -117,6 +129,28 @@ class Scene:
             device,
             unseen=self.unseen(),
         )
+
+    def moves(self, number: int) -> dict[int, Matrix]:
+        """Return the motion of each moving object from a pose to the next, by its id, in the stage's axes."""
+        before, after = (self._way.poses[each] for each in (number, number + 1))
+        moves = {}
+        if self._way.has_vehicle:
+            moves[self._ego_id] = after.vehicle_to_world @ np.linalg.inv(before.vehicle_to_world)
+        agents, times_s = self._way.agents, np.array([before.time_s, after.time_s])
+        if agents is not None:
+            for instance, (owner, _) in agents.shown(number).items():
+                first, last = agents.model_places(owner, times_s, self._way.to_stage)
+                moves[instance] = last @ np.linalg.inv(first)
+        return moves
+
+    def slot_labels(self, finished: Path) -> SlotLabels:
+        """Return the labels of parking slots: the target stall is free, and in traffic each that no car is in."""
+        views = self.views
+        numbers = [number for _, number, _ in self.shots] + list(range(len(self._way.poses) if self.birds_eye else 0))
+        left, _ = self._way.stalls_taken(0)
+        taken = {view.name: self._way.stalls_taken(number)[1] for view, number in zip(views, numbers, strict=True)}
+        changing = taken if self._way.agents else {}
+        return SlotLabels(self._stage, self.labels, views, finished, left, changing)
 
     def recording(self, path: Path, folder: Path, kinds: Sequence[Picture]) -> Recording:
         """Return the recording with the files of its pictures."""
@@ -184,6 +218,7 @@ class Scene:
             "motion": [None if view.twist is None else view.twist.facts for view in self.views if view.shows_motion],
             "hidden": self.hidden(),
             "unseen": self.unseen(),
+            "agents": self._way.agents.facts(self._way.to_stage) if self._way.agents else None,
             "car": [self._rig.car, self._rig.models.sha256 if self._rig.models else ""],
             "lamps": self._rig.lamps,
             "kinds": kinds,

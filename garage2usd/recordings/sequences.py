@@ -58,7 +58,7 @@ def check_sequences(
             raise ConfigError("rig", away[0], "sensors on the vehicle, for nuScenes")
 
 
-def write_sequence(kind: Sequence, recording: Recording, folder: Path, sweeps: "Sweeps") -> Path:
+def write_sequence(kind: Sequence, recording: Recording, folder: Path, sweeps: "Sweeps", work: Path) -> Path:
     """Write a recording in a sequence format: nuScenes tables or a ROS 2 bag.
 
     Parameters
@@ -71,6 +71,8 @@ def write_sequence(kind: Sequence, recording: Recording, folder: Path, sweeps: "
         Parent of that folder, which is replaced if it exists.
     sweeps
         Sweeps of the LiDARs, and the surfaces that they hit.
+    work
+        Folder for temporary files.
     """
     place = folder / kind
     shutil.rmtree(place, ignore_errors=True)
@@ -78,7 +80,14 @@ def write_sequence(kind: Sequence, recording: Recording, folder: Path, sweeps: "
         from garage2usd.sensors.formats.nuscenes import write_nuscenes  # noqa: PLC0415 - pictures do not need its extra
 
         place.mkdir(parents=True)
-        write_nuscenes(recording, place, stage=sweeps.stage, labels=sweeps.labels, scene=sweeps.solids)
+        write_nuscenes(
+            recording,
+            place,
+            stage=sweeps.stage,
+            labels=sweeps.labels,
+            scene=sweeps.solids,
+            traffic=sweeps.traffic_at(work),
+        )
     else:
         from garage2usd.sensors.formats.ros_bag import write_ros_bag  # noqa: PLC0415 - as above
 

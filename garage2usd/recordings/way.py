@@ -1,6 +1,5 @@
-"""The drive of a recording: poses of the vehicle, the target stall, and the columns whose sensors watch it."""
+"""The way of a recording: poses of the vehicle along a drive or in traffic, and the target stall."""
 
-import math
 from collections.abc import Mapping, Sequence
 from functools import cached_property, partial
 from itertools import pairwise
@@ -16,79 +15,23 @@ from garage2usd.as_built.garage import BuiltGarage, garage_of_stage
 from garage2usd.as_built.level import BuiltLevel
 from garage2usd.common.errors import ConfigError
 from garage2usd.config.outputs import DriveConfig, Leg
-from garage2usd.garage import Point, Stall
+from garage2usd.driving.tracks import Floats, Track
+from garage2usd.garage import Stall
 from garage2usd.garage.levels import nearest_floor
 from garage2usd.maps.drives import DrivePlanner
-from garage2usd.objects import CAR_LABELS
 from garage2usd.reading.labels import Labels
 from garage2usd.reading.levels import paths_from_above
+from garage2usd.recordings.agents import Agents, ego_poses, vehicle_places
+from garage2usd.recordings.columns import column_to_y_up
+from garage2usd.recordings.own_drive import AVP, with_own_drive
+from garage2usd.recordings.traffic import Traffic, pose_times
 from garage2usd.render.cameras import find_views
 from garage2usd.sensors.rig.poses import CAR_FROM_VEHICLE, MAP_TO_Y_UP, Twist, VehiclePose, poses_along, y_up_to_stage
 from garage2usd.sensors.rig.sensors import Sensor
 from garage2usd.stage.cameras import EYE_M, FRAMES_PER_SECOND
 from garage2usd.stage.driving_car import CAR_NAME
 
-_COLUMN = "column"
-_HIDES_FROM_M = 1.9
-"""Height in metres above which an object hides a stall from a column's camera. Cars, which come and go, are ignored."""
-_NEAREST_M = 2.5
-"""Least distance in metres from a stall's middle to its column; nearer columns see only part of the stall."""
 Matrix = NDArray[np.float64]
-
-
-def column_to_y_up(level: BuiltLevel, stall: Stall) -> NDArray[np.float64]:
-    """Compute the frame of sensors on the column that watches a stall.
-
-    The column is the nearest one in front of the stall's entry with a free line of sight to the stall's middle over
-    everything lower than a wall. If there is none, the nearest other column is used. Columns nearer than 2.5 m are
-    ignored.
-
-    Returns
-    -------
-    ndarray
-        Transform from the column's frame to metres with Y up, for column vectors; float64, shape (4, 4). The frame has
-        its origin at the foot of the column's axis, x horizontal towards the stall's middle, y to the left and z up.
-
-    Raises
-    ------
-    ConfigError
-        If the garage has no suitable column.
-    """
-    found: dict[str, tuple[list[shapely.Polygon], float]] = {}
-    for solid in level.solids.standing(_COLUMN):
-        pieces, low_m = found.get(solid.name, ([], math.inf))
-        found[solid.name] = [*pieces, solid.footprint], min(low_m, solid.bottom_m)
-    candidates: list[tuple[bool, float, str, Point, float]] = []
-    for name, (pieces, low_m) in found.items():
-        centre = shapely.union_all(pieces).envelope.centroid
-        place = (centre.x, centre.y)
-        distance_m = math.dist(place, stall.centre)
-        if distance_m >= _NEAREST_M and not _is_hidden(level, name, place, stall.centre):
-            candidates.append((not _is_before(stall, place), round(distance_m, 6), name, place, low_m))
-    if not candidates:
-        raise ConfigError("rig", stall.name, "a stall that a column of the garage watches, for sensors on a column")
-    *_, (x_m, z_m), low_m = min(candidates)
-    along = np.array([stall.centre[0] - x_m, 0.0, stall.centre[1] - z_m])
-    along /= np.linalg.norm(along)
-    matrix = np.eye(4)
-    matrix[:3, 0], matrix[:3, 2] = along, (0.0, 1.0, 0.0)
-    matrix[:3, 1] = np.cross(matrix[:3, 2], matrix[:3, 0])
-    matrix[:3, 3] = x_m, low_m, z_m
-    return matrix
-
-
-def _is_before(stall: Stall, place: Point) -> bool:
-    """Test if a point lies in front of a stall's entry, on the side from which cars come."""
-    ahead = (place[0] - stall.mouth[0]) * stall.outwards[0] + (place[1] - stall.mouth[1]) * stall.outwards[1]
-    return ahead > 0
-
-
-def _is_hidden(level: BuiltLevel, column: str, place: Point, middle: Point) -> bool:
-    sight = shapely.LineString([place, middle])
-    return any(
-        solid.name != column and solid.label not in CAR_LABELS and solid.top_m >= _HIDES_FROM_M
-        for solid in level.solids.at(sight)
-    )
 
 
 class Way:
@@ -108,6 +51,8 @@ class Way:
         Description of the drive.
     to_stage
         Transform from metres with Y up to the stage's axes; shape (4, 4).
+    agents
+        The other agents of a recording in traffic; None without traffic.
     """
 
     stage: Usd.Stage
@@ -116,11 +61,24 @@ class Way:
     stall: Stall | None
     about: Mapping[str, object] | None
     to_stage: Matrix
+    agents: Agents | None
 
-    def __init__(self, stage: Usd.Stage, path: Path, along: str | None, every_m: float, settings: DriveConfig) -> None:
+    def __init__(
+        self,
+        stage: Usd.Stage,
+        path: Path,
+        along: str | None,
+        every_m: float,
+        settings: DriveConfig,
+        traffic: Traffic | None = None,
+    ) -> None:
         self.stage, self._source = stage, str(path)
         self.to_stage = y_up_to_stage(stage)
-        self.stall = None
+        self.stall, self.agents = None, None
+        self._ego: Track | None = None
+        if traffic is not None:
+            self._take(traffic, along, settings)
+            return
         self.has_vehicle = along is not None
         if along is None:
             self.poses, self.about = [VehiclePose(0.0, 0.0, self.to_stage @ MAP_TO_Y_UP)], None
@@ -151,13 +109,15 @@ class Way:
         return levels[nearest_floor([level.place.floor_m for level in levels], height_m)]
 
     def grounds_of_cars(self, pose: VehiclePose) -> list[NDArray[np.float64]]:
-        """Return the corners of the cars parked on the level of a vehicle, in metres with Y up; each shape (n, 3)."""
+        """Return the corners of the other cars on the level of a vehicle, in metres with Y up; each shape (n, 3)."""
         level = self.level_at(pose)
         left_out = {*self.left_out}
         grounds = (
             ground for name, (ground, _) in level.cars.items() if level.place.path_in_whole(name) not in left_out
         )
-        return [np.insert(shapely.get_coordinates(ground), 1, level.place.floor_m, axis=1) for ground in grounds]
+        parked = [np.insert(shapely.get_coordinates(ground), 1, level.place.floor_m, axis=1) for ground in grounds]
+        driven = self.agents.outlines_m(self.poses.index(pose), level.place.floor_m) if self.agents else []
+        return [*parked, *driven]
 
     def unseen_from_above(self, pose: VehiclePose, labels: Labels) -> list[int]:
         """Return the ids of the objects of other levels, except the ramps that lead down from the vehicle's level."""
@@ -165,6 +125,62 @@ class Way:
         shown = paths_from_above([level.place for level in levels], levels.index(own))
         others = tuple(f"{level.place.path}/" for level in levels if level is not own)
         return [each for path, each in labels.ids.items() if path.startswith(others) and not path.startswith(shown)]
+
+    def _take(self, traffic: Traffic, along: str | None, settings: DriveConfig) -> None:
+        """Follow the ego through the traffic, or stand in it without an ego."""
+        tracks, ego = traffic.tracks, traffic.ego
+        foreign = [
+            track.agent.prim for track in tracks if track.agent.prim and not self.stage.GetPrimAtPath(track.agent.prim)
+        ]
+        if foreign:
+            raise ConfigError("tracks", foreign[0], "cars of this stage, as the tracks must be those of its garage")
+        if ego == AVP:
+            begins_s, _ = traffic.between_s or (0.0, 0.0)
+            tracks = with_own_drive(tracks, self.garage, settings, along=along, begins_s=begins_s)
+        self._ego, times_s = pose_times(tracks, ego, traffic.every_s, traffic.between_s)
+        self.agents = Agents(tracks, times_s, ego)
+        self.has_vehicle = self._ego is not None
+        if self._ego is None:
+            fixed = self.to_stage @ MAP_TO_Y_UP
+            self.poses = [VehiclePose(time, 0.0, fixed) for time in times_s.tolist()]
+        else:
+            self.poses = ego_poses(self._ego, times_s, self.to_stage)
+            self._along, names = ego, {stall.name: stall for stall in self.garage.stalls}
+            self.stall = next((names[name] for _, _, name in self._ego.stall if name in names), None)
+        self.about = {"ego": ego, "every_s": traffic.every_s, "tracks": tracks.source}
+
+    @property
+    def traffic_facts(self) -> dict[str, object]:
+        """The entry of the traffic in the table of frames; nothing without traffic."""
+        return {} if self.agents is None else {"traffic": self.agents.facts(self.to_stage)}
+
+    def mount_places(self, sensor: Sensor, times_s: Floats) -> Matrix:
+        """Return the transforms from a sensor's mount to the stage's axes at times of the traffic; shape (n, 4, 4)."""
+        if sensor.mount == "vehicle" and self._ego is not None:
+            placed: Matrix = self.to_stage @ vehicle_places(self._ego, times_s)
+            return placed
+        return np.broadcast_to(self.mount_to_world(sensor, self.poses[0]), (len(times_s), 4, 4))
+
+    def vehicle_moved(self, times_s: Floats) -> Matrix | None:
+        """Return the transforms of the ego car from the origin at times of the traffic; None without an ego."""
+        if self._ego is None:
+            return None
+        moved: Matrix = self.to_stage @ vehicle_places(self._ego, times_s) @ self._from_rest
+        return moved
+
+    def stalls_taken(self, number: int) -> tuple[set[str], set[str]]:
+        """Return the stalls that agents leave sooner or later, and those with an agent in them at a pose, by name."""
+        if self.agents is None:
+            return ({self.stall.name} if self.stall else set()), set()
+        corners = {stall.name: np.array(stall.corners) for stall in self.garage.stalls}
+        prims = {*self.agents.hidden_prims}
+        left = {
+            level.place.in_whole(home.name)
+            for level in self.garage.levels
+            for name, (_, home) in level.cars.items()
+            if home is not None and level.place.path_in_whole(name) in prims
+        }
+        return left, self.agents.stalls_taken(number, corners)
 
     def _drive_to(self, stall: str, entrance: str, along: str, every_m: float, settings: DriveConfig) -> None:
         if not stall or not (entrance.isdecimal() or not entrance):
@@ -238,7 +254,9 @@ class Way:
 
     @cached_property
     def left_out(self) -> list[str]:
-        """Paths of the cars parked in the target stall."""
+        """Paths of the cars parked in the target stall, or of all parked cars that are agents of the traffic."""
+        if self.agents is not None:
+            return self.agents.hidden_prims
         if self.stall is None:
             return []
         level = self.garage.levels[self.stall.level]

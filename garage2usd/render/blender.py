@@ -48,7 +48,7 @@ def main() -> None:
     report = _Reporter(Path(job["report"]))
     to_blender = Matrix(job["to_blender"])
     scene, drawn = _build(job, to_blender)
-    moving = [(each.item, each.item.matrix_world.copy()) for each in drawn if each.number in job["moving"]]
+    moving = _resting(drawn, job["moving"])
     report.listen()
     report.finish(0)
     colour = [frame for frame in job["frames"] if frame["colour"]]
@@ -280,12 +280,25 @@ def _look_along_rays(camera: bpy.types.Camera, lens: dict[str, Any], width: int,
     camera.update_tag()
 
 
-def _move(moving: list[tuple[bpy.types.Object, Matrix]], moved: list[list[float]] | None, to_blender: Matrix) -> None:
-    """Move the moving objects to their poses in a frame, given by a matrix in the stage's axes."""
-    if moved is not None:
-        matrix = to_blender @ Matrix(moved) @ to_blender.inverted()
-        for item, place in moving:
-            there = matrix @ place
+def _resting(drawn: list[_Drawn], numbers: list[int]) -> dict[int, list[tuple[bpy.types.Object, Matrix]]]:
+    """Return the Blender objects of the ids that move, with their poses in the stage."""
+    found: dict[int, list[tuple[bpy.types.Object, Matrix]]] = {number: [] for number in numbers}
+    for each in drawn:
+        if each.number in found:
+            found[each.number].append((each.item, each.item.matrix_world.copy()))
+    return found
+
+
+def _move(
+    moving: dict[int, list[tuple[bpy.types.Object, Matrix]]],
+    moved: list[tuple[int, list[list[float]]]],
+    to_blender: Matrix,
+) -> None:
+    """Move the moving objects to their poses in a frame, given by matrices in the stage's axes."""
+    for number, place in moved:
+        matrix = to_blender @ Matrix(place) @ to_blender.inverted()
+        for item, rest in moving[number]:
+            there = matrix @ rest
             if item.matrix_world != there:
                 item.matrix_world = there
 

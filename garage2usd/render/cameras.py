@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -104,6 +104,10 @@ class View:
     def shows_motion(self) -> bool:
         """True if the colour picture depends on the camera's motion, and so on depth and instances."""
         return self.twist is not None and self.effects is not None and self.effects.shows_motion
+
+    def with_facts(self, **facts: object) -> "View":
+        """Return the view with further entries in the table of frames."""
+        return replace(self, facts={**self.facts, **facts})
 
     def world_to_camera(self) -> NDArray[np.float64]:
         """Return the transform from the stage's axes to the camera's (+Z forward, +X right, +Y down); shape (4, 4)."""

@@ -82,10 +82,10 @@ class Drawing:
     finished
         Folder of finished frames, with a subfolder for each kind of picture.
     moving
-        Ids of the objects that move from view to view.
+        Ids of the objects of the vehicle that carries sensors.
     moved
-        Rigid transform of the moving objects in each view, from their pose in the stage, in the stage's axes and
-        metres; shape (4, 4). None for a view that hides them. Empty if nothing moves.
+        For each view the rigid transform of each object that moves from view to view, by its id, from its pose in the
+        stage, in the stage's axes and metres; shape (4, 4). Empty if nothing moves.
     unseen
         Ids of the objects that each view looks through, though light does not; empty if there are none.
     device
@@ -104,7 +104,7 @@ class Drawing:
     seed: int
     finished: Path
     moving: frozenset[int] = frozenset()
-    moved: Sequence[NDArray[np.float64] | None] = ()
+    moved: Sequence[Mapping[int, NDArray[np.float64]]] = ()
     device: ComputeDevice = CPU
     is_draft: bool = False
     unseen: Sequence[Sequence[int]] = ()
@@ -137,16 +137,12 @@ class Drawing:
         for folder in (*self.kinds, _SEEN, _EFFECTS, _LIGHT):
             (self.finished / folder).mkdir(parents=True, exist_ok=True)
         digits = 1 + int(max(self.labels.ids.values(), default=0) >= INDEX_LIMIT)
-        moved = self.moved or [None] * len(self.views)
+        moved = self.moved or [{}] * len(self.views)
         unseen = self.unseen or [()] * len(self.views)
         frames = zip(self.views, self.hidden, unseen, moved, strict=True)
         jobs = [
-            {
-                **self._frame_job(view, hide, work, digits),
-                "unseen": list(through),
-                "moved": None if place is None else place.tolist(),
-            }
-            for view, hide, through, place in frames
+            {**self._frame_job(view, hide, work, digits), "unseen": list(through), "moved": _listed(places)}
+            for view, hide, through, places in frames
         ]
         order = self._order()
         total = len(self.views) * (self.samples * self._has_colour + self._has_data)
@@ -310,7 +306,7 @@ class Drawing:
             "seed": self.seed,
             "is_draft": self.is_draft,
             "device": self.device.kind,
-            "moving": sorted(self.moving),
+            "moving": sorted({number for places in self.moved for number in places}),
             "frames": jobs,
         }
 
@@ -384,6 +380,10 @@ class _Waiting:
             self._drawing.take_data(view, files)
             for file in files:
                 file.unlink()
+
+
+def _listed(places: Mapping[int, NDArray[np.float64]]) -> list[tuple[int, list[list[float]]]]:
+    return [(number, place.tolist()) for number, place in places.items()]
 
 
 @contextmanager

@@ -199,9 +199,9 @@ def write_picture(kind: Picture, path: Path, surfaces: Surfaces, labels: Labels)
         Table of labels of the stage.
     """
     if kind is Picture.DEPTH:
-        _write_exr(path, {"Z": surfaces.depth_m})
+        write_exr(path, {"Z": surfaces.depth_m})
     elif kind is Picture.NORMALS:
-        _write_exr(path, {axis: surfaces.normal[..., number] for number, axis in enumerate("XYZ")})
+        write_exr(path, {axis: surfaces.normal[..., number] for number, axis in enumerate("XYZ")})
     elif kind is Picture.INSTANCE:
         write_ids(labels.instances_of(surfaces.instance), path)
     else:
@@ -247,7 +247,8 @@ def classes_of(instance: NDArray[np.int32], class_ids: Mapping[int, int]) -> NDA
     return classes[which].reshape(instance.shape)
 
 
-def _write_exr(path: Path, channels: Mapping[str, NDArray[np.float32]]) -> None:
+def write_exr(path: Path, channels: Mapping[str, NDArray[np.float32]]) -> None:
+    """Write channels, shape (rows, columns), as an OpenEXR file of 32-bit floats."""
     import OpenEXR  # noqa: PLC0415 - of an extra
 
     header: dict[str, Any] = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}

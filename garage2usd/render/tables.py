@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Any
@@ -193,6 +193,8 @@ class SlotLabels:
         written there.
     vacated
         Names of the slots whose cars are hidden in the pictures.
+    taken
+        Names of the slots that cars of traffic stand in, by the name of the view; empty without traffic.
     """
 
     stage: Usd.Stage
@@ -200,6 +202,7 @@ class SlotLabels:
     views: Sequence[View]
     finished: Path
     vacated: Collection[str] = ()
+    taken: Mapping[str, Collection[str]] = field(default_factory=dict)
 
     def write(self, formats: Collection[SlotFormat]) -> list[Path]:
         """Write ``slots.json`` and further formats of parking-slot labels.
@@ -215,9 +218,11 @@ class SlotLabels:
             If the stage has no slots.
         """
         slots = self._slots()
-        records = {view.name: slots.seen_in(self._frame(view)) for view in self.views}
+        records = {
+            view.name: slots.taken(self.taken.get(view.name, ())).seen_in(self._frame(view)) for view in self.views
+        }
         name = Path(self.stage.GetRootLayer().realPath).name
-        files = [self._write("slots.json", slots_document(slots, records, stage=name))]
+        files = [self._write("slots.json", slots_document(slots, records, stage=name, is_changing=bool(self.taken)))]
         if SlotFormat.COCO in formats:
             frames = [(self._image(view), records[view.name]) for view in self.views]
             files.append(self._write("slots_coco.json", coco_keypoints(frames, description=f"Slots of {name}")))

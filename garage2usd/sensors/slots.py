@@ -1,7 +1,7 @@
 """Parking slots in camera frames: the visible part of each stall, the source of all slot formats."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from typing import Any
@@ -156,6 +156,14 @@ class Slots:
     slots: tuple[Slot, ...]
     ground_axes: tuple[int, int]
     up_axis: int
+
+    def taken(self, names: Collection[str]) -> "Slots":
+        """Return the slots with cars in those of some names."""
+        slots = (
+            replace(slot, stall=slot.stall.vacated(is_taken=True)) if slot.stall.name in names else slot
+            for slot in self.slots
+        )
+        return replace(self, slots=tuple(slots)) if names else self
 
     def seen_in(self, frame: SlotFrame) -> list[SlotRecord]:
         """Find the parking slots visible in a frame: by a corner, or by a pixel of their ground.

@@ -1,6 +1,7 @@
 """A stage with an additional ego car at the origin, which the renderer moves, and the lights of its lamps."""
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -33,6 +34,16 @@ _TAIL_CD, _TAIL_DOWN_DEG = 12.0, 20.0
 """Luminous intensity of a tail lamp, for which ECE R7 allows 4 to 17 candela, and its downward angle."""
 EGO_PATH = "/EgoCar"
 """Path of the car's prim."""
+AGENTS_PATH = "/Agents"
+"""Path of the prim above other agents."""
+
+
+class RestingAgent(NamedTuple):
+    """An agent at the origin: path of its prim below `AGENTS_PATH`, its meshes in axes that face -Z, and its paint."""
+
+    path: str
+    asset: Asset
+    paint: str = ""
 
 
 class _Lamp(NamedTuple):
@@ -111,8 +122,10 @@ def define_lamp_lights(layer: Sdf.Layer, car: Sdf.Path, asset: Asset) -> None:
         order_operations(light, ["translate", "rotateY", "rotateX"])
 
 
-def write_stage_with_car(path: Path, stage: Usd.Stage, car: CarBody, *, is_lit: bool = False) -> None:
-    """Write a layer over a stage that adds a car at `EGO_PATH`.
+def write_stage_with_car(
+    path: Path, stage: Usd.Stage, car: CarBody, *, is_lit: bool = False, others: Sequence[RestingAgent] = ()
+) -> None:
+    """Write a layer over a stage that adds a car at `EGO_PATH`, and other agents at the origin.
 
     The centre of the rear axle on the floor is the origin, and the car faces -Z in a Y-up frame. An animated car in the
     stage, written by `garage2usd drive --animate`, is deactivated, as the ego car replaces it. If `is_lit`, the head
@@ -134,14 +147,30 @@ def write_stage_with_car(path: Path, stage: Usd.Stage, car: CarBody, *, is_lit: 
                 over.specifier = Sdf.SpecifierOver
                 over.active = False
         _author_car(layer, stage, car, is_lit=is_lit)
+        if others:
+            _author_agents(layer, stage, others)
     save_file(layer, path)
-    write_textures(path.parent, driven_asset(car))
+    write_textures(path.parent, driven_asset(car), *(agent.asset for agent in others))
+
+
+def _define_root(layer: Sdf.Layer, stage: Usd.Stage, path: str) -> Sdf.PrimSpec:
+    """Define a prim whose axes are metres with Y up."""
+    root = define(layer, Sdf.Path(path), "Xform")
+    operation(root, "transform", Sdf.ValueTypeNames.Matrix4d, Gf.Matrix4d(metres_y_up(stage)).GetInverse())
+    order_operations(root, ["transform"])
+    return root
+
+
+def _author_agents(layer: Sdf.Layer, stage: Usd.Stage, agents: Sequence[RestingAgent]) -> None:
+    _define_root(layer, stage, AGENTS_PATH)
+    for agent in agents:
+        for place in Sdf.Path(agent.path).GetPrefixes()[1:]:
+            define(layer, place, "Xform")
+        define_parts(layer, place, agent.asset.parts, agent.asset, define_looks(layer, place, agent.asset, agent.paint))
 
 
 def _author_car(layer: Sdf.Layer, stage: Usd.Stage, car: CarBody, *, is_lit: bool) -> None:
-    root = define(layer, Sdf.Path(EGO_PATH), "Xform")
-    operation(root, "transform", Sdf.ValueTypeNames.Matrix4d, Gf.Matrix4d(metres_y_up(stage)).GetInverse())
-    order_operations(root, ["transform"])
+    root = _define_root(layer, stage, EGO_PATH)
     asset = lit(driven_asset(car)) if is_lit else driven_asset(car)
     looks = define_looks(layer, root.path, asset, DRIVEN_PAINT)
     body = define(layer, root.path.AppendChild("Body"), "Xform")

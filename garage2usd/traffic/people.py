@@ -324,12 +324,19 @@ class People:
         if not is_near and self._turn_to(walker, tail):
             walker.goal = None
             return
-        if walker.goal is None:
-            cells, marks = self._in_the_way(walker)
-            if cells or len(marks):
-                found = self._around(walker, None, cells, marks)
+        cells, marks = self._in_the_way(walker) if walker.goal is None else ([], np.empty((0, 3)))
+        claimed = self._claimed(walker)
+        # where there is no place out of all ways, one that waiting cars do not claim will do
+        for wanted in [[*cells, *claimed], claimed] if claimed else [cells]:
+            if wanted or len(marks):
+                found = self._around(walker, None, wanted, marks)
                 if found is not None and self._turn(walker, self._stage(walker, Walk(found), 1)):
                     walker.goal = tail
+                    return
+
+    def _claimed(self, walker: Walker) -> list[Cells]:
+        """Return the ground that waiting cars claim, if a person is on some of it."""
+        return [np.flatnonzero(self._ground.claims)] if self._is_claimed(walker) else []
 
     def _in_the_way(self, walker: Walker) -> tuple[list[Cells], Floats]:
         """Return the ground that those who block a person want themselves: cells of cars, and (x, z, distance)."""
@@ -349,13 +356,14 @@ class People:
         """Let a person go on along another line if the ground for its body is free."""
         if len(stage.walk.corners) < 2 or not self._is_clear(walker.level, stage.walk.corners, walker.person.car):  # noqa: PLR2004
             return False
+        is_within = self._is_claimed(walker)
         old = walker.stage, walker.samples
         kept = {name: getattr(walker, name) for name in _OF_STAGE}
         walker.enter(stage)
         front = PUSHED_M if stage.trolley > 0 else max(stage.begin_m - _BEHIND_M, 0.0)
         last = min(int(front / SLICE_M), stage.walk.slices - 1)
         last = stage.walk.groups[last]
-        if not self._is_free(walker, walker.held, last, slack_m=_SLACK_M):
+        if not self._is_free(walker, walker.held, last, slack_m=_SLACK_M, is_within=is_within):
             walker.stages[0] = old[0]
             for name, value in kept.items():
                 setattr(walker, name, value)
@@ -494,13 +502,19 @@ class People:
         (low_x, low_z), (high_x, high_z) = walker.marks.min(axis=0).tolist(), walker.marks.max(axis=0).tolist()
         walker.box = low_x, low_z, high_x, high_z
 
-    def _is_free(self, walker: Walker, first: int, last: int, *, slack_m: float = 0.0) -> bool:
+    def _is_claimed(self, walker: Walker) -> bool:
+        """Return True for a person on ground that a car waits for."""
+        return any(self._ground.claims[cells].any() for cells in walker.cells[walker.freed : walker.held])
+
+    def _is_free(
+        self, walker: Walker, first: int, last: int, *, slack_m: float = 0.0, is_within: bool | None = None
+    ) -> bool:
         """Return True if no car holds some slices or waits for them, and no other person is close.
 
         Who is on ground that a car waits for may walk on over it.
         """
         ground = self._ground
-        is_within = any(ground.claims[walker.cells[number]].any() for number in range(walker.freed, walker.held))
+        is_within = self._is_claimed(walker) if is_within is None else is_within
         for number in range(first, last + 1):
             cells = walker.cells[number]
             if (ground.owner[cells] > 0).any() or (not is_within and ground.claims[cells].any()):

@@ -25,11 +25,13 @@ _MOST_BRAKING_M_S2 = 3.4
 _AHEAD_M = 2.5
 """Ground held beyond the braking distance in metres."""
 _RETRY_STEPS, _LOOK_SLICES = 4, 60
-"""Steps between two tries to go on, and number of slices ahead in which a car finds others that stand in its way."""
+"""Steps between two tries to go on, and number of slices ahead whose ground a car is said to want."""
 _YIELD_STEPS = 40
 """Steps after which a car that lets others go first goes on all the same, as where one comes from each side."""
 _AT_ONCE_M = 3.0
 """Two cars come to a junction at once if the second is within this distance of the place where it would reserve it."""
+_ROUNDS = 40
+"""Most rounds in which cars drive on by turns to find that they do not lock up."""
 _CLAIM_STEPS = 20
 """Steps after which a car that waits for people claims the ground, so that they leave it and nobody else enters it."""
 _NEAR_M, _AT_END_M = 0.002, 1e-6
@@ -163,7 +165,7 @@ class Simulation:
                 is_free = self.ground.is_free
                 trip.hint = next(each for each in slices if not is_free(trip.cells[each], driver.number))
                 return False
-            if self._closes_circle(driver, last) or self._gives_way(driver, last):
+            if self._locks_up(driver, last) or self._gives_way(driver, last):
                 return False
             driver.came_at = driver.yields_at = -1
             self._hold(driver, last)
@@ -184,7 +186,7 @@ class Simulation:
             self._is_own[own] = True
             is_same = bool(self._is_own[cells].any())
             self._is_own[own] = False
-            if is_same and self.ground.is_free(cells, other.number) and not self._closes_circle(other, end):
+            if is_same and self.ground.is_free(cells, other.number) and not self._locks_up(other, end):
                 driver.yields_at = self.step if driver.yields_at < 0 else driver.yields_at
                 return True
         return False
@@ -207,30 +209,68 @@ class Simulation:
             self._stands[cells] = driver.number
             self._standing[driver.number] = cells
 
-    def _closes_circle(self, driver: Driver, last: int) -> bool:
-        """Return True if a car that goes on to the end of a slice would close a circle of cars that wait for another.
+    def _locks_up(self, driver: Driver, last: int) -> bool:
+        """Return True if cars may lock up when one goes on to the end of a slice.
 
-        This is the detection of cycles in the wait-for graph (Coffman, Elphick and Shoshani 1971), ahead of time.
+        Notes
+        -----
+        This is deadlock avoidance by safe states (Dijkstra's banker's algorithm), with cars in place of processes and
+        cells in place of resources. A state is safe if all cars can end their trips one after another, where a car
+        whose way is not free yet may drive on to a place to wait. As the present state is safe, the next one is too
+        if the way of the car is free of all others, or if it stands in nobody's way.
         """
-        trip = driver.trip
-        if last >= trip.slices - 1:
+        trip, number = driver.trip, driver.number
+        if last >= trip.slices - 1 or not self._first_taken(driver.number, trip, last):
             return False
-        of_number = {other.number: other for other in self.drivers}
-        own = trip.cells[last]
-        self._is_own[own] = True
-        waiting, seen = [(trip, last + 1)], {driver.number}
-        closes = False
-        while waiting and not closes:
-            other, begin = waiting.pop()
-            cells = other.cells_between(begin, other.next_wait(begin + _LOOK_SLICES) + 1)
-            closes = (other is not trip or begin != last + 1) and bool(self._is_own[cells].any())
-            standing = self._stands[cells]
-            found = set(standing[standing > 0].tolist()) - seen
-            seen |= found
-            blocking = (of_number[number] for number in sorted(found) if number in of_number)
-            waiting += [(each.trip, each.held) for each in blocking if each.held < each.trip.slices]
-        self._is_own[own] = False
-        return closes
+        undo = []
+
+        def put(who: int, before: Cells | None, after: Cells | None) -> None:
+            for cells, value in ((before, 0), (after, who)):
+                if cells is not None:
+                    undo.append((cells, self._stands[cells]))
+                    self._stands[cells] = value
+
+        put(number, self._standing.get(number), trip.cells[last])
+        waiting = [(number, trip, last)]
+        waiting += [(each.number, each.trip, each.held - 1) for each in self.drivers if each is not driver]
+        found = self._play(number, [each for each in waiting if each[2] < each[1].slices - 1], put)
+        for cells, values in reversed(undo):
+            self._stands[cells] = values
+        return not found
+
+    def _play(
+        self,
+        number: int,
+        waiting: list[tuple[int, Trip, int]],
+        put: Callable[[int, Cells | None, Cells | None], None],
+    ) -> bool:
+        """Let cars that stand at the ends of slices drive on by turns; return True if one of them ends its trip."""
+        for _ in range(_ROUNDS):
+            left: list[tuple[int, Trip, int]] = []
+            stood = [at for _, _, at in waiting]
+            for who, trip, at in waiting:
+                taken = self._first_taken(who, trip, at)
+                if not taken:
+                    if who == number:
+                        return True
+                    put(who, trip.cells[at], None)
+                    continue
+                to = trip.last_wait(at, taken)
+                if to > at:
+                    put(who, trip.cells[at], trip.cells[to])
+                left.append((who, trip, to))
+            if len(left) == len(waiting) and [at for _, _, at in left] == stood:
+                return False
+            waiting = left
+        return False
+
+    def _first_taken(self, number: int, trip: Trip, at: int) -> int:
+        """Return the first slice after one on which another car stands; 0 if there is none."""
+        cells, starts = trip.flat
+        standing = self._stands[cells[starts[at + 1] :]]
+        taken = (standing > 0) & (standing != number)
+        first = int(taken.argmax())
+        return int(np.searchsorted(starts, starts[at + 1] + first, side="right")) - 1 if taken[first] else 0
 
     def _advance(self, driver: Driver) -> None:
         trip, settings = driver.trip, self._settings

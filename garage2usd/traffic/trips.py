@@ -194,11 +194,11 @@ class Trip:
 
     def cells_between(self, begin: int, end: int) -> Cells:
         """Return the cells of the slices from one up to another."""
-        flat, starts = self._flat
+        flat, starts = self.flat
         return np.concatenate([self.cells[begin], flat[starts[begin + 1] : starts[max(end, begin + 1)]]])
 
     @cached_property
-    def _flat(self) -> tuple[Cells, Cells]:
+    def flat(self) -> tuple[Cells, Cells]:
         """The cells that all slices enter, and where those of each slice begin."""
         return np.concatenate(self.entered), np.cumsum([0, *map(len, self.entered)])
 
@@ -219,6 +219,19 @@ class Trip:
     def next_wait(self, number: int) -> int:
         """Return the first slice at or after one at whose end a car may wait; the last one beyond the end."""
         return self.groups[min(number, self.slices - 1)]
+
+    @cached_property
+    def _waits_before(self) -> list[int]:
+        """For each slice the last slice at or before it at whose end a car may wait; -1 without one."""
+        found, last = [], -1
+        for number, end in enumerate(self.groups):
+            last = number if end == number else last
+            found.append(last)
+        return found
+
+    def last_wait(self, at: int, taken: int) -> int:
+        """Return the last slice before one that is taken at whose end a car may wait, or else the one it is at."""
+        return max(self._waits_before[taken - 1], at)
 
     def turn_at(self, number: int) -> tuple[float, float]:
         """Return the yaw at the begin of a slice, and at the next place to wait."""

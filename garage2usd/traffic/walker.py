@@ -1,4 +1,5 @@
 """A person on a walk: its line, the ground that it holds a few steps ahead, and its track in the end."""
+# Over 300 lines: the ground and the motion of a walker, alone and with a trolley, change together.
 
 import math
 from collections.abc import Iterator, Sequence

@@ -1,4 +1,5 @@
 """Walks of people between cars and the stair cores, over the free ground beside stalls, aisles and columns."""
+# Over 300 lines: walks to a door, around cars and out of their way are found on the same grid.
 
 import math
 
@@ -30,7 +31,7 @@ _MIDDLE_COST = 1.6
 """Cost of the middle of an aisle, as a factor on that of its sides along the mouths of stalls."""
 _SIDE_M = 1.4
 _TO_DOOR_M, _BEFORE_DOOR_M, _TRIED = 4.0, 0.5, 16
-_AROUND_M, _ASIDE_M = 0.3, 2.0
+_AROUND_M, _ASIDE_M, _SEEN_M = 0.3, 2.0, 6.0
 
 
 class Walkways:
@@ -259,6 +260,8 @@ class Walkways:
         radius_m
             Radius of who walks; more than that of a person with a trolley.
         """
+        # who is further away will have moved on by then
+        cars, people = (rows[np.abs(rows[:, :2] - np.array(start)).max(axis=1) < _SEEN_M] for rows in (cars, people))
         is_kept = ~self._near_places(cars, radius_m + _AROUND_M) & ~self._within(people)
         if radius_m > PERSON_RADIUS_M:
             is_kept &= self._is_wide

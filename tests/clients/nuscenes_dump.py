@@ -76,6 +76,12 @@ def sample_of(sample, mask):
                 "said": data.get("sample_annotation", box.token)["num_lidar_pts"],
                 "visibility": data.get("sample_annotation", box.token)["visibility_token"],
                 "corners": data.get_box(box.token).corners().T.tolist(),
+                "velocity": np.nan_to_num(data.box_velocity(box.token)).tolist(),
+                "given": data.get("sample_annotation", box.token).get("velocity"),
+                "attributes": [
+                    data.get("attribute", each)["name"]
+                    for each in data.get("sample_annotation", box.token)["attribute_tokens"]
+                ],
             }
             for box in boxes
         ],

@@ -175,7 +175,8 @@ class Reader:
     def _command(self, arguments, code, place):
         if arguments[0] == "render":
             pytest.importorskip("bpy", reason="Blender's bpy is made for Python 3.11 only")
-            small = ["--scale", "0.05", "--every-m", "40"] if "--rig" in arguments else ["--size", "32x18"]
+            apart = ["--every-s", "8"] if "--tracks" in arguments else ["--every-m", "40"]
+            small = ["--scale", "0.05", *apart] if "--rig" in arguments else ["--size", "32x18"]
             arguments = [*arguments, *small, "--samples", "1"]
         elif arguments[0] == "look" and "--contact-sheet" in arguments:
             pytest.importorskip("bpy", reason="Blender's bpy is made for Python 3.11 only")

@@ -11,8 +11,9 @@ from PIL import Image
 from pxr import Usd
 
 from garage2usd.common.errors import ConfigError
+from garage2usd.objects import CAR_LABELS
 from garage2usd.reading.labels import Labels
-from garage2usd.sensors.formats.nuscenes_boxes import PARKED, VISIBILITY, add_boxes, object_boxes
+from garage2usd.sensors.formats.nuscenes_boxes import ATTRIBUTES, PARKED, VISIBILITY, TrafficAt, add_boxes, object_boxes
 from garage2usd.sensors.formats.nuscenes_scenes import GlobalFrame, Location, Stretch, locations_of, stretches_of
 from garage2usd.sensors.formats.nuscenes_tables import (
     BOXED,
@@ -37,7 +38,13 @@ _DATE = "2000-01-01"
 
 
 def write_nuscenes(
-    recording: Recording, folder: Path, *, stage: Usd.Stage, labels: Labels, scene: RayScene
+    recording: Recording,
+    folder: Path,
+    *,
+    stage: Usd.Stage,
+    labels: Labels,
+    scene: RayScene,
+    traffic: TrafficAt | None = None,
 ) -> tuple[Path, ...]:
     """Write a recording in the nuScenes format.
 
@@ -50,6 +57,9 @@ def write_nuscenes(
         Existing folder in which ``samples``, ``lidarseg``, ``maps`` and the folder of tables are written.
     stage, labels, scene
         The recorded stage, its table of labels, and its solid surfaces.
+    traffic
+        Surfaces and boxes of agents at each pose, for a recording in traffic. Annotations then have a ``velocity`` in
+        the global frame.
 
     Returns
     -------
@@ -85,11 +95,14 @@ def write_nuscenes(
     for location in dict.fromkeys(stretch.location for stretch in stretches):
         _add_location(tables, location, world, scene, labels, folder, recording)
     _add_sensors(tables, shots, channels)
-    boxes = object_boxes(stage, scene, [number for number, each in labels.classes.items() if each.name in BOXED])
+    boxed, cars = (
+        [number for number, each in labels.classes.items() if each.name in names] for names in (BOXED, CAR_LABELS)
+    )
+    boxes = object_boxes(stage, scene, boxed, parked_ids=cars)
     for stretch in stretches:
         _add_scene(tables, stretch, channels, recording)
         clouds = _add_data(tables, stretch, channels, folder, world, labels)
-        add_boxes(tables, stretch, boxes, clouds, world, labels, scene)
+        add_boxes(tables, stretch, boxes, clouds, world, labels, scene, traffic)
     table_folder = folder / NUSCENES_VERSION
     table_folder.mkdir()
     for name, records in tables.records.items():
@@ -126,6 +139,9 @@ def _add_words(tables: Tables) -> None:
     for token, level, _ in VISIBILITY:
         tables.records["visibility"].append({"token": token, "level": level, "description": f"{level} % in sight"})
     tables.add("attribute", PARKED, name=PARKED, description="stands in a stall")
+    for name in dict.fromkeys(ATTRIBUTES.values()):
+        if name != PARKED:
+            tables.add("attribute", name, name=name, description="")
 
 
 def _add_location(

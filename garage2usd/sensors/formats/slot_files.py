@@ -106,7 +106,9 @@ def _type_of(record: SlotRecord) -> int:
     return _ACUTE if record.slot.stall.angle_deg < _QUARTER_DEG else _OBTUSE
 
 
-def slots_document(slots: Slots, frames: Mapping[str, Sequence[SlotRecord]], *, stage: str) -> dict[str, Any]:
+def slots_document(
+    slots: Slots, frames: Mapping[str, Sequence[SlotRecord]], *, stage: str, is_changing: bool = False
+) -> dict[str, Any]:
     """Return the parking slots of a stage and of its frames as a JSON object.
 
     Parameters
@@ -117,6 +119,8 @@ def slots_document(slots: Slots, frames: Mapping[str, Sequence[SlotRecord]], *, 
         Visible slots of each frame, by frame name.
     stage
         Name of the stage's file.
+    is_changing
+        True to tell of each slot in each frame whether it is occupied.
     """
     return {
         "version": VERSION,
@@ -141,6 +145,7 @@ def slots_document(slots: Slots, frames: Mapping[str, Sequence[SlotRecord]], *, 
                         "visibility": list(record.visibility),
                         "outline_px": [rounded(part, PLACES_PX) for part in record.outline_px],
                         "seen_px": record.seen_px,
+                        **({"occupied": record.slot.stall.is_occupied} if is_changing else {}),
                     }
                     for record in records
                 ],

@@ -1,79 +1,23 @@
-"""LiDAR simulation: the rays of a sweep, a car that moves through the scene, and the point cloud of the returns."""
+"""LiDAR simulation: the rays of a sweep, and the point cloud of the returns."""
 
 import math
 import zlib
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Any, Self
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.common.randomness import Step, generator
-from garage2usd.scenes.surfaces import SurfaceLook
+from garage2usd.sensors.rays.moved_scene import MovedScene
 from garage2usd.sensors.rays.point_cloud import PointCloud
-from garage2usd.sensors.rays.ray_scene import RayHits, RayScene
+from garage2usd.sensors.rays.ray_scene import RayScene
 from garage2usd.sensors.rays.reflectance import returned
 from garage2usd.sensors.rig.sensors import Lidar, SolidStateLidar, SpinningLidar
 
 _PRISM_RPM = 7294.0, -4664.0
 """Speeds of the two rotating prisms of a Livox Mid-40."""
-
-
-@dataclass(frozen=True, eq=False)
-class MovedScene:
-    """A static ray scene and a moving object, whose triangles are numbered after the scene's.
-
-    Attributes
-    ----------
-    scene
-        The static surfaces.
-    thing
-        The moving object in the axes of its own stage.
-    place
-        Rigid transform from the object's stage to the scene's axes, in metres, for column vectors; float64, shape (4,
-        4).
-    instance, class_id, surface
-        Attributes of all triangles, as in `RayScene`.
-    surfaces
-        Looks of all surfaces.
-    """
-
-    scene: RayScene
-    thing: RayScene
-    place: NDArray[np.float64]
-    instance: NDArray[np.int32]
-    class_id: NDArray[np.uint8]
-    surface: NDArray[np.int32]
-    surfaces: tuple[SurfaceLook, ...]
-
-    def at(self, place: NDArray[np.float64]) -> Self:
-        """Return the ray scene with the moving object at another pose."""
-        return replace(self, place=place)
-
-    def cast(self, origins_m: NDArray[Any], directions: NDArray[Any]) -> RayHits:
-        """Find the first hit of each ray; see `RayScene.cast`."""
-        here, turn = self.scene.cast(origins_m, directions), self.place[:3, :3]
-        there = self.thing.cast((np.asarray(origins_m) - self.place[:3, 3]) @ turn, np.asarray(directions) @ turn)
-        is_there = there.range_m < here.range_m
-        return RayHits(
-            np.where(is_there, there.range_m, here.range_m),
-            np.where(is_there, there.triangle + len(self.scene.triangles), here.triangle),
-            np.where(is_there, there.cos_incidence, here.cos_incidence),
-        )
-
-
-def joined(scene: RayScene, thing: RayScene) -> MovedScene:
-    """Join a ray scene and a moving object at its initial pose."""
-    return MovedScene(
-        scene,
-        thing,
-        np.eye(4),
-        np.concatenate([scene.instance, thing.instance]),
-        np.concatenate([scene.class_id, thing.class_id]),
-        np.concatenate([scene.surface, thing.surface + len(scene.surfaces)]),
-        scene.surfaces + thing.surfaces,
-    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +37,13 @@ class Beams:
 
 
 def measure(
-    scene: RayScene | MovedScene, sensor: Lidar, sensor_to_world: NDArray[np.float64], *, seed: int = 0, sweep: int = 0
+    scene: RayScene | MovedScene,
+    sensor: Lidar,
+    sensor_to_world: NDArray[np.float64],
+    *,
+    seed: int = 0,
+    sweep: int = 0,
+    given_in: NDArray[np.float64] | None = None,
 ) -> PointCloud:
     """Simulate one sweep of a rig's LiDAR.
 
@@ -104,9 +54,12 @@ def measure(
     sensor
         The LiDAR; its name is part of the noise's seed, so that each LiDAR has noise of its own.
     sensor_to_world
-        Transform from the LiDAR's axes to the stage's, in metres, for column vectors; shape (4, 4).
+        Transform from the LiDAR's axes to the stage's, in metres, for column vectors; shape (4, 4), or (rays, 4, 4) of
+        a LiDAR that moves during the sweep.
     seed, sweep
         Seed of the noise and number of the sweep; rosettes advance with the sweep as well.
+    given_in
+        As of `scan`.
 
     Notes
     -----
@@ -121,7 +74,21 @@ def measure(
         seed=seed,
         sensor=sensor.name,
         sweep=sweep,
+        given_in=given_in,
     )
+
+
+def ray_times_s(sensor: Lidar) -> NDArray[np.float64]:
+    """Return the time of each ray of a sweep from the middle of the sweep; all lasers that spin fire together."""
+    match sensor:
+        case SpinningLidar():
+            turns = np.repeat(np.arange(sensor.azimuth_steps) / sensor.azimuth_steps, len(sensor.beams_deg))
+        case SolidStateLidar():
+            turns = np.arange(sensor.columns * sensor.rows) / (sensor.columns * sensor.rows)
+        case _:
+            raise TypeError(f"{type(sensor).__name__} has no rays")
+    times: NDArray[np.float64] = (turns - 0.5) / sensor.rate_hz
+    return times
 
 
 def beams_of(sensor: Lidar, sweep: int = 0) -> Beams:
@@ -207,6 +174,7 @@ def scan(
     seed: int = 0,
     sensor: str = "",
     sweep: int = 0,
+    given_in: NDArray[np.float64] | None = None,
 ) -> PointCloud:
     """Cast the rays of a LiDAR sweep and collect their returns as a point cloud.
 
@@ -217,7 +185,8 @@ def scan(
     beams
         The rays.
     sensor_to_world
-        Transform from the sensor's axes to the stage's, in metres, for column vectors; shape (4, 4).
+        Transform from the sensor's axes to the stage's, in metres, for column vectors; shape (4, 4), or (rays, 4, 4) of
+        a sensor that moves during the sweep.
     range_m
         Least and greatest range of a return.
     range_noise_m
@@ -225,13 +194,17 @@ def scan(
     seed, sensor, sweep
         Seed, sensor name and sweep number that determine the noise; the noise of a ray is independent of the other
         rays' hits.
+    given_in
+        Pose in whose axes a moving sensor's points are given, as by a driver that compensates for the ego motion; shape
+        (4, 4). None gives each point in the axes of its own ray.
 
     Notes
     -----
-    All rays start at the same place, as in a sweep whose driver has compensated for the ego motion.
+    All rays of a sensor that stands start at the same place.
     """
-    turn = sensor_to_world[:3, :3]
-    hits = scene.cast(sensor_to_world[:3, 3], beams.directions @ turn.T)
+    ways = (sensor_to_world[..., :3, :3] @ beams.directions[:, :, None])[..., 0]
+    origins = np.broadcast_to(sensor_to_world[..., :3, 3], ways.shape)
+    hits = scene.cast(origins, ways)
     measured_m = hits.range_m
     if range_noise_m > 0:
         draws = generator(seed, Step.LIDAR, attempt=zlib.crc32(f"{sweep} {sensor}".encode()))
@@ -239,8 +212,11 @@ def scan(
     least_m, most_m = range_m
     kept = np.flatnonzero((hits.range_m >= least_m) & (hits.range_m <= most_m))
     triangle = hits.triangle[kept]
+    points_m = beams.directions[kept] * measured_m[kept, None]
+    if given_in is not None:
+        points_m = (origins[kept] + ways[kept] * measured_m[kept, None] - given_in[:3, 3]) @ given_in[:3, :3]
     return PointCloud(
-        (beams.directions[kept] * measured_m[kept, None]).astype(np.float32),
+        points_m.astype(np.float32),
         _intensity(scene, triangle, hits.cos_incidence[kept]),
         scene.instance[triangle].astype(np.uint32),
         scene.class_id[triangle],

@@ -28,6 +28,8 @@ class PointCloud:
         Index of the laser or row; uint16, shape (n,).
     beam
         Index of the ray within the sweep; uint32, shape (n,).
+    time_s
+        Time of the ray from that of the sweep, in traffic; float32, shape (n,). None for rays of one time.
     """
 
     points_m: NDArray[np.float32]
@@ -36,6 +38,7 @@ class PointCloud:
     class_id: NDArray[np.uint8]
     ring: NDArray[np.uint16]
     beam: NDArray[np.uint32]
+    time_s: NDArray[np.float32] | None = None
 
     def __len__(self) -> int:
         """Return the number of points."""
@@ -66,7 +69,7 @@ POINT_ROW = np.dtype(
 )
 """Record of a point with all its attributes, without padding."""
 
-_ARRAYS = ("points_m", "intensity", "instance", "class_id", "ring", "beam")
+_ARRAYS = ("points_m", "intensity", "instance", "class_id", "ring", "beam", "time_s")
 
 
 def write_cloud(cloud: PointCloud, path: Path, kind: CloudFormat) -> None:
@@ -87,7 +90,7 @@ def write_cloud(cloud: PointCloud, path: Path, kind: CloudFormat) -> None:
 def read_npz(path: Path) -> PointCloud:
     """Read a point cloud that was written as `CloudFormat.NPZ`."""
     with np.load(path) as arrays:
-        return PointCloud(**{name: arrays[name] for name in _ARRAYS})
+        return PointCloud(**{name: arrays[name] for name in _ARRAYS if name in arrays})
 
 
 def point_rows(cloud: PointCloud) -> NDArray[np.void]:
@@ -123,7 +126,8 @@ def _write_kitti(cloud: PointCloud, path: Path) -> None:
 
 def _write_npz(cloud: PointCloud, path: Path) -> None:
     with path.open("wb") as file:
-        np.savez_compressed(file, **{name: getattr(cloud, name) for name in _ARRAYS})
+        arrays = ((name, getattr(cloud, name)) for name in _ARRAYS)
+        np.savez_compressed(file, **{name: array for name, array in arrays if array is not None})
 
 
 _WRITERS = {CloudFormat.PCD: _write_pcd, CloudFormat.KITTI: _write_kitti, CloudFormat.NPZ: _write_npz}

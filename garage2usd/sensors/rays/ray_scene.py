@@ -132,9 +132,12 @@ class RayScene:
     def of_objects(self, ids: Collection[int]) -> "RayScene":
         """Select the surfaces of some objects."""
         kept = np.isin(self.instance, list(ids))
+        used, corners = np.unique(self.triangles[kept], return_inverse=True)
         return replace(
             self,
-            triangles=self.triangles[kept],
+            vertices_m=self.vertices_m[used],
+            coordinates=self.coordinates[used],
+            triangles=corners.reshape(-1, 3).astype(np.int32),
             instance=self.instance[kept],
             class_id=self.class_id[kept],
             surface=self.surface[kept],

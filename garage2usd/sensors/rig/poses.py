@@ -149,18 +149,28 @@ def poses_along(motion: Motion, every_m: float, *, to_stage: Matrix) -> list[Veh
 
 def vehicle_to_y_up(states: Trajectory) -> Matrix:
     """Return the vehicle's transform to metres with Y up at each state of a trajectory; float64, shape (n, 4, 4)."""
-    sin_yaw, cos_yaw = np.sin(states.yaw_rad), np.cos(states.yaw_rad)
-    sin_pitch, cos_pitch = np.sin(states.pitch_rad), np.cos(states.pitch_rad)
+    columns = (states.x_m, states.y_m, states.z_m, states.yaw_rad, states.pitch_rad)
+    placed: Matrix = car_to_y_up(np.stack(columns, axis=1)) @ CAR_FROM_VEHICLE
+    return placed
+
+
+def car_to_y_up(states: Floats) -> Matrix:
+    """Return the transform of a car that looks to -Z to metres with Y up, float64 of shape (n, 4, 4).
+
+    States are x, y, z, yaw and pitch, shape (n, 5), as of `garage2usd.driving.tracks.Track.at`.
+    """
+    yaw_rad, pitch_rad = states[:, 3], states[:, 4]
+    sin_yaw, cos_yaw = np.sin(yaw_rad), np.cos(yaw_rad)
+    sin_pitch, cos_pitch = np.sin(pitch_rad), np.cos(pitch_rad)
     zero = np.zeros_like(sin_yaw)
     car = np.zeros((len(sin_yaw), 4, 4))
     # about +Y by the yaw, before that about +X by the pitch
     car[:, 0, :3] = np.stack([cos_yaw, sin_yaw * sin_pitch, sin_yaw * cos_pitch], axis=1)
     car[:, 1, :3] = np.stack([zero, cos_pitch, -sin_pitch], axis=1)
     car[:, 2, :3] = np.stack([-sin_yaw, cos_yaw * sin_pitch, cos_yaw * cos_pitch], axis=1)
-    car[:, :3, 3] = np.stack([states.x_m, states.y_m, states.z_m], axis=1)
+    car[:, :3, 3] = states[:, :3]
     car[:, 3, 3] = 1.0
-    placed: Matrix = car @ CAR_FROM_VEHICLE
-    return placed
+    return car
 
 
 def y_up_to_stage(stage: Usd.Stage) -> Matrix:

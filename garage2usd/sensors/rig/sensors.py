@@ -280,6 +280,10 @@ class Lidar(Sensor):
     rate_hz: float = Field(10.0, gt=0.0, le=1000.0)
     """Sweeps per second."""
 
+    motion_compensated: bool = True
+    """In traffic: True if points are in the axes of the sensor at the time of the sweep, so that only what moves is
+    distorted; False for each point in the axes of its own ray."""
+
     @field_validator("range_m")
     @classmethod
     def _nearest_first(cls, range_m: tuple[float, float]) -> tuple[float, float]:

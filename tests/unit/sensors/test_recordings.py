@@ -20,8 +20,9 @@ from garage2usd.config.outputs import DriveConfig
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
 from garage2usd.recordings import record
+from garage2usd.recordings.columns import column_to_y_up
 from garage2usd.recordings.scene import Scene
-from garage2usd.recordings.way import Way, column_to_y_up
+from garage2usd.recordings.way import Way
 from garage2usd.render import Picture
 from garage2usd.sensors.rig.poses import Twist
 from garage2usd.sensors.rig.rig import read_rig, rig_from_mapping
