@@ -1,8 +1,8 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
 Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, floor, optimisers, rules, circulation,
-scale, stages, levels, exports, datasets, workers, living, looks, lidar, parking, parking_learnt, unity, traffic, compiled
-and binding.
+scale, stages, levels, exports, datasets, workers, living, looks, lidar, parking, parking_learnt, unity, traffic,
+compiled and binding.
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.

@@ -306,6 +306,7 @@ class People:
             self._ground.of_cars(walker.level),
             np.concatenate([np.empty((0, 3)), *held]),
             wanted=(np.concatenate([np.empty((0, 2)), *wanted]), np.empty((0, 3)) if marks is None else marks),
+            parked=[ground for level, ground in self._others.values() if level == walker.level],
             radius_m=walker.radius_m,
         )
         if found is None or not walker.stage.trolley:

@@ -2,6 +2,7 @@
 # Over 300 lines: walks to a door, around cars and out of their way are found on the same grid.
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import shapely
@@ -29,6 +30,10 @@ _HEAD_M = 2.0
 """Height under which an object is in a walker's way."""
 _MIDDLE_COST = 1.6
 """Cost of the middle of an aisle, as a factor on that of its sides along the mouths of stalls."""
+_STALL_COST = 6.0
+"""Cost of an empty stall, likewise: people stand there who step aside."""
+_PARKED_M = 0.13
+"""Distance from parked cars at points of the grid: half way between two of them there is 0.05 m left."""
 _SIDE_M = 1.4
 _TO_DOOR_M, _BEFORE_DOOR_M, _TRIED = 4.0, 0.5, 16
 _AROUND_M, _ASIDE_M, _SEEN_M = 0.3, 2.0, 6.0
@@ -65,10 +70,14 @@ class Walkways:
         self._lanes = shapely.union_all(_lane_grounds(level))
         for ground in (*self._near, blocked, wide, self._lanes):
             shapely.prepare(ground)
-        is_free = shapely.contains_xy(self._lanes, places) & ~shapely.contains_xy(blocked, places)
+        is_lane = shapely.contains_xy(self._lanes, places) & ~shapely.contains_xy(blocked, places)
+        # who steps aside may stand in an empty stall
+        stalls = shapely.buffer(shapely.union_all(quads), _CLEAR_M, quad_segs=8)
+        shapely.prepare((stalls, self._near[1]))
+        is_free = is_lane | (shapely.contains_xy(stalls, places) & ~shapely.contains_xy(self._near[1], places))
         self._number = np.full(len(places), -1)
         self._number[is_free] = np.arange(int(is_free.sum()))
-        self._free = places[is_free]
+        self._free, self._is_lane = places[is_free], is_lane[is_free]
         self._tree = cKDTree(self._free)
         self._is_wide = ~shapely.contains_xy(wide, self._free)
         self._index = np.flatnonzero(is_free)
@@ -86,7 +95,7 @@ class Walkways:
     def _connected(self, is_free: NDArray[np.bool_]) -> csr_matrix:
         number = self._number.reshape(self._shape)
         beside = shapely.distance(shapely.points(self._free), shapely.boundary(self._lanes)) <= _SIDE_M
-        weight = np.where(beside, 1.0, _MIDDLE_COST)
+        weight = np.where(self._is_lane, np.where(beside, 1.0, _MIDDLE_COST), _STALL_COST)
         found = []
         for step, far in (((1, 0), 1.0), ((0, 1), 1.0), ((1, 1), math.sqrt(2)), ((1, -1), math.sqrt(2))):
             before = slice(0, self._shape[0] - step[0]), slice(max(-step[1], 0), self._shape[1] - max(step[1], 0))
@@ -97,7 +106,9 @@ class Walkways:
         edges = np.concatenate(found)
         ends = edges[:, :2].astype(np.int64)
         # an edge between two free places may cut a corner
-        is_clear = ~shapely.intersects(self._near[0], shapely.linestrings(self._free[ends]))
+        lines, is_lane = shapely.linestrings(self._free[ends]), self._is_lane[ends].all(axis=1)
+        is_clear = ~shapely.intersects(self._near[1], lines)
+        is_clear[is_lane] &= ~shapely.intersects(self._near[0], lines[is_lane])
         (start, end), cost, size = ends[is_clear].T, edges[is_clear, 2], len(self._free)
         both = np.concatenate([start, end]), np.concatenate([end, start])
         return coo_matrix((np.concatenate([cost, cost]), both), (size, size)).tocsr()
@@ -119,8 +130,7 @@ class Walkways:
         it. None leads closer to places that are held, rows of (x, z, distance), than their distance.
         """
         away = np.hypot(*(self._free - np.array(place)).T)
-        if among is not None:
-            away = np.where(among, away, np.inf)
+        away = np.where(self._is_lane if among is None else among, away, np.inf)
         nearest = np.argsort(away, kind="stable")[:_TRIED]
         nearest = nearest[away[nearest] <= within_m]
         if not len(nearest):
@@ -133,7 +143,7 @@ class Walkways:
             apart = shapely.distance(lines[:, None], shapely.points(held[:, :2])[None])
             is_open = (apart >= held[:, 2] - 1e-6).all(axis=1)
             nearest, lines = nearest[is_open], lines[is_open]
-        for ground in self._near:
+        for ground in self._near if among is None or among is self._is_wide else self._near[1:]:
             if short_m or ground is self._near[1] or not ground.intersects(shapely.Point(place)):
                 found = nearest[~shapely.intersects(ground, lines)]
                 if len(found):
@@ -241,6 +251,7 @@ class Walkways:
         people: Floats,
         *,
         wanted: tuple[Floats, Floats],
+        parked: Sequence[shapely.Polygon] = (),
         radius_m: float = PERSON_RADIUS_M,
     ) -> Floats | None:
         """Return the corners (x, z) of the shortest walk between two places around cars and people.
@@ -257,6 +268,8 @@ class Walkways:
             Places (x, z) that other people hold, and how far to keep away; shape (n, 3).
         wanted
             Those that others want besides: of cars, and of people.
+        parked
+            Outlines of parked cars.
         radius_m
             Radius of who walks; more than that of a person with a trolley.
         """
@@ -265,6 +278,14 @@ class Walkways:
         is_kept = ~self._near_places(cars, radius_m + _AROUND_M) & ~self._within(people)
         if radius_m > PERSON_RADIUS_M:
             is_kept &= self._is_wide
+        near = np.flatnonzero(np.abs(self._free - np.array(start)).max(axis=1) < _SEEN_M)
+        is_kept &= self._is_lane | np.isin(np.arange(len(self._free)), near)
+        if parked and len(near):
+            grounds = shapely.union_all(
+                [ground for ground in parked if ground.distance(shapely.Point(start)) < 2 * _SEEN_M]
+            )
+            points = shapely.points(self._free[near])
+            is_kept[near] &= ~(shapely.distance(points, grounds) < radius_m + _PARKED_M)
         other = None if end is None else self._nearest(end, 3.0, among=is_kept)
         if other is None and end is not None:
             return None
