@@ -291,6 +291,8 @@ class Walkways:
             return None
         held = np.concatenate([people, np.insert(cars, 2, radius_m + _CELL_M, axis=1)])
         held = held[np.abs(held[:, :2] - np.array(start)).max(axis=1) < _ASIDE_M + 1.0]
+        # who is closer already does not come closer still
+        held[:, 2] = np.minimum(held[:, 2], np.hypot(*(held[:, :2] - np.array(start)).T))
         one = self._nearest(start, _ASIDE_M, among=is_kept, held=held)
         if one is None:
             return None
