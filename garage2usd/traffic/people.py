@@ -322,18 +322,24 @@ class People:
         is_near = walker.goal is None and walker.way_m >= walker.walk.length_m - tail_m - SLICE_M
         if is_near and walker.blocked_steps > _TAIL_STEPS and self._change_side(walker):
             return
+        claimed = self._claimed(walker)
+        if claimed and walker.goal is None and self._step_aside(walker, tail, claimed, np.empty((0, 3))):
+            return
         if not is_near and self._turn_to(walker, tail):
             walker.goal = None
             return
-        cells, marks = self._in_the_way(walker) if walker.goal is None else ([], np.empty((0, 3)))
-        claimed = self._claimed(walker)
-        # where there is no place out of all ways, one that waiting cars do not claim will do
-        for wanted in [[*cells, *claimed], claimed] if claimed else [cells]:
-            if wanted or len(marks):
-                found = self._around(walker, None, wanted, marks)
-                if found is not None and self._turn(walker, self._stage(walker, Walk(found), 1)):
-                    walker.goal = tail
-                    return
+        if walker.goal is None and not claimed:
+            self._step_aside(walker, tail, *self._in_the_way(walker))
+        elif walker.goal is not None and claimed:
+            self._step_aside(walker, tail, claimed, np.empty((0, 3)))
+
+    def _step_aside(self, walker: Walker, tail: Floats, wanted: list[Cells], marks: Floats) -> bool:
+        """Let a person go out of the way of cells and marks, and note where it goes from there."""
+        found = self._around(walker, None, wanted, marks) if wanted or len(marks) else None
+        if found is None or not self._turn(walker, self._stage(walker, Walk(found), 1)):
+            return False
+        walker.goal = tail
+        return True
 
     def _claimed(self, walker: Walker) -> list[Cells]:
         """Return the ground that waiting cars claim, if a person is on some of it."""

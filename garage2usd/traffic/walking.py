@@ -90,6 +90,7 @@ class Walkways:
         self.door_places = np.array([self._free[entry] for _, entry in self._doors]).reshape(-1, 2)
         self._fields = [dijkstra(self._graph, indices=entry, return_predecessors=True) for _, entry in self._doors]
         self._wide_fields: list[tuple[Floats, NDArray[np.int32]]] = []
+        self._beside_of: dict[shapely.Polygon, NDArray[np.int64]] = {}
         self._walks: dict[tuple[int, bool], Floats | None] = {}
 
     def _connected(self, is_free: NDArray[np.bool_]) -> csr_matrix:
@@ -278,14 +279,8 @@ class Walkways:
         is_kept = ~self._near_places(cars, radius_m + _AROUND_M) & ~self._within(people)
         if radius_m > PERSON_RADIUS_M:
             is_kept &= self._is_wide
-        near = np.flatnonzero(np.abs(self._free - np.array(start)).max(axis=1) < _SEEN_M)
-        is_kept &= self._is_lane | np.isin(np.arange(len(self._free)), near)
-        if parked and len(near):
-            grounds = shapely.union_all(
-                [ground for ground in parked if ground.distance(shapely.Point(start)) < 2 * _SEEN_M]
-            )
-            points = shapely.points(self._free[near])
-            is_kept[near] &= ~(shapely.distance(points, grounds) < radius_m + _PARKED_M)
+        beside = [self._beside(ground) for ground in parked]
+        is_kept[np.concatenate(beside) if beside else []] = False
         other = None if end is None else self._nearest(end, 3.0, among=is_kept)
         if other is None and end is not None:
             return None
@@ -312,6 +307,16 @@ class Walkways:
             return None
         walk: Floats = np.concatenate([[start], self._free[kept[_traced(before, at)[::-1]]]])
         return walk
+
+    def _beside(self, ground: shapely.Polygon) -> NDArray[np.int64]:
+        """Return the numbers of the free grid points that are too near to a parked car."""
+        if ground not in self._beside_of:
+            middle = np.array(ground.centroid.coords[0])
+            reach_m = float(np.hypot(*(shapely.get_coordinates(ground) - middle).T).max()) + 1.0
+            near = np.array(self._tree.query_ball_point(middle, reach_m), dtype=np.int64)
+            apart = shapely.distance(shapely.points(self._free[near]), ground)
+            self._beside_of[ground] = near[apart < PERSON_RADIUS_M + _PARKED_M]
+        return self._beside_of[ground]
 
     def _within(self, places: Floats) -> NDArray[np.bool_]:
         """Return True for each free grid point within a distance of a place; rows of (x, z, distance)."""
