@@ -24,7 +24,7 @@ from garage2usd.traffic.walking import BREADTH_M, PERSON_RADIUS_M, Walkways
 
 _OUT_M, _NEAR_CAR_M = 0.6, 3.0
 _GET_OUT_S, _GET_IN_S, _LOADS_S = (6.0, 14.0), (4.0, 8.0), (12.0, 25.0)
-_APART_M, _SLACK_M = 0.06, 0.03
+_APART_M, _SLACK_M, _SAME_M, _TURN_COS = 0.06, 0.03, 0.1, 0.5
 """Least distance between the discs of two people, and what may be missing where one begins another walk."""
 _RIGHT_M, _ABREAST_M = 0.3, 0.75
 """How far to the right of the shortest way people walk, and distance between two who walk side by side."""
@@ -312,7 +312,11 @@ class People:
         if found is None or not walker.stage.trolley:
             return found
         # a trolley does not turn about
-        is_onward = len(found) > 1 and float((found[1] - found[0]) @ (last - first)) >= 0
+        found = found[np.concatenate([[True], np.hypot(*np.diff(found, axis=0).T) > _SAME_M])]
+        if len(found) < 2:  # noqa: PLR2004
+            return None
+        on, before = found[1] - found[0], last - first
+        is_onward = float(on @ before) >= _TURN_COS * float(np.hypot(*on) * np.hypot(*before))
         return np.concatenate([[first], found]) if is_onward else None
 
     def _go_around(self, walker: Walker) -> None:
@@ -452,7 +456,7 @@ class People:
             came = walker.walk.corners[walker.walk.lengths_m < walker.way_m - SLICE_M][::-1]
             back = np.concatenate([[here], came]) if back is None else back
             # a person does not walk back through the trolley
-            while len(back) > 2 and float((back[1] - here) @ (here - trolley)) < 0:  # noqa: PLR2004
+            while len(back) > 2 and float((back[1] - here) @ (here - trolley)) <= 0:  # noqa: PLR2004
                 back = np.delete(back, 1, axis=0)
             following = replace(following, walk=Walk(np.concatenate([[trolley], back])), begin_m=PUSHED_M)
         old = walker.stages

@@ -92,3 +92,31 @@ def test_who_turns_left_lets_oncoming_cars_pass(is_first):
 
 def test_four_cars_at_once_all_pass():
     assert sorted(_order([_trip(quarter) for quarter in range(4)])) == [0, 1, 2, 3]
+
+
+def test_cars_head_on_in_one_lane_are_not_both_let_in():
+    cars = Simulation(Ground(_RASTER), _SETTINGS)
+    ahead, against = _trip(0), _trip(2, keeps_left=True)
+    assert cars.try_start(1, ahead) is not None
+    assert cars.try_start(2, against) is None
+    for _ in range(900):
+        cars.advance(cars.leave_ground)
+    assert cars.drivers == []
+    assert cars.try_start(2, against) is not None
+
+
+def test_a_car_that_waits_for_people_claims_their_ground_until_it_drives_on():
+    ground = Ground(_RASTER)
+    cars = Simulation(ground, _SETTINGS)
+    driver = cars.try_start(1, _trip(0))
+    blocked = driver.trip.cells[60]
+    ground.people[blocked] += 1
+    for _ in range(300):
+        cars.advance(cars.leave_ground)
+    assert driver.speed_m_s == 0.0
+    assert ground.claims[blocked].any()
+    ground.people[blocked] -= 1
+    for _ in range(600):
+        cars.advance(cars.leave_ground)
+    assert driver.is_done
+    assert not ground.claims.any()

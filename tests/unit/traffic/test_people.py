@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+import shapely
 from support.tracks_judge import judge
 
 from garage2usd import GarageConfig, generate
@@ -118,3 +119,20 @@ def test_shares_that_are_no_shares_are_refused():
         validated(TrafficConfig, {"people_in_car": (0.5, 0.5, 0.5, 0.0)}, within="traffic")
     with pytest.raises(ConfigError, match=r"traffic.trolleys: got 2"):
         validated(TrafficConfig, {"trolleys": 2}, within="traffic")
+
+
+def test_nobody_walks_onto_ground_that_a_waiting_car_claims(operation):
+    ground = operation.new_ground()
+    people = operation.walkers.begin(ground, TrafficConfig(running_children=0.0), np.random.default_rng(1))
+    stall = operation.stalls[0]
+    corners = np.array(stall.corners)
+    car = stall.level, shapely.Polygon(corners.mean(axis=0) + 0.7 * (corners - corners.mean(axis=0)))
+    people.to_car(1, stall, car, {})
+    ground.claims += 1
+    for step in range(600):
+        people.advance(step)
+    assert not ground.people.any()
+    ground.claims -= 1
+    for step in range(600, 3000):
+        people.advance(step)
+    assert people.has_arrived(1)
