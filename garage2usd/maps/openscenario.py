@@ -29,6 +29,7 @@ _MINOR, _MINOR_OF_TRAFFIC = 2, 3
 _HEIGHT_M, _WHEEL_M = 1.5, 0.62
 _AFTER_S = 1.0
 """Seconds for which the scenario continues after the car has stopped."""
+_SAME_S = 1e-6
 _PERSON_KG, _TROLLEY_KG = 75.0, 25.0
 _NEAR_M, _NEAR_RAD = 1e-3, math.radians(0.02)
 """Deviations from tracks that save vertices."""
@@ -134,7 +135,7 @@ def _followed(track: Track, ends_s: float, entities: "xosc.Entities", init: "xos
         way.add_shape(xosc.Polyline(times, positions))
         follow = xosc.FollowTrajectoryAction(way, xosc.FollowingMode.position, xosc.ReferenceContext.absolute, 1, 0)
         _add_event(maneuver, f"{name} follows", times[0], follow)
-    if times[-1] < ends_s:
+    if times[-1] < ends_s - _SAME_S:
         _add_event(maneuver, f"{name} leaves", times[-1], xosc.DeleteEntityAction(name))
     group = xosc.ManeuverGroup(name)
     group.add_actor(name)

@@ -1,6 +1,6 @@
 /* Smooth turns: a clothoid, an arc at full lock or none, and the clothoid back, for the search of roots in
  * garage2usd.driving.turns, and the points of paths. */
-#include "elementary.h"
+#include "driving.h"
 
 /* Limits of turns, and nodes and weights of Gauss's quadrature from -1 to 1, in turn. */
 typedef struct {
@@ -195,12 +195,12 @@ double over_middle_m(double x, double z, double yaw, const double *table, int64_
                 double run = away_x * half[ALONG] + away_z * half[ALONG + 1];
                 double aside = (away_z * half[ALONG] - away_x * half[ALONG + 1]) * (half[OWN] < 0 ? -1 : 1);
                 double same = ahead_x * half[ALONG] + ahead_z * half[ALONG + 1];
-                double across = sqrt(fmax(1 - same * same, 0));
+                double across = sqrt(greater(1 - same * same, 0));
                 if (run <= half[LOW] || run >= half[HIGH] || same <= 0 || fabs(aside) >= 2 * fabs(half[OWN]) ||
                     aside >= width / 2 * same + length / 2 * across)
                     continue;
                 int is_far = run > half[FAR] && run < half[FAR_END];
-                worst = fmax(worst, is_far ? far_cost : 1);
+                worst = greater(worst, is_far ? far_cost : 1);
             }
             over += worst * part;
         }

@@ -37,14 +37,15 @@ class _Layers(NamedTuple):
     cell_m: float
 
 
-class _Row(NamedTuple):
-    numbers: Int64s
+class _Found(NamedTuple):
+    """Where the cells of each slice end, and the cells; filled by C."""
+
+    ends: Int64s
+    cells: Int64s
 
 
 @in_c
-def _write_cells(
-    slices: _Slices, layers: _Layers, ahead: float, behind: float, half: float, ends: _Row, cells: _Row
-) -> int:
+def _write_cells(slices: _Slices, layers: _Layers, ahead: float, behind: float, half: float, found: _Found) -> int:
     raise NotImplementedError
 
 
@@ -91,10 +92,10 @@ class Raster:
         slices, of = _Slices(table, both, step), _Layers(self._layers, CELL_M)
         ends = np.zeros((len(poses) - 1) // step, dtype=np.int64)
         found = np.empty(_USUAL_CELLS * len(ends), dtype=np.int64)
-        count = _write_cells(slices, of, ahead, behind, half, _Row(ends), _Row(found))
+        count = _write_cells(slices, of, ahead, behind, half, _Found(ends, found))
         if count > len(found):
             found = np.empty(count, dtype=np.int64)
-            _write_cells(slices, of, ahead, behind, half, _Row(ends), _Row(found))
+            _write_cells(slices, of, ahead, behind, half, _Found(ends, found))
         return np.split(found[:count], ends[:-1])
 
     def discs(self, places: Floats, radius_m: float, layer: int) -> list[Cells]:

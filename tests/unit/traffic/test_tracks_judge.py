@@ -36,14 +36,18 @@ def test_a_proven_drive_over_two_levels_touches_nothing(alone):
     assert 2.0 < alone.extremes["car"]["speed"][0] < 3.0
 
 
-def test_two_cars_that_meet_on_the_middle_of_an_aisle_overlap(garage, whole):
-    found = judge(whole, garage)
-    (touch,) = found.overlaps
-    assert (touch.kind, touch.one, touch.other) == ("car-car", "car_000", "car_001")
-    assert found.meetings == 1
-    # the outlines at that time, by hand
-    one, other = (track.at(np.array([touch.at_s]))[0] for track in whole if track.agent.name in {"car_000", "car_001"})
-    assert np.hypot(one[0] - other[0], one[2] - other[2]) < 4.5
+def test_two_cars_that_meet_in_one_lane_overlap(garage, whole):
+    one, other = (track for track in whole if track.agent.name in {"car_000", "car_001"})
+    times = np.arange(max(one.time_s[0], other.time_s[0]), min(one.time_s[-1], other.time_s[-1]), 0.05)
+    away = other.at(times) - one.at(times)
+    assert not [touch for touch in judge(whole, garage).overlaps if touch.kind == "car-car"]
+    # where they are nearest, one is moved into the way of the other
+    nearest = int(np.hypot(away[:, 0], away[:, 2]).argmin())
+    beside = replace(one, x_m=one.x_m + away[nearest, 0], z_m=one.z_m + away[nearest, 2])
+    found = judge(tracks_of(beside, other), garage)
+    touches = [touch for touch in found.overlaps if (touch.one, touch.other) == ("car_000", "car_001")]
+    assert any(touch.from_s <= times[nearest] <= touch.to_s for touch in touches)
+    assert found.meetings >= 1
 
 
 @pytest.mark.parametrize("aside_m", [0.5, 1.0])
