@@ -11,19 +11,16 @@ from garage2usd.assets import Asset
 from garage2usd.assets.figures import figure_asset
 from garage2usd.assets.gait import walked
 from garage2usd.assets.poses import Pose
-from garage2usd.common.errors import ConfigError
-from garage2usd.config.vehicles import CAR_BODIES, PAINTS
 from garage2usd.driving.tracks import AgentClass, AgentState, Floats, Track, Tracks
 from garage2usd.objects.car import car_spec
 from garage2usd.objects.trolley import TrolleySpec
 from garage2usd.reading.labels import Labels
 from garage2usd.sensors.rig.poses import CAR_FROM_VEHICLE, Matrix, Twist, VehiclePose, car_to_y_up
-from garage2usd.stage.agent_models import CARS
+from garage2usd.stage.agent_models import CARS, body_of
 from garage2usd.stage.ego_car import AGENTS_PATH, RestingAgent
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.stage.track_people import figure_of
 
-_BODIES = {body.name: body for body in CAR_BODIES}
 _HALF_S = 0.05
 """Time before and after a pose between which velocities are measured."""
 _DIGITS = 4
@@ -65,10 +62,8 @@ class Agents:
         self._part_ids: dict[tuple[int, int], int] = {}
         for number in self._kept:
             agent = self._others[number].agent
-            if agent.kind in CARS and agent.body not in _BODIES:
-                raise ConfigError(f"tracks.{agent.name}.body", agent.body, f"one of {', '.join(_BODIES)}")
-            if agent.kind in CARS and agent.paint not in PAINTS:
-                raise ConfigError(f"tracks.{agent.name}.paint", agent.paint, f"one of {', '.join(PAINTS)}")
+            if agent.kind in CARS:
+                body_of(agent)
 
     @property
     def hidden_prims(self) -> list[str]:
@@ -112,7 +107,7 @@ class Agents:
                 found += [RestingAgent(self._path(owner, pose), asset) for pose, asset in figures]
             else:
                 is_car = agent.kind in CARS
-                asset = asset_of(car_spec(_BODIES[agent.body], agent.paint) if is_car else TrolleySpec())
+                asset = asset_of(car_spec(body_of(agent), agent.paint) if is_car else TrolleySpec())
                 found.append(RestingAgent(self._path(owner), asset, agent.paint))
         return found
 
@@ -157,7 +152,7 @@ class Agents:
     def places(self, owner: int, times_s: Floats) -> Matrix:
         """Return the transforms of an agent to metres with Y up at times; its ends hold beyond them."""
         track = self._others[owner]
-        return car_to_y_up(track.at(np.clip(times_s, track.time_s[0], track.time_s[-1])))
+        return car_to_y_up(track.at(_within(track, times_s)))
 
     def track(self, owner: int) -> Track:
         """Return the track of an agent by its number."""
@@ -166,7 +161,7 @@ class Agents:
     def velocity_m_s(self, owner: int, time_s: float) -> Floats:
         """Return the velocity of the middle of an agent's footprint in metres with Y up; shape (3,)."""
         track = self._others[owner]
-        around = np.clip(np.array([time_s - _HALF_S, time_s + _HALF_S]), track.time_s[0], track.time_s[-1])
+        around = _within(track, np.array([time_s - _HALF_S, time_s + _HALF_S]))
         if around[0] == around[1]:
             return np.zeros(3)
         before, after = track.at(around)[:, :3]
@@ -235,7 +230,7 @@ def ego_poses(track: Track, times_s: Floats, to_stage: Matrix) -> list[VehiclePo
     distance_m = np.interp(times_s, track.time_s, np.concatenate([[0.0], np.cumsum(gone)]))
 
     def find_twist(time_s: float) -> Twist:
-        around = np.clip(np.array([time_s - _HALF_S, time_s + _HALF_S]), track.time_s[0], track.time_s[-1])
+        around = _within(track, np.array([time_s - _HALF_S, time_s + _HALF_S]))
         before, after = vehicle_places(track, around)
         return Twist.between(before, after, float(around[1] - around[0]))
 
@@ -249,7 +244,10 @@ def vehicle_places(track: Track, times_s: Floats) -> Matrix:
     """Return a car's transform from ISO 8855 axes at its rear axle to metres with Y up; its ends hold beyond them."""
     to_axle = np.eye(4)
     to_axle[2, 3] = track.agent.rear_axle_m
-    places: Matrix = (
-        car_to_y_up(track.at(np.clip(times_s, track.time_s[0], track.time_s[-1]))) @ to_axle @ CAR_FROM_VEHICLE
-    )
+    places: Matrix = car_to_y_up(track.at(_within(track, times_s))) @ to_axle @ CAR_FROM_VEHICLE
     return places
+
+
+def _within(track: Track, times_s: Floats) -> Floats:
+    """Return times within those of a track."""
+    return np.clip(times_s, track.time_s[0], track.time_s[-1])

@@ -20,6 +20,7 @@ from garage2usd.stage.walkers import define_figure
 
 CARS = (AgentClass.CAR, AgentClass.VAN, AgentClass.TRUCK)
 _TYPES = Sdf.ValueTypeNames
+_CATALOGUE = {body.name: body for body in CAR_BODIES}
 _OBJECTS = {trolley.KIND.label: trolley.TrolleySpec()}
 """Objects by the classes of agents that are neither cars nor people."""
 
@@ -42,24 +43,13 @@ class AgentModels:
 
     def __init__(self, layer: Sdf.Layer, scope: Sdf.Path, cars: Mapping[str, CarBody] | None = None) -> None:
         self._layer, self._scope = layer, scope
-        self._bodies = {body.name: body for body in CAR_BODIES} | dict(cars or {})
+        self._bodies = _CATALOGUE | dict(cars or {})
         self._paths: dict[str, Sdf.Path] = {}
         self.assets: list[Asset] = []
 
     def body_of(self, agent: Agent) -> CarBody:
-        """Return the body of a car.
-
-        Raises
-        ------
-        ConfigError
-            If the body or paint is unknown.
-        """
-        body = self._bodies.get(agent.body)
-        if body is None:
-            raise ConfigError(f"tracks.{agent.name}.body", agent.body, f"one of {', '.join(self._bodies)}")
-        if agent.paint not in PAINTS and body in CAR_BODIES:
-            raise ConfigError(f"tracks.{agent.name}.paint", agent.paint, f"one of {', '.join(PAINTS)}")
-        return body
+        """Return the body of a car, as `body_of` does, among those of the user too."""
+        return body_of(agent, self._bodies)
 
     def of(self, agent: Agent) -> Sdf.Path:
         """Return the path of an agent's model.
@@ -109,6 +99,22 @@ class AgentModels:
         self.assets.append(asset)
         self._paths[key] = define(self._layer, self._scope.AppendChild(prim_name(key)), "Xform").path
         return self._paths[key]
+
+
+def body_of(agent: Agent, bodies: Mapping[str, CarBody] = _CATALOGUE) -> CarBody:
+    """Return the body of a car among some by their names.
+
+    Raises
+    ------
+    ConfigError
+        If there is no such body, or a body of the catalogue has no such paint.
+    """
+    body = bodies.get(agent.body)
+    if body is None:
+        raise ConfigError(f"tracks.{agent.name}.body", agent.body, f"one of {', '.join(bodies)}")
+    if agent.paint not in PAINTS and body in CAR_BODIES:
+        raise ConfigError(f"tracks.{agent.name}.paint", agent.paint, f"one of {', '.join(PAINTS)}")
+    return body
 
 
 def prim_name(name: str) -> str:

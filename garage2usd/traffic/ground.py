@@ -128,21 +128,6 @@ class Raster:
         middles: Floats = (np.stack(np.divmod(own, self._columns[layer])[::-1], axis=1) + self._low[layer]) * CELL_M
         return middles
 
-    def are_near(self, marked: NDArray[np.bool_], places: Floats, layer: int, radius_m: float) -> NDArray[np.bool_]:
-        """Return True for places (x, z) of a layer within a distance of marked cells; shape (n,)."""
-        own = slice(int(self._first[layer]), int(self._first[layer + 1]))
-        reach = math.ceil(radius_m / CELL_M)
-        steps = np.arange(-reach, reach + 1) * CELL_M
-        rows, cols = np.nonzero(np.hypot(steps[:, None], steps[None, :]) <= radius_m)
-        at, size = np.flatnonzero(marked[own]), own.stop - own.start
-        near = np.zeros(size, dtype=bool)
-        for offset in ((rows - reach) * int(self._columns[layer]) + cols - reach).tolist():
-            near[np.clip(at + offset, 0, size - 1)] = True
-        near = near.reshape(int(self._rows[layer]), int(self._columns[layer]))
-        cells = np.round(places / CELL_M).astype(np.int64) - self._low[layer]
-        found: NDArray[np.bool_] = near[cells[:, 1], cells[:, 0]]
-        return found
-
 
 class Ground:
     """Who holds each cell of a raster.

@@ -22,10 +22,12 @@ from garage2usd.traffic.simulation import STEP_S
 from garage2usd.traffic.walker import BESIDE_M, PUSHED_M, SLICE_M, TROLLEY_RADIUS_M, Person, Stage, Walk, Walker
 from garage2usd.traffic.walking import BREADTH_M, PERSON_RADIUS_M, Walkways
 
-_OUT_M, _NEAR_CAR_M = 0.6, 3.0
+_OUT_M = 0.6
 _GET_OUT_S, _GET_IN_S, _LOADS_S = (6.0, 14.0), (4.0, 8.0), (12.0, 25.0)
-_APART_M, _SLACK_M, _SAME_M, _TURN_COS = 0.06, 0.03, 0.1, 0.5
+_APART_M, _SLACK_M = 0.06, 0.03
 """Least distance between the discs of two people, and what may be missing where one begins another walk."""
+_SAME_M, _TURN_COS = 0.1, 0.5
+"""Distance within which two corners are one, and cosine of the most that a trolley turns at once."""
 _RIGHT_M, _ABREAST_M = 0.3, 0.75
 """How far to the right of the shortest way people walk, and distance between two who walk side by side."""
 _FAST_M_S, _RUN_ON_M = (2.2, 3.0), 1.0
@@ -60,6 +62,13 @@ class Walkers:
 def _mouth(stall: Stall) -> tuple[float, float]:
     (x, z), (to_x, to_z) = stall.corners[:2]
     return (x + to_x) / 2, (z + to_z) / 2
+
+
+def _outwards(stall: Stall) -> Floats:
+    """Return the direction (x, z) from the middle of a stall to its mouth."""
+    outwards = np.array(_mouth(stall)) - np.array(stall.centre)
+    direction: Floats = outwards / (np.hypot(*outwards) or 1.0)
+    return direction
 
 
 class People:
@@ -135,9 +144,8 @@ class People:
         if not person.is_child:
             return None
         ways = self._walkers.levels[stall.level]
-        outwards = np.array(_mouth(stall)) - np.array(stall.centre)
         out = corners[1]
-        across = ways.across((float(out[0]), float(out[1])), outwards / (np.hypot(*outwards) or 1.0))
+        across = ways.across((float(out[0]), float(out[1])), _outwards(stall))
         onward = None if across is None else ways.walk((float(across[0]), float(across[1])))
         if across is not None and onward is not None:
             corners = np.concatenate([corners[:2], onward])
@@ -148,8 +156,7 @@ class People:
     def _with_trolley(self, stall: Stall) -> list[Stage]:
         """Return the stages of a person who brings shopping to a car in a trolley, and takes it back."""
         ways, mouth = self._walkers.levels[stall.level], np.array(_mouth(stall))
-        outwards = mouth - np.array(stall.centre)
-        place = mouth + outwards / (np.hypot(*outwards) or 1.0)
+        place = mouth + _outwards(stall)
         found = ways.walk((float(place[0]), float(place[1])), is_wide=True)
         if found is None or len(found) < 3 or not self._is_clear(stall.level, found[1:], None, TROLLEY_RADIUS_M):  # noqa: PLR2004
             return []
@@ -196,9 +203,7 @@ class People:
         along = (front - rear) / np.hypot(*(front - rear))
         left = (corners[0] - corners[1]) / np.hypot(*(corners[0] - corners[1]))
         half_m = float(np.hypot(*(corners[0] - corners[1]))) / 2
-        mouth = np.array(_mouth(stall))
-        outwards = mouth - np.array(stall.centre)
-        outwards = outwards / (np.hypot(*outwards) or 1.0)
+        mouth, outwards = np.array(_mouth(stall)), _outwards(stall)
         own = 1.0 if person.seat % 2 == 0 else -1.0
         for side in (own, -own):
             # the shoulders are turned along the car where there is little room

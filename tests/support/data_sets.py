@@ -18,6 +18,17 @@ SMALL = {
 }
 
 
+LIDAR = {
+    "kind": "solid_state_lidar",
+    "name": "front",
+    "position_m": [3.0, 0.0, 0.6],
+    "horizontal_deg": 100.0,
+    "vertical_deg": 20.0,
+    "range_m": [0.3, 50.0],
+}
+"""A LiDAR of a rig, without its columns and rows."""
+
+
 def small_recipe(**changes):
     """A recipe of six garages of at most 5 x 6 squares, in three shards."""
     return Recipe(**{**SMALL, **changes})

@@ -6,23 +6,14 @@ import zipfile
 
 import numpy as np
 import pytest
-from support.data_sets import small_recipe, tree_of
+from support.data_sets import LIDAR, small_recipe, tree_of
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.datasets import load_recipe, make_dataset
 from garage2usd.datasets.plans import planned
 from garage2usd.datasets.shards import make_shard, shards_of
 
-SCANNER = {
-    "kind": "solid_state_lidar",
-    "name": "front",
-    "position_m": [3.0, 0.0, 0.6],
-    "horizontal_deg": 100.0,
-    "vertical_deg": 20.0,
-    "columns": 100,
-    "rows": 20,
-    "range_m": [0.3, 50.0],
-}
+SCANNER = {**LIDAR, "columns": 100, "rows": 20}
 DRIVES = {"rig": {"name": "scanner", "sensors": [SCANNER]}, "count": 2, "every_m": 6.0, "points": ["npz"]}
 
 

@@ -7,7 +7,7 @@ import zipfile
 import numpy as np
 import pandas as pd
 import pytest
-from support.data_sets import small_recipe, tree_of
+from support.data_sets import LIDAR, small_recipe, tree_of
 from support.sample_files import REPOSITORY
 
 from garage2usd.common.errors import ConfigError
@@ -18,16 +18,7 @@ from garage2usd.datasets.verification import _of_tracks
 from garage2usd.maps.track_tables import read_tracks
 from garage2usd.traffic.encounters import encounters
 
-SCANNER = {
-    "kind": "solid_state_lidar",
-    "name": "front",
-    "position_m": [3.0, 0.0, 0.6],
-    "horizontal_deg": 100.0,
-    "vertical_deg": 20.0,
-    "columns": 60,
-    "rows": 12,
-    "range_m": [0.3, 50.0],
-}
+SCANNER = {**LIDAR, "columns": 60, "rows": 12}
 DRIVES = {"rig": {"name": "scanner", "sensors": [SCANNER]}, "every_s": 1.0, "longest_s": 6.0, "points": ["npz"]}
 GARAGE = {
     "site": {"width_cells": 6, "height_cells": 5},

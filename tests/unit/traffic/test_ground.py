@@ -48,14 +48,3 @@ def test_ground_is_free_again_once_each_hold_is_released():
     ground.release(cells[:2])
     assert ground.is_free(cells, 2)
     assert not ground.owner.any()
-
-
-def test_places_near_marked_cells_are_found():
-    marked = np.zeros(_RASTER.size, dtype=bool)
-    (disc,) = _RASTER.discs(np.array([[1.0, 1.0]]), 0.01, 0)
-    marked[disc] = True
-    places = np.stack([np.arange(0.0, 3.0, CELL_M), np.ones(15)], axis=1)
-    near = _RASTER.are_near(marked, places, 0, 0.6)
-    away = np.abs(places[:, 0] - 1.0)
-    assert near[away < 0.55].all()
-    assert not near[away > 0.85].any()
