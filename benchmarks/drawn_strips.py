@@ -27,6 +27,7 @@ from garage2usd.datasets import Recipe
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
 from garage2usd.render.cameras import USD_FROM_OPENCV, View
+from garage2usd.render.devices import ComputeDevice
 from garage2usd.render.drawing import Drawing
 from garage2usd.render.pictures import Picture
 from garage2usd.render.tables import NEEDED, SlotLabels
@@ -51,6 +52,8 @@ class StripSettings:
     ----------
     pictures
         How many of each garage at most; fewer where there is no room for the car.
+    device
+        ``rays``, or ``cpu`` for Blender's path tracer.
     samples
         Of each pixel of the colour picture, which is denoised.
     effects
@@ -58,7 +61,8 @@ class StripSettings:
     """
 
     pictures: int = 11
-    samples: int = 4
+    device: str = "rays"
+    samples: int = 3
     effects: bool = False
 
 
@@ -158,7 +162,9 @@ def _draw(config: GarageConfig, folder: Path, key: str, settings: StripSettings)
         kinds = tuple(kind for kind in Picture if kind is Picture.COLOUR or kind in NEEDED)
         seed = config.seed & _MOST_SEED
         drawing = Drawing(
-            stage, labels, views, [[]] * len(views), kinds, settings.samples, seed, finished, is_draft=True
+            *(stage, labels, views, [[]] * len(views), kinds, settings.samples, seed, finished),
+            device=ComputeDevice(settings.device.upper(), ""),
+            is_draft=True,
         )
         drawing.draw(blender, silent)
         SlotLabels(stage, labels, views, finished).write(())

@@ -59,6 +59,7 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument("--garages", type=int, default=154)
         command.add_argument("--pictures", type=int, default=11, help="of each garage at most")
         command.add_argument("--workers", type=int, default=2)
+        command.add_argument("--device", choices=["rays", "cpu"], default="rays", help="what draws; cpu is Blender")
         command.add_argument("--effects", action="store_true", help="as cameras take pictures, with noise and exposure")
         command.add_argument("--version", default="", help="garages drawn with another are drawn anew")
     return parser
@@ -75,7 +76,7 @@ def _drawn(recipe: Path, folder: Path, asked: argparse.Namespace) -> None:
 
     from garage2usd.datasets import load_recipe  # noqa: PLC0415
 
-    settings = StripSettings(pictures=asked.pictures, effects=asked.effects)
+    settings = StripSettings(pictures=asked.pictures, device=asked.device, effects=asked.effects)
     places: list[Path] = []
     pictures, cpu_s, start = 0, 0.0, time.monotonic()
     for drawn in draw_strips(

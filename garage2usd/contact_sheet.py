@@ -21,8 +21,8 @@ from garage2usd.layout import Layout
 from garage2usd.pipeline import generate
 from garage2usd.planning import Plan
 from garage2usd.render import Device, Picture, render_stage
-from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
-from garage2usd.render.devices import CPU, find_device
+from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender
+from garage2usd.render.devices import CPU, find_device, modules_for
 from garage2usd.stage import stages_of_levels, write_stage
 from garage2usd.stage.cameras import APERTURE_MM, FOCAL_MM
 
@@ -133,7 +133,7 @@ def draw_contact_sheet(
     rows = -(-count // max(columns, 1))
     if not garages or max(_sheet_size(columns, rows, size_px)) > _MOST_PX:
         raise ConfigError("contact-sheet", f"{len(garages)} garages", f"some, on at most {_MOST_PX} pixels a side")
-    require("render", modules_of(find_blender()), without=WITHOUT_MODULE)
+    require("render", modules_for(device, find_blender()), without=WITHOUT_MODULE)
     check_file(output)
     if find_device(device, has_rays=False, blender=find_blender()).kind == CPU.kind:
         device = Device.CPU  # ask Blender once for all pictures

@@ -95,7 +95,7 @@ def count_option(name: str, most: int, default: int, text: str) -> Callable[[Cal
 
 def device_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Option for the device that renders; `text` describes it."""
-    kind = click.Choice(["auto", "cpu", "gpu"])
+    kind = click.Choice(["auto", "cpu", "gpu", "rays"])
     return click.option("--device", type=kind, default="auto", show_default=True, help=text)
 
 

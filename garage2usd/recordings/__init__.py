@@ -21,8 +21,8 @@ from garage2usd.recordings.sequences import Sequence, check_sequences, write_seq
 from garage2usd.recordings.traffic import Traffic
 from garage2usd.recordings.way import Way
 from garage2usd.render import Picture, SlotFormat
-from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
-from garage2usd.render.devices import CPU, Device, default_samples, find_device
+from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender
+from garage2usd.render.devices import CPU, Device, default_samples, find_device, modules_for
 from garage2usd.render.pictures import with_needed, write_mask
 from garage2usd.render.tables import NEEDED, check_slots, write_frames
 from garage2usd.sensors.formats.recording import Recording, write_calibration
@@ -157,7 +157,14 @@ def record(  # noqa: PLR0915 - all steps of a recording, in order
         raise ConfigError("every_m", every_m, f"{_LEAST_STEP_M} m or more")
     asked = frozenset(sequences)
     kinds, formats = check_recording(
-        chosen, pictures=pictures, slots=slots, birds_eye=birds_eye, points=points, sequences=asked, blender=blender
+        chosen,
+        pictures=pictures,
+        slots=slots,
+        birds_eye=birds_eye,
+        points=points,
+        sequences=asked,
+        device=device,
+        blender=blender,
     )
     _check_way(chosen, traffic, along, birds_eye)
     check_writable(folder)
@@ -177,7 +184,7 @@ def record(  # noqa: PLR0915 - all steps of a recording, in order
         sweeps = Sweeps(opened, scene.labels, way, chosen, formats, seed)
     needed = {*(() if slots is None and birds_eye is None and not flow else NEEDED), *scene.needed(kinds)}
     drawn = with_needed(kinds, needed)
-    count = samples or default_samples(view.size_px for view in scene.views)
+    count = samples or default_samples((view.size_px for view in scene.views), drawn_on)
     key = scene.key(path, drawn, samples=count, seed=seed, device=drawn_on)
     with unfinished_folder(folder, key) as unfinished:
         finished, work = unfinished / "finished", unfinished / "work"
@@ -226,6 +233,7 @@ def check_recording(
     birds_eye: BirdsEye | None,
     points: Collection[CloudFormat],
     sequences: Collection[Sequence],
+    device: Device = Device.AUTO,
     blender: str | Path | None = None,
 ) -> tuple[tuple[Picture, ...], tuple[CloudFormat, ...]]:
     """Check before the work that a rig can record with the arguments of `record`.
@@ -250,12 +258,14 @@ def check_recording(
         raise ConfigError("points", list(points), f"at least one of {', '.join(CloudFormat)}")
     if birds_eye is not None:
         check_birds_eye(rig, kinds)
+        if device is Device.RAYS:
+            raise ConfigError("device", str(device), "cpu or gpu for bird's-eye views, which see through ceilings")
     if slots is not None:
         has_around_view = any(isinstance(camera, AroundViewCamera) for camera in rig.cameras)
         check_slots(slots, kinds, has_ground_view=birds_eye is not None or has_around_view)
     check_sequences(sequences, rig, kinds, formats)
     without = WITHOUT_MODULE + ("; not for LiDARs alone: --points without --only" if rig.lidars else "")
-    draws = modules_of(find_blender(blender)) if rig.cameras else ()
+    draws = modules_for(device, find_blender(blender)) if rig.cameras else ()
     require(f"the rig {rig.name}", [*draws, *_modules_for(rig, sequences, birds_eye)], without=without)
     return kinds, formats
 

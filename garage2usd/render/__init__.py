@@ -13,9 +13,9 @@ from garage2usd.common.package import require
 from garage2usd.common.progress import Announce, Progress, silent, unheard
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import Labels, read_labels
-from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
+from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender
 from garage2usd.render.cameras import View, find_views
-from garage2usd.render.devices import Device, default_samples, find_device
+from garage2usd.render.devices import Device, default_samples, find_device, modules_for
 from garage2usd.render.drawing import Drawing
 from garage2usd.render.free_views import OVERHEAD, free_view
 from garage2usd.render.pictures import Picture, with_needed
@@ -127,7 +127,7 @@ def render_stage(
     if not kinds:
         raise ConfigError("pictures", list(pictures), f"at least one of {', '.join(Picture)}")
     drawn_by = find_blender(blender)
-    require("render", modules_of(drawn_by), without=WITHOUT_MODULE)
+    require("render", modules_for(device, drawn_by), without=WITHOUT_MODULE)
     check_writable(folder)
     check_file(folder / "frames.json")
     opened = open_stage(path)
@@ -141,7 +141,7 @@ def render_stage(
     with staging_folder(folder) as staging:
         finished = staging / "finished"
         drawn = with_needed(kinds, NEEDED if slots is not None else ())
-        count = samples or default_samples(view.size_px for view in views)
+        count = samples or default_samples((view.size_px for view in views), drawn_on)
         drawing = Drawing(opened, labels, views, hidden, drawn, count, seed, finished, device=drawn_on)
         visible = drawing.draw(staging, progress, announce)
         classes = [sorted(OVERHEAD) if hide else [] for hide in hidden]

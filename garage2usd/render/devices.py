@@ -1,4 +1,4 @@
-"""Render devices for the colour picture, a processor or a GPU of Cycles, and the time that pictures take on them."""
+"""Render devices, a processor or a GPU of Cycles or few rays, and the time that pictures take on them."""
 
 import json
 import subprocess
@@ -8,15 +8,16 @@ from enum import StrEnum
 from pathlib import Path
 
 from garage2usd.common.errors import ConfigError, RenderError
-from garage2usd.render.blender_process import BLENDER_MODULE, Blender
+from garage2usd.common.package import PICTURES
+from garage2usd.render.blender_process import BLENDER_MODULE, Blender, modules_of
 
 _SCRIPT = Path(__file__).with_name("blender_devices.py")
 _PATIENCE_S = 120.0
-_CPU = "CPU"
+_CPU, _RAYS = "CPU", "RAYS"
 _TRACES_SHADERS = "OPTIX"
 """The only kind of GPU on which Cycles runs OSL shaders, which the lenses of rigs are."""
 _BUDGET_S, _BUDGET_CORES = 120.0, 2
-_LEAST, _MOST = 2, 64
+_LEAST, _MOST, _RAYS_SAMPLES = 2, 64, 4
 _SCENE_S = 11.0
 """Seconds in which one core reads the stage and Blender reads the scene."""
 _SAMPLE_S, _FINISH_S, _DATA_S = 33.0, 40.0, 12.0
@@ -31,6 +32,8 @@ class Device(StrEnum):
     """A GPU if Cycles finds one that can render all views, otherwise the processor."""
     CPU = "cpu"
     GPU = "gpu"
+    RAYS = "rays"
+    """The processor without Blender, by few rays (`garage2usd.render.quick_light`): quicker, and less exact."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +43,8 @@ class ComputeDevice:
     Attributes
     ----------
     kind
-        Kind of the device in Cycles: ``CPU``, ``OPTIX``, ``CUDA``, ``HIP``, ``METAL`` or ``ONEAPI``.
+        Kind of the device in Cycles: ``CPU``, ``OPTIX``, ``CUDA``, ``HIP``, ``METAL`` or ``ONEAPI``; ``RAYS`` without
+        Cycles.
     name
         Name of the device, and of further devices of its kind, which render as well.
     blender
@@ -54,11 +58,25 @@ class ComputeDevice:
     @property
     def words(self) -> str:
         """The device in words."""
+        if self.kind == _RAYS:
+            return "the CPU without Blender"
         return "the CPU" if self.kind == _CPU else f"the GPU {self.name} ({self.kind})"
+
+    @property
+    def is_by_rays(self) -> bool:
+        """True if no Blender draws."""
+        return self.kind == _RAYS
 
 
 CPU = ComputeDevice(_CPU, "")
 """The processor, which is always available."""
+RAYS = ComputeDevice(_RAYS, "")
+"""The processor without Blender."""
+
+
+def modules_for(device: Device, blender: Blender) -> tuple[str, ...]:
+    """Return the names of the Python modules that rendering on a device requires."""
+    return ("embreex", *PICTURES) if device is Device.RAYS else modules_of(blender)
 
 
 def find_device(asked: Device, *, has_rays: bool, blender: Blender = BLENDER_MODULE) -> ComputeDevice:
@@ -80,6 +98,8 @@ def find_device(asked: Device, *, has_rays: bool, blender: Blender = BLENDER_MOD
     RenderError
         If Blender fails to list its devices.
     """
+    if asked is Device.RAYS:
+        return RAYS
     processor = replace(CPU, blender=blender)
     if asked is Device.CPU:
         return processor
@@ -121,11 +141,13 @@ def _devices(blender: Blender = BLENDER_MODULE) -> dict[str, list[str]]:
     return devices
 
 
-def default_samples(sizes_px: Iterable[tuple[int, int]]) -> int:
+def default_samples(sizes_px: Iterable[tuple[int, int]], device: ComputeDevice = CPU) -> int:
     """Return the number of samples with which two cores draw colour pictures of some sizes in two minutes.
 
-    At least 2, which the denoiser makes smooth, though many pictures take longer; at most 64.
+    At least 2, which the denoiser makes smooth, though many pictures take longer; at most 64. Without Blender always 4.
     """
+    if device.is_by_rays:
+        return _RAYS_SAMPLES
     pixels = _pixels(sizes_px)
     left_s = (_BUDGET_S - _SCENE_S) * _BUDGET_CORES - (_FINISH_S + _DATA_S) * pixels / _MILLION
     return min(_MOST, max(_LEAST, int(left_s / (_SAMPLE_S * max(pixels, 1) / _MILLION))))

@@ -16,13 +16,15 @@ from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
 from garage2usd.assets.light import EXPOSURE_EV, VIEW_TRANSFORM
+from garage2usd.common.errors import ConfigError
 from garage2usd.common.limits import lift
 from garage2usd.common.progress import Announce, Progress, time_in_words, unheard
 from garage2usd.common.system import cores
 from garage2usd.reading.labels import Labels
+from garage2usd.render import agx
 from garage2usd.render.blender_process import run_blender
 from garage2usd.render.cameras import View
-from garage2usd.render.devices import CPU, ComputeDevice, drawing_s
+from garage2usd.render.devices import CPU, ComputeDevice, Device, drawing_s
 from garage2usd.render.drawn_prims import (
     SHAPE_PROPERTY,
     DrawnPrims,
@@ -34,6 +36,7 @@ from garage2usd.render.drawn_prims import (
 from garage2usd.render.pictures import (
     INDEX_LIMIT,
     Picture,
+    Surfaces,
     VisibleInstance,
     read_depth,
     read_ids,
@@ -44,6 +47,7 @@ from garage2usd.render.pictures import (
     write_picture,
     write_pixels,
 )
+from garage2usd.render.ray_pictures import RayPictures
 from garage2usd.sensors.developing import develop
 from garage2usd.sensors.motion_blur import exposed_in_motion
 from garage2usd.sensors.rays.birds_eye import Orthographic
@@ -89,7 +93,7 @@ class Drawing:
     unseen
         Ids of the objects that each view looks through, though light does not; empty if there are none.
     device
-        Device that renders colour; all other pictures are rendered by the processor.
+        Device that renders colour; all other pictures are rendered by the processor, by rays like colour or by Blender.
     is_draft
         True for a faster colour picture, hardly visible in small pictures: fewer light bounces, uniform sampling of
         lights and quick denoising.
@@ -136,6 +140,9 @@ class Drawing:
             raise TypeError(f"motion is drawn with {missing}")
         for folder in (*self.kinds, _SEEN, _EFFECTS, _LIGHT):
             (self.finished / folder).mkdir(parents=True, exist_ok=True)
+        if self.device.is_by_rays:
+            self._draw_by_rays(progress, announce)
+            return [self._read_seen(view) if self._has_data else None for view in self.views]
         digits = 1 + int(max(self.labels.ids.values(), default=0) >= INDEX_LIMIT)
         moved = self.moved or [{}] * len(self.views)
         unseen = self.unseen or [()] * len(self.views)
@@ -167,6 +174,38 @@ class Drawing:
             self._develop_kept(view)
         return [self._read_seen(view) if self._has_data else None for view in self.views]
 
+    def _draw_by_rays(self, progress: Progress, announce: Announce) -> None:
+        """Render the unfinished frames without Blender."""
+        if any(isinstance(view.lens, Orthographic) for view in self.views):
+            raise ConfigError(
+                "device", str(Device.RAYS), "cpu or gpu with bird's-eye views, which see through ceilings"
+            )
+        count = len(self.views)
+        moved, unseen = self.moved or [{}] * count, self.unseen or [()] * count
+        frames = list(zip(self.views, self.hidden, unseen, moved, strict=True))
+        missing = [frame for frame in frames if not self._is_finished(frame[0])]
+        announce(f"{count} views, {count - len(missing)} of them finished before, by {self.samples} rays a pixel")
+        if missing:
+            progress("scene", 0, 1)
+            pictures = RayPictures(self.stage, self.labels, self.samples, self.seed)
+        for number, (view, hide, through, places) in enumerate(missing, count - len(missing)):
+            progress("render", number, count)
+            light, surfaces = pictures.taken(view, hide, through, places)
+            if self._has_data:
+                self._keep_surfaces(view, surfaces)
+            if self._has_colour and view.effects is None:
+                with _whole(self._path(view, Picture.COLOUR)) as part:
+                    write_pixels(agx.developed(light), part)
+            elif self._has_colour and view.shows_motion:
+                self._develop_in_motion(view, light, surfaces.depth_m, surfaces.instance)
+            elif self._has_colour:
+                self._develop(view, light)
+        progress("render", count, count)
+
+    def _is_finished(self, view: View) -> bool:
+        has_colour = not self._has_colour or self._path(view, Picture.COLOUR).exists()
+        return has_colour and (not self._has_data or self._seen_path(view).exists())
+
     def take_colour(self, view: View, drawn: Path) -> None:
         """Store a rendered colour picture, or the picture that the view's camera develops from the light."""
         if view.shows_motion:  # motion blur needs the depth, which Blender draws last
@@ -186,6 +225,11 @@ class Drawing:
         if isinstance(view.lens, Pinhole):  # Blender measures depth along the axis of a pinhole
             along = view.lens.rays(view.lens.middles())[:, 2].reshape(surfaces.depth_m.shape)
             surfaces = replace(surfaces, depth_m=(surfaces.depth_m * along).astype(np.float32))
+        self._keep_surfaces(view, surfaces)
+        self._develop_kept(view)
+
+    def _keep_surfaces(self, view: View, surfaces: Surfaces) -> None:
+        """Write the pictures other than colour, and the list of visible objects."""
         for kind in self.kinds:
             if kind is not Picture.COLOUR:
                 with _whole(self._path(view, kind)) as part:
@@ -193,22 +237,24 @@ class Drawing:
         seen = [asdict(each) for each in visible_instances(surfaces.instance)]
         with _whole(self._seen_path(view)) as part:
             part.write_text(json.dumps(seen), encoding="utf-8", newline="\n")
-        self._develop_kept(view)
 
     def _develop_kept(self, view: View) -> None:
         """Develop stored light once its depth and instances are available."""
         light = self._light_path(view)
         if not light.exists() or not self._seen_path(view).exists():
             return
+        depth_m, instance = read_depth(self._path(view, Picture.DEPTH)), read_ids(self._path(view, Picture.INSTANCE))
+        self._develop_in_motion(view, read_light(light), depth_m, instance)
+        light.unlink()
+
+    def _develop_in_motion(
+        self, view: View, light: NDArray[np.float32], depth_m: NDArray[np.float32], instance: NDArray[np.int32]
+    ) -> None:
         if view.twist is None or view.effects is None:
             raise TypeError(view.name)
-        is_vehicle = np.isin(read_ids(self._path(view, Picture.INSTANCE)), sorted(self.moving))
+        is_vehicle = np.isin(instance, sorted(self.moving))
         moves = ~is_vehicle if view.is_carried else is_vehicle
-        depth_m = read_depth(self._path(view, Picture.DEPTH))
-        self._develop(
-            view, exposed_in_motion(read_light(light), depth_m, moves, view.sensor_lens(), view.twist, view.effects)
-        )
-        light.unlink()
+        self._develop(view, exposed_in_motion(light, depth_m, moves, view.sensor_lens(), view.twist, view.effects))
 
     def facts(self, view: View) -> dict[str, object]:
         """Return a finished view's entry in the table of frames: its own facts, and those of its camera's exposure."""

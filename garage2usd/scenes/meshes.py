@@ -83,7 +83,7 @@ class Triangles:
         return replace(
             self,
             positions_m=(self.positions_m @ turn + matrix[3, :3]).astype(np.float32),
-            normals=_unit(self.normals @ np.linalg.pinv(turn).T),
+            normals=unit(self.normals @ np.linalg.pinv(turn).T),
             indices=self.indices[:, [0, 2, 1]] if np.linalg.det(turn) < 0 else self.indices,
         )
 
@@ -180,14 +180,14 @@ def _normals(mesh: UsdGeom.Mesh, points: NDArray[np.float32], corners: _Corners)
         values, interpolation = mesh.GetNormalsAttr().Get(READ_AT), mesh.GetNormalsInterpolation()
     authored = _at_corners(values, interpolation, 3, corners)
     if authored is not None:
-        return _unit(authored), True
+        return unit(authored), True
     places = points[corners.points].astype(np.float64)
     areas = cross((places[:, 1] - places[:, 0]).T, (places[:, 2] - places[:, 0]).T).T
     if mesh.GetSubdivisionSchemeAttr().Get(READ_AT) != UsdGeom.Tokens.none:
         sums = np.zeros((len(points), 3))
         np.add.at(sums, corners.points.ravel(), np.repeat(areas, 3, axis=0))
-        return _unit(sums)[corners.points], False
-    return np.repeat(_unit(areas)[:, None], 3, axis=1), False
+        return unit(sums)[corners.points], False
+    return np.repeat(unit(areas)[:, None], 3, axis=1), False
 
 
 def _coordinates(prim: Usd.Prim, wanted: Coordinates, corners: _Corners) -> NDArray[np.float32]:
@@ -229,8 +229,9 @@ def _at_corners(values: object, interpolation: str, width: int, corners: _Corner
     return None
 
 
-def _unit(vectors: NDArray[Any]) -> NDArray[np.float32]:
-    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
+def unit(vectors: NDArray[Any]) -> NDArray[np.float32]:
+    """Scale vectors, shape (..., 3), to unit length; the Y axis for those without a length."""
+    lengths = np.sqrt(np.einsum("...i,...i", vectors, vectors))[..., None]
     return np.where(lengths > _SMALLEST_M2, vectors / np.maximum(lengths, _SMALLEST_M2), [0, 1, 0]).astype(np.float32)
 
 

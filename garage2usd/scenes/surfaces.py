@@ -106,6 +106,11 @@ class SurfaceLook:
         textures = [getattr(self, name) for name in _TEXTURES]
         return tuple(dict.fromkeys(own.layout.coordinates for own in textures if own)) or (USUAL_COORDINATES,)
 
+    def placed_on(self, texture: Texture, coordinates: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Coordinates on one of the surface's textures, shape (n, 2), from those of its `sets`, shape (n, sets, 2)."""
+        layout = texture.layout
+        return layout.placed(coordinates[:, self.sets.index(layout.coordinates)])
+
 
 _TEXTURES = tuple(own.name for own in fields(SurfaceLook) if own.name.endswith("_texture"))
 

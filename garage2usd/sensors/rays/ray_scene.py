@@ -14,11 +14,10 @@ from garage2usd.common.package import of_extra
 from garage2usd.objects.sky import KIND as SKY
 from garage2usd.reading.labels import Labels, owner_of
 from garage2usd.scenes.looks import MeshLooks
-from garage2usd.scenes.meshes import DRAWN_TYPES
+from garage2usd.scenes.meshes import DRAWN_TYPES, unit
 from garage2usd.scenes.pictures import Pictures, sampled
 from garage2usd.scenes.prims import DrawnPart, PlacedObject, once_for_each_look
 from garage2usd.scenes.surfaces import SurfaceLook
-from garage2usd.scenes.textures import Layout
 from garage2usd.scenes.values import metres_per_unit
 from garage2usd.scenes.walk import placed_objects
 from garage2usd.sensors.rays.ray_caster import RayCaster, ray_caster
@@ -60,8 +59,10 @@ class RayScene:
     ----------
     vertices_m
         float64, shape (v, 3).
+    normals
+        Unit normals of the vertices; float32, shape (v, 3).
     coordinates
-        Texture coordinates of the vertices on the opacity texture; float32, shape (v, 2).
+        Texture coordinates of the vertices, in the order of their surface's sets; float32, shape (v, sets, 2).
     triangles
         Vertex indices of each triangle; int32, shape (t, 3).
     instance
@@ -79,6 +80,7 @@ class RayScene:
     """
 
     vertices_m: NDArray[np.float64]
+    normals: NDArray[np.float32]
     coordinates: NDArray[np.float32]
     triangles: NDArray[np.int32]
     instance: NDArray[np.int32]
@@ -136,12 +138,22 @@ class RayScene:
         return replace(
             self,
             vertices_m=self.vertices_m[used],
+            normals=self.normals[used],
             coordinates=self.coordinates[used],
             triangles=corners.reshape(-1, 3).astype(np.int32),
             instance=self.instance[kept],
             class_id=self.class_id[kept],
             surface=self.surface[kept],
         )
+
+    def moved(self, places: Mapping[int, NDArray[np.float64]]) -> "RayScene":
+        """Move objects by rigid transforms in the scene's axes, shape (4, 4), by their ids."""
+        vertices, normals = self.vertices_m.copy(), self.normals.copy()
+        for number, place in places.items():
+            own = np.unique(self.triangles[self.instance == number])
+            vertices[own] = vertices[own] @ place[:3, :3].T + place[:3, 3]
+            normals[own] = normals[own] @ place[:3, :3].T
+        return replace(self, vertices_m=vertices, normals=normals)
 
     def _meet(
         self, found: NDArray[np.int64], origins_m: NDArray[np.float64], directions: NDArray[np.float64]
@@ -166,8 +178,10 @@ class RayScene:
                 weights = trimesh.triangles.points_to_barycentric(  # type: ignore[no-untyped-call]
                     self.vertices_m[corners], places_m[own]
                 )
-                at = (self.coordinates[corners] * weights[:, :, None]).sum(axis=1)
-                through[own] = ~_are_opaque(sampled(mask, at), self.surfaces[number])
+                at = (self.coordinates[corners] * weights[:, :, None, None]).sum(axis=1)
+                look = self.surfaces[number]
+                if look.opacity_texture:
+                    through[own] = ~_are_opaque(sampled(mask, look.placed_on(look.opacity_texture, at)), look)
         return through
 
     @cached_property
@@ -229,11 +243,13 @@ def read_ray_scene(
             owner, instance = owners[path], labels.instance_of(owners[path])
             if instance == owner:  # the car itself rather than its number plates
                 placed_by_id.setdefault(instance, placed)
-            places = piece.positions @ placed.matrix[:3, :3] + placed.matrix[3, :3]
+            turn = placed.matrix[:3, :3]
+            places = piece.positions @ turn + placed.matrix[3, :3]
             count = len(piece.indices)
             columns.append(
                 (
                     places,
+                    unit(piece.normals @ np.linalg.pinv(turn).T),
                     piece.coordinates,
                     piece.indices + first,
                     np.full(count, instance, dtype=np.int32),
@@ -244,10 +260,15 @@ def read_ray_scene(
             first += len(places)
     if not columns:
         raise StageError(stage.GetRootLayer().realPath, "nothing in it is solid")
-    vertices, coordinates, triangles, instance_of, class_of, surface = map(np.concatenate, zip(*columns, strict=True))
+    most = max(column[2].shape[1] for column in columns)
+    padded = [(*column[:2], _padded(column[2], most), *column[3:]) for column in columns]
+    vertices, normals, coordinates, triangles, instance_of, class_of, surface = map(
+        np.concatenate, zip(*padded, strict=True)
+    )
     placed_by_id.pop(0, None)
     return RayScene(
         vertices,
+        normals,
         coordinates,
         triangles,
         instance_of,
@@ -264,6 +285,7 @@ class _Piece(NamedTuple):
 
     path: str
     positions: NDArray[np.float64]
+    normals: NDArray[np.float64]
     coordinates: NDArray[np.float32]
     indices: NDArray[np.int32]
     surface: int
@@ -280,11 +302,18 @@ def _pieces(placed: PlacedObject, part: DrawnPart, looks: MeshLooks) -> list[_Pi
     for mesh, surface, _ in looks.of_part(placed, part):
         triangles, look = looks.meshes.values[mesh], looks.surfaces.values[surface]
         if _are_opaque(np.array(look.opacity), look):
-            places = triangles.positions_m @ part.matrix[:3, :3] + part.matrix[3, :3]
-            layout = look.opacity_texture.layout if look.opacity_texture else Layout(look.sets[0])
-            coordinates = layout.placed(triangles.coordinates[:, look.sets.index(layout.coordinates)])
-            found.append(_Piece(part.path, places, coordinates, triangles.indices.astype(np.int32), surface))
+            turn = part.matrix[:3, :3]
+            places = triangles.positions_m @ turn + part.matrix[3, :3]
+            normals = triangles.normals @ np.linalg.pinv(turn).T
+            found.append(
+                _Piece(part.path, places, normals, triangles.coordinates, triangles.indices.astype(np.int32), surface)
+            )
     return found
+
+
+def _padded(coordinates: NDArray[np.float32], sets: int) -> NDArray[np.float32]:
+    """Texture coordinates with as many sets as any surface has."""
+    return np.pad(coordinates, ((0, 0), (0, sets - coordinates.shape[1]), (0, 0)))
 
 
 def _are_opaque(opacity: NDArray[np.float64], look: SurfaceLook) -> NDArray[np.bool_]:

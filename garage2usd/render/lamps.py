@@ -1,0 +1,139 @@
+"""Lamps of a stage as surfaces that shine, and light from points drawn on them."""
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd
+
+from garage2usd.reading.lights import DOMES, LIGHT_TYPES, LightSource, light_of
+from garage2usd.scenes.values import metres_per_unit
+from garage2usd.scenes.walk import placed_objects
+
+Floats = NDArray[np.float32]
+_DISTANT_M, _TINY = 1e4, 1e-12
+_DISTANT = "DistantLight"
+_ALL_ROUND_DEG = 90.0
+"""The cone of lamps that are not shaped: what they send sideways follows from their kind."""
+_LEAST_M2 = 0.5
+"""Added to the square of distances where lamps are weighed against one another."""
+_SHARED = 0.02
+"""Share of the draws that is spread over all lamps, so that each can be drawn."""
+
+
+@dataclass(frozen=True, eq=False)
+class Lamps:
+    """The lamps of a stage.
+
+    Attributes
+    ----------
+    middle_m, axis
+        Middles, and unit vectors towards which they shine; float32, shape (n, 3).
+    across_m, along_m
+        Vectors from the middle to the ends of their faces; float32, shape (n, 3).
+    candela_rgb
+        Luminous intensity along the axis by colour; float32, shape (n, 3).
+    is_round
+        Whether a face is an ellipse, not a rectangle; bool, shape (n,).
+    is_one_sided
+        Whether it shines by the cosine from its axis and not backwards, unlike one that shines to all sides alike.
+    least_cos
+        Cosine of the greatest angle from the axis; float32, shape (n,).
+    sky_rgb
+        Radiance of the surroundings; float32, shape (3,).
+    """
+
+    middle_m: Floats
+    axis: Floats
+    across_m: Floats
+    along_m: Floats
+    candela_rgb: Floats
+    is_round: NDArray[np.bool_]
+    is_one_sided: NDArray[np.bool_]
+    least_cos: Floats
+    sky_rgb: Floats
+
+    def odds(self, places_m: Floats) -> Floats:
+        """The probabilities by which lamps are drawn for places, shape (n, 3); float32, shape (n, lamps)."""
+        apart = self.middle_m - places_m[:, None]
+        square = (apart**2).sum(axis=2)
+        cosine = np.maximum(-np.einsum("nlk,lk->nl", apart, self.axis), 0.0) / np.sqrt(square)
+        facing = np.where(self.is_one_sided, cosine, 1.0)
+        weights = self.candela_rgb.sum(axis=1) * facing / (square + _LEAST_M2)
+        total = weights.sum(axis=1, keepdims=True)
+        odds = weights / np.maximum(total, 1e-30) * (1 - _SHARED) + _SHARED / len(weights.T)
+        found: Floats = (odds / odds.sum(axis=1, keepdims=True)).astype(np.float32)
+        return found
+
+    def points(self, lamps: NDArray[np.int64], random: np.random.Generator) -> Floats:
+        """A point on the face of each of some lamps; float32, shape (n, 3)."""
+        first, second = random.random((2, len(lamps)), dtype=np.float32)
+        radius, angle = np.sqrt(first), second * np.float32(2 * math.pi)
+        is_round = self.is_round[lamps]
+        across = np.where(is_round, radius * np.cos(angle), 2 * first - 1)
+        along = np.where(is_round, radius * np.sin(angle), 2 * second - 1)
+        aside = across[:, None] * self.across_m[lamps] + along[:, None] * self.along_m[lamps]
+        found: Floats = self.middle_m[lamps] + aside.astype(np.float32)
+        return found
+
+    def intensity(self, lamps: NDArray[np.int64], away: Floats) -> Floats:
+        """Luminous intensity of some lamps along unit vectors away from them, by colour; float32, shape (n, 3)."""
+        cosine = (away * self.axis[lamps]).sum(axis=1)
+        share = np.where(self.is_one_sided[lamps], np.maximum(cosine, 0.0), 1.0) * (cosine >= self.least_cos[lamps])
+        found: Floats = self.candela_rgb[lamps] * share[:, None].astype(np.float32)
+        return found
+
+
+def read_lamps(stage: Usd.Stage) -> Lamps:
+    """Read the lamps of a stage, in its axes and in metres."""
+    metres = metres_per_unit(stage)
+    sky_rgb, found = np.zeros(3), list[_Lamp]()
+    for placed in placed_objects(stage, np.diag([metres, metres, metres, 1.0]), with_looks=False):
+        for part in placed.parts:
+            if part.prim.GetTypeName() in LIGHT_TYPES:
+                matrix = part.matrix @ placed.matrix
+                source = light_of(placed.twin_of(part), matrix, metres)
+                if source.kind in DOMES:
+                    sky_rgb += np.array(source.colour_rgb) * source.luminance_nit
+                else:
+                    found.append(_lamp(source, matrix))
+    middle, axis, across, along, candela = (
+        np.array([lamp[column] for lamp in found], dtype=np.float32).reshape(-1, 3) for column in range(5)
+    )
+    is_round, is_one_sided = (np.array([lamp[column] for lamp in found], dtype=np.bool_) for column in (5, 6))
+    least_cos = np.array([lamp.least_cos for lamp in found], dtype=np.float32)
+    sky = sky_rgb.astype(np.float32)
+    return Lamps(middle, axis, across, along, candela, is_round, is_one_sided, least_cos, sky)
+
+
+class _Lamp(NamedTuple):
+    """A lamp, as `Lamps` has them."""
+
+    middle_m: NDArray[np.float64]
+    axis: NDArray[np.float64]
+    across_m: NDArray[np.float64]
+    along_m: NDArray[np.float64]
+    candela_rgb: NDArray[np.float64]
+    is_round: bool
+    is_one_sided: bool
+    least_cos: float
+
+
+def _lamp(source: LightSource, matrix: NDArray[np.float64]) -> _Lamp:
+    right, up, backwards = (row / max(float(np.linalg.norm(row)), _TINY) for row in matrix[:3, :3])
+    middle, candela = matrix[3, :3], np.array(source.colour_rgb) * source.candela
+    if source.kind == _DISTANT:
+        middle, candela = backwards * _DISTANT_M, np.array(source.colour_rgb) * source.lux * _DISTANT_M**2
+    is_shaped = source.cone_deg != _ALL_ROUND_DEG
+    return _Lamp(
+        middle,
+        -backwards,
+        right * source.width_m / 2,
+        up * source.height_m / 2,
+        candela,
+        source.kind not in {"RectLight", "CylinderLight"},
+        source.kind in {"RectLight", "DiskLight"},
+        math.cos(math.radians(source.cone_deg)) if is_shaped else -1.0,
+    )
