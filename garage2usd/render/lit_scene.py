@@ -308,8 +308,7 @@ class _Rows:
         sign = np.sign(turn[:, :1] * turned[:, 1:] - turned[:, :1] * turn[:, 1:])  # -1 where the texture is mirrored
         right = unit((edge * turned[:, 1:] - other * turn[:, 1:]) * sign)
         up = unit((other * turn[:, :1] - edge * turned[:, :1]) * sign)
-        found: Floats = right * bent[:, :1] + up * bent[:, 1:2] + normals * bent[:, 2:]
-        return found
+        return np.asarray(right * bent[:, :1] + up * bent[:, 1:2] + normals * bent[:, 2:], dtype=np.float32)
 
     @cached_property
     def _edges(self) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:

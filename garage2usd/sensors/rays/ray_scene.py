@@ -1,4 +1,5 @@
 """Ray scene: the solid surfaces of a composed stage as one labelled mesh for ray casting."""
+# Over 300 lines: what rays meet, and how it is read.
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
