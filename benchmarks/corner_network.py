@@ -12,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 import optax
 from average_precision import Detections
-from corner_maps import corner_map, peaks
+from corner_maps import peaks
 from flax import linen as nn
 from strip_changes import changed
 from strips import Strip
@@ -110,7 +110,6 @@ def train(strips: Sequence[Strip], training: Training, seed: int, progress: Prog
     """
     random = np.random.default_rng(seed)
     pixels = np.stack([strip.pixels for strip in strips])
-    maps = np.stack([corner_map(strip.seen_px) for strip in strips])
     optimiser = optax.adam(optax.cosine_decay_schedule(training.rate, training.steps))
     parameters = _Layers().init(jax.random.PRNGKey(seed), jnp.zeros((1, *pixels.shape[1:])))
     state = optimiser.init(parameters)
@@ -127,7 +126,9 @@ def train(strips: Sequence[Strip], training: Training, seed: int, progress: Prog
         if number % _TOLD_STEPS == 0:
             progress("train", number, training.steps)
         chosen = random.integers(len(pixels), size=training.batch)
-        parameters, state = step(parameters, state, *changed(pixels[chosen], maps[chosen], random))
+        parameters, state = step(
+            parameters, state, *changed(pixels[chosen], [strips[each].seen_px for each in chosen], random)
+        )
     progress("train", training.steps, training.steps)
     return CornerNetwork(parameters)
 

@@ -102,18 +102,100 @@ class TestCornerMaps:
         assert not len(corner_maps.peaks(corner_maps.corner_map(NONE)).confidence)
 
 
-def test_changed_strips_keep_their_corners():
-    pixels = np.zeros((40, 300, 96, 3), dtype=np.uint8)
-    pixels[:, 20:24, 40:44] = 255
-    maps = np.tile(corner_maps.corner_map(np.array([[42.0, 22.0]])), (40, 1, 1))
-    changed, turned = strip_changes.changed(pixels, maps, np.random.default_rng(0))
-    rows = set()
-    for picture, heat in zip(changed.mean(axis=3), turned, strict=True):
-        row, column = (int(place) // 4 for place in np.unravel_index(picture.argmax(), picture.shape))
-        assert (row, column) == np.unravel_index(heat.argmax(), heat.shape)
-        rows.add(row)
-    assert rows == {5, 69}
-    assert changed.dtype == turned.dtype == np.float32
+def dotted(column, row, count, colour=(255, 255, 255)):
+    """Grey strips with the car at the right edge and a dot about a place."""
+    pixels = np.full((count, 300, 96, 3), 60, dtype=np.uint8)
+    pixels[:, row - 2 : row + 2, column - 2 : column + 2] = colour
+    pixels[:, 90:210, 88:] = 0
+    return pixels, [np.array([[float(column), float(row)]])] * count
+
+
+def dot(picture):
+    """The centroid (column, row) of what is brighter than halfway between floor and dot, from the left upper edge."""
+    grey = picture.mean(axis=2)
+    rows, columns = np.nonzero(grey > (np.median(grey) + grey.max()) / 2)
+    return np.array([columns.mean() + 0.5, rows.mean() + 0.5])
+
+
+class TestChangedStrips:
+    @pytest.fixture
+    def unlit(self, monkeypatch):
+        """Moved alone: light, cameras and exposure leave what is there."""
+        monkeypatch.setattr(strip_changes, "_SHARES", {})
+        monkeypatch.setattr(strip_changes, "_MOST_NOISE", 0.0)
+
+    @pytest.mark.usefixtures("unlit")
+    def test_corners_go_where_the_picture_goes(self):
+        pictures, maps = strip_changes.changed(*dotted(42, 40, 60), np.random.default_rng(0))
+        places = []
+        for picture, heat in zip(pictures, maps, strict=True):
+            (place,) = corner_maps.peaks(heat).places_px
+            # half of a cell, and of the pixels that the dot is resampled to
+            assert np.abs(dot(picture) - place).max() < 2.7
+            places.append(place)
+        columns, rows = np.array(places).T
+        assert (rows < 150).sum() in range(15, 46)  # turned over
+        assert columns.std() > 8
+        assert rows[rows < 150].std() > 8
+
+    @pytest.mark.usefixtures("unlit")
+    def test_corners_that_leave_the_picture_are_left_out(self):
+        pixels, corners = dotted(4, 150, 60)
+        pictures, maps = strip_changes.changed(pixels, corners, np.random.default_rng(0))
+        kept = [(heat == 1).sum() for heat in maps]
+        assert set(kept) == {0, 1}
+        assert 30 < sum(kept) < 55
+        assert all(heat.max() == 0 for heat in maps if not (heat == 1).any())
+        assert len(pictures) == len(maps) == 60
+
+    @pytest.mark.parametrize("name", strip_changes._CHANGES)
+    def test_light_and_cameras_leave_things_where_they_are(self, name):
+        pixels, _ = dotted(42, 130, 1)
+        for seed in range(20):
+            before = pixels[0].astype(np.float32) / 255
+            after = strip_changes._CHANGES[name](before, np.random.default_rng(seed))
+            assert after.dtype == np.float32
+            assert after.shape == before.shape
+            assert after.min() >= 0
+            assert (before == pixels[0].astype(np.float32) / 255).all()
+            around = after[122:138, 34:50] - np.median(after[122:138, 34:50])
+            assert np.abs(dot(around) - 8).max() < 1, seed  # where it was, 8 px from the edges
+
+    def test_the_car_mirrors_and_takes_no_light(self):
+        pixels, _ = dotted(42, 130, 1)
+        for name in ("shades", "bars", "seams", "grey"):
+            lit = strip_changes._CHANGES[name](pixels[0].astype(np.float32) / 255, np.random.default_rng(1))
+            assert lit[92:208, 90:].max() == 0, name
+
+    def test_bars_of_light_are_long_away_from_the_car(self):
+        dark = np.full((300, 96, 3), 0.3, dtype=np.float32)
+        spread = []
+        for seed in range(40):
+            light = (strip_changes._bars(dark, np.random.default_rng(seed)) - dark).mean(axis=2)
+            down, right = np.gradient(light[130:170, :40])
+            spread.append((np.abs(down).sum(), np.abs(right).sum()))
+        down, right = np.sum(spread, axis=0)
+        assert down > 1.8 * right
+
+    def test_far_ground_is_smeared_and_near_ground_is_not(self):
+        floor = np.random.default_rng(0).random((300, 96, 3), dtype=np.float32)
+        kept = []
+        for seed in range(20):
+            smeared = strip_changes._smear(floor, np.random.default_rng(seed))
+            kept.append([smeared[place].std() / floor[place].std() for place in (np.s_[140:160, 84:], np.s_[:20, :40])])
+        near, far = np.mean(kept, axis=0)
+        assert near > 0.7
+        assert far < 0.5
+
+    def test_the_same_seed_gives_the_same_bytes(self):
+        pixels, corners = dotted(42, 40, 4)
+        first, again, other = (
+            strip_changes.changed(pixels, corners, np.random.default_rng(seed)) for seed in (3, 3, 4)
+        )
+        assert all((one == two).all() for one, two in zip(first, again, strict=True))
+        assert (first[0] != other[0]).any()
+        assert first[0].dtype == first[1].dtype == np.float32
+        assert np.isfinite(first[0]).all()
 
 
 def write(folder, name="hall_left/1.png", corners=([10.0, 20.0, False],), size=(96, 300)):
