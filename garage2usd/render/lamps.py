@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -17,10 +18,11 @@ _DISTANT_M, _TINY = 1e4, 1e-12
 _DISTANT = "DistantLight"
 _ALL_ROUND_DEG = 90.0
 """The cone of lamps that are not shaped: what they send sideways follows from their kind."""
+FACE_TRIANGLES = 8
 _LEAST_M2 = 0.5
 """Added to the square of distances where lamps are weighed against one another."""
-_SHARED = 0.02
-"""Share of the draws that is spread over all lamps, so that each can be drawn."""
+_SHARED = 2e-4
+"""Added to the odds of each lamp, so that all can be drawn."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,17 +57,52 @@ class Lamps:
     least_cos: Floats
     sky_rgb: Floats
 
-    def odds(self, places_m: Floats) -> Floats:
-        """The probabilities by which lamps are drawn for places, shape (n, 3); float32, shape (n, lamps)."""
+    @cached_property
+    def faces_m(self) -> Floats:
+        """Their faces as fans of triangles, each lamp's `FACE_TRIANGLES` in turn; float32, shape (n, 3, 3)."""
+        turns = np.arange(FACE_TRIANGLES + 1) * 2 * math.pi / FACE_TRIANGLES
+        ring = np.stack([np.cos(turns), np.sin(turns)], axis=1).astype(np.float32)
+        square = ring / np.abs(ring).max(axis=1, keepdims=True)
+        shape = np.where(self.is_round[:, None, None], ring, square)
+        edge = shape[..., :1] * self.across_m[:, None] + shape[..., 1:] * self.along_m[:, None] + self.middle_m[:, None]
+        middle = np.broadcast_to(self.middle_m[:, None], edge[:, 1:].shape)
+        fans = np.stack([middle, edge[:, :-1], edge[:, 1:]], axis=2)
+        return np.asarray(fans.reshape(-1, 3, 3), dtype=np.float32)
+
+    @cached_property
+    def area_m2(self) -> Floats:
+        """Of their faces; float32, shape (n,)."""
+        sides = np.sqrt((self.across_m**2).sum(axis=1) * (self.along_m**2).sum(axis=1))
+        return np.asarray(np.where(self.is_round, math.pi, 4.0) * sides, dtype=np.float32)
+
+    def odds(self, places_m: Floats, mirrored: Floats, facets: Floats) -> Floats:
+        """The probabilities by which lamps are drawn: half by how brightly they shine, half by how brightly they mirror.
+
+        Parameters
+        ----------
+        places_m
+            float32, shape (n, 3).
+        mirrored
+            Where a mirror there would look, unit vectors; float32, shape (n, 3).
+        facets
+            The fourth power of the roughness; float32, shape (n,).
+
+        Returns
+        -------
+        ndarray
+            float32, shape (n, lamps).
+        """
         apart = self.middle_m - places_m[:, None]
-        square = (apart**2).sum(axis=2)
-        cosine = np.maximum(-np.einsum("nlk,lk->nl", apart, self.axis), 0.0) / np.sqrt(square)
+        square = np.einsum("nlk,nlk->nl", apart, apart)
+        range_m = np.sqrt(square)
+        cosine = np.maximum(-np.einsum("nlk,lk->nl", apart, self.axis), 0.0) / range_m
         facing = np.where(self.is_one_sided, cosine, 1.0)
-        weights = self.candela_rgb.sum(axis=1) * facing / (square + _LEAST_M2)
-        total = weights.sum(axis=1, keepdims=True)
-        odds = weights / np.maximum(total, 1e-30) * (1 - _SHARED) + _SHARED / len(weights.T)
-        found: Floats = (odds / odds.sum(axis=1, keepdims=True)).astype(np.float32)
-        return found
+        shines = self.candela_rgb.sum(axis=1) * facing / (square + _LEAST_M2)
+        # the square of the cosine of half the angle between lamp and mirrored ray, by which microfacets are tilted
+        tilt = (1 + np.einsum("nlk,nk->nl", apart, mirrored) / range_m) / 2
+        glares = shines / ((facets[:, None] - 1) * tilt + 1) ** 2
+        odds = sum(each / np.maximum(each.sum(axis=1, keepdims=True), _TINY) for each in (shines, glares)) + _SHARED
+        return np.asarray(odds / odds.sum(axis=1, keepdims=True), dtype=np.float32)
 
     def points(self, lamps: NDArray[np.int64], random: np.random.Generator) -> Floats:
         """A point on the face of each of some lamps; float32, shape (n, 3)."""

@@ -39,6 +39,22 @@ def dots(one: NDArray[Any], other: NDArray[Any]) -> Floats:
     return found
 
 
+def embree_scene(corners_m: Floats) -> "EmbreeScene":
+    """Triangles, shape (n, 3, 3), as Embree casts rays on them.
+
+    Raises
+    ------
+    MissingExtraError
+        If Embree is not installed.
+    """
+    with of_extra("drawing by rays"):
+        from embreex.mesh_construction import TriangleMesh  # noqa: PLC0415
+        from embreex.rtcore_scene import EmbreeScene  # noqa: PLC0415
+    scene = EmbreeScene()
+    TriangleMesh(scene, corners_m)
+    return scene
+
+
 class Hits(NamedTuple):
     """First hits of rays; rows of rays without a hit are not among them.
 
@@ -197,6 +213,12 @@ class LitScene:
         normals[dots(normals, directions) > 0] *= -1
         return normals
 
+    def smooth_normals(self, hits: Hits, directions: NDArray[Any]) -> Floats:
+        """Normals without normal maps, between those of the vertices, towards the side of the rays; shape (n, 3)."""
+        normals = unit(self.blended(self.scene.normals, hits))
+        normals[dots(normals, directions) > 0] *= -1
+        return normals
+
     @cached_property
     def corners_m(self) -> Floats:
         """Corners of all triangles; float32, shape (triangles, 3, 3)."""
@@ -248,19 +270,11 @@ class LitScene:
 
     @cached_property
     def _solid(self) -> "EmbreeScene":
-        return self._embree(self._numbers[0])
+        return embree_scene(self.corners_m[self._numbers[0]])
 
     @cached_property
     def _veils(self) -> "EmbreeScene":
-        return self._embree(self._numbers[1])
-
-    def _embree(self, numbers: NDArray[np.int64]) -> "EmbreeScene":
-        with of_extra("drawing by rays"):
-            from embreex.mesh_construction import TriangleMesh  # noqa: PLC0415
-            from embreex.rtcore_scene import EmbreeScene  # noqa: PLC0415
-        scene = EmbreeScene()
-        TriangleMesh(scene, self.corners_m[numbers])
-        return scene
+        return embree_scene(self.corners_m[self._numbers[1]])
 
     @cached_property
     def _pyramids(self) -> dict[Texture, list[Floats]]:

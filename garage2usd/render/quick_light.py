@@ -8,17 +8,21 @@ the textures of what is lit.
 # Over 300 lines: each part of the light of a pixel, and how it is smoothed.
 
 import math
-from collections.abc import Collection, Sequence
-from typing import NamedTuple
+from collections.abc import Collection, Iterator, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.render.lamps import Lamps
-from garage2usd.render.lit_scene import Floats, Hits, LitScene, Shades, dots
+from garage2usd.render.lamps import FACE_TRIANGLES, Lamps
+from garage2usd.render.lit_scene import Floats, Hits, LitScene, Shades, dots, embree_scene
 from garage2usd.render.pictures import Surfaces
 from garage2usd.scenes.meshes import unit
 from garage2usd.sensors.rays.lenses import Lens
+
+if TYPE_CHECKING:
+    from embreex.rtcore_scene import EmbreeScene
 
 _OFF_M = 1e-3
 """How far before surfaces rays start and end that meet nothing else."""
@@ -28,15 +32,19 @@ _NEAR_STEPS, _FARTHER_STEPS = (1, 2), (4, 8)
 """Pixels between those of which means are taken, of all light and of scattered light before."""
 _KERNEL = np.array([1, 4, 6, 4, 1], dtype=np.float32) / 16
 _SAME_PLANE_M, _SAME_NORMAL = 0.02, 0.95
-_FURTHER = 0.35
-"""Light that is thrown back more than once, as a share of the direct light of the picture."""
+_FURTHER = 0.8
+"""Light that is thrown back more than once, as a share of what the picture throws back."""
 _BRIGHTEST = 6.0
 """Greatest radiance that a single ray brings, in means of the picture's irradiance: brighter ones would be specks."""
-_STEEP = 0.9
+_STEEP, _LEAST_COSINE, _LEAST_M2 = 0.9, 0.02, 1e-4
+_LEAST_LOBE = 0.3
+"""Roughness for which lamps are drawn on surfaces that are less rough: a block sees them in more than one direction."""
+_CELL_M = 2.0
+"""Side of the cubes for which odds of lamps are computed where rays end."""
 _SHARP, _DULL = 0.1, 0.35
 """Roughness from which on reflections are smoothed farther, and of those that are smoothed wholly."""
 _GLOSSY = 0.6
-"""Reflections of rougher surfaces are left to scattered light."""
+"""Rougher surfaces mirror what they scatter."""
 
 
 class _Seen(NamedTuple):
@@ -108,9 +116,9 @@ class QuickLight:
         own = self._coloured(rays, seen, random)
         shape = rows, columns
         smooth = _Smoothing(shape, seen)
-        direct, scattered = self._lit_by(seen, shape, random)
-        light = smooth(smooth(scattered, _FARTHER_STEPS) + direct, _NEAR_STEPS)
-        sharp = smooth(self._reflected(seen, own.roughness, direct, random), _NEAR_STEPS[:1])
+        lit = self._lit_by(seen, own.roughness, shape, random)
+        light = smooth(smooth(lit.scattered, _FARTHER_STEPS) + lit.direct, _NEAR_STEPS)
+        sharp = smooth(lit.mirrored, _NEAR_STEPS[:1])
         share = np.clip((own.roughness[:, None] - _SHARP) / (_DULL - _SHARP), 0, 1)
         reflected = sharp + (smooth(sharp, _FARTHER_STEPS[:1]) - sharp) * share
         facing = np.abs(dots(seen.shades.normal, seen.way))[:, None]
@@ -148,70 +156,99 @@ class QuickLight:
         own = ways[hits.ray]
         return self._shades(hits, own, rays.angle[rays.pixels[hits.ray]], self._lit.flat_normals(hits, own))
 
-    def _lit_by(self, seen: _Seen, shape: tuple[int, int], random: np.random.Generator) -> tuple[Floats, Floats]:
-        """Direct light and light that other surfaces scatter, as irradiance of each pixel; float32, shape (n, 3)."""
+    def _lit_by(self, seen: _Seen, roughness: Floats, shape: tuple[int, int], random: np.random.Generator) -> "_Light":
+        """The light of each pixel that sees something, before it is smoothed."""
         row, column = np.divmod(seen.pixel, shape[1])
         block = row // _BLOCK_PX * (shape[1] // _BLOCK_PX + 1) + column // _BLOCK_PX
-        normals, places = seen.shades.normal, seen.place_m + seen.flat * np.float32(_OFF_M)
-        direct = self._direct(places, normals, block, self._samples, random)
-        ways = _scattered(normals, random)
-        incoming = self._incoming(places, ways, _mean_of(direct), random)
-        return direct, incoming * np.float32(math.pi)
+        places = seen.place_m + seen.flat * np.float32(_OFF_M)
+        normal = seen.shades.normal
+        mirrored = seen.way - 2 * dots(seen.way, normal)[:, None] * normal
+        draws = _Draws(self._lamps, block, places, mirrored, roughness, self._samples)
+        direct, glare = self._direct(draws, places, normal, random, _Facets(seen, roughness))
+        thrown_back = seen.shades.diffuse_rgb * direct
+        usual = thrown_back.mean(axis=0) if len(direct) else np.zeros(3, np.float32)
+        scattered = self._incoming(places, _scattered(normal, random), usual, random)
+        mirrored = np.where(roughness[:, None] < _GLOSSY, 0, scattered)
+        mirrored += glare + self._reflected(draws, seen, roughness, usual, random)
+        return _Light(direct, scattered * np.float32(math.pi), mirrored)
 
     def _direct(
-        self, places: Floats, normals: Floats, block: NDArray[np.int64], draws: int, random: np.random.Generator
-    ) -> Floats:
-        """Irradiance by lamps, of which some are drawn for each place by the odds of its block."""
-        total = np.zeros((len(places), 3), np.float32)
-        if not len(self._lamps.middle_m) or not len(places):
-            return total
-        blocks, block = np.unique(block, return_inverse=True)
-        counts = np.bincount(block)[:, None]
-        middles = np.stack([np.bincount(block, places[:, axis]) for axis in range(3)], axis=1) / counts
-        odds = self._lamps.odds(middles.astype(np.float32))
-        rising = np.cumsum(odds.astype(np.float64), axis=1)
-        rising /= rising[:, -1:]
-        stairs = (rising + np.arange(len(blocks))[:, None]).ravel()
-        offset = random.random(len(places))
-        for draw in range(draws):
-            lamp = np.searchsorted(stairs, block + (draw + offset) / draws, side="right") - block * odds.shape[1]
-            lamp = np.minimum(lamp, odds.shape[1] - 1)
+        self,
+        draws: "_Draws",
+        places: Floats,
+        normals: Floats,
+        random: np.random.Generator,
+        facets: "_Facets | None" = None,
+    ) -> tuple[Floats, Floats]:
+        """Irradiance by lamps, and the radiance that facets mirror if every angle mirrored all of it."""
+        total, glare = np.zeros((len(places), 3), np.float32), np.zeros((len(places), 3), np.float32)
+        for lamp, odds in draws.lamps(random):
             apart = self._lamps.points(lamp, random) - places
             range_m = np.sqrt(dots(apart, apart))
             way = apart / range_m[:, None]
             cosine = np.maximum(dots(normals, way), 0.0)
-            shone = self._lamps.intensity(lamp, -way) * (cosine / range_m**2 / odds[block, lamp])[:, None]
+            shone = self._lamps.intensity(lamp, -way) * (cosine / (range_m**2 * odds))[:, None]
             rows = np.flatnonzero(shone.any(axis=1))
             rows = rows[~self._lit.is_dark(places[rows], way[rows], range_m[rows] - np.float32(2 * _OFF_M))]
             total[rows] += shone[rows]
-        return total / draws
+            if facets is not None:
+                density, mirrored = facets.towards(way[rows], rows)
+                other = odds[rows] * self._density(lamp[rows], way[rows], range_m[rows]) * draws.count
+                share = other / (other + np.where(facets.roughness[rows] < _GLOSSY, density, 0))
+                glare[rows] += shone[rows] * (mirrored * share / np.maximum(cosine[rows], _LEAST_COSINE))[:, None]
+        return total / draws.count, glare / draws.count
+
+    def _density(self, lamp: NDArray[np.int64], way: Floats, range_m: Floats) -> Floats:
+        """How dense points of lamps' faces are by the solid angle, 1 / sr."""
+        facing = np.maximum(np.abs(dots(self._lamps.axis[lamp], way)), _LEAST_COSINE)
+        density: Floats = range_m**2 / (np.maximum(self._lamps.area_m2[lamp], _LEAST_M2) * facing)
+        return density
 
     def _incoming(self, places: Floats, ways: Floats, usual: Floats, random: np.random.Generator) -> Floats:
-        """Radiance along rays from places; float32, shape (n, 3)."""
+        """Radiance along rays from places, of what is no lamp; float32, shape (n, 3)."""
         found = np.broadcast_to(self._lamps.sky_rgb, (len(places), 3)).copy()
         hits = self._lit.hits(places, ways)
         own = ways[hits.ray]
         shades = self._lit.shades(hits, own, np.full(len(own), np.inf, np.float32))
         flat = self._lit.flat_normals(hits, own)
         there = places[hits.ray] + own * hits.range_m[:, None]
-        cells = np.floor(there / np.float32(2.0)).astype(np.int64)
-        _, block = np.unique(cells @ np.array([1, 1 << 20, 1 << 40]), return_inverse=True)
-        light = self._direct(there + flat * np.float32(_OFF_M), flat, block, 1, random) + usual * np.float32(_FURTHER)
+        cells = np.floor(there / np.float32(_CELL_M)).astype(np.int64) @ np.array([1, 1 << 20, 1 << 40])
+        there += flat * np.float32(_OFF_M)
+        draws = _Draws(self._lamps, cells, there, flat, np.ones(len(flat), np.float32), 1)
+        direct, _ = self._direct(draws, there, flat, random)
+        light = direct + usual * np.float32(_FURTHER)
         reflects = shades.diffuse_rgb + shades.shine_rgb
         found[hits.ray] = reflects * light / np.float32(math.pi) + shades.glow_rgb
         return np.minimum(found, usual.mean() * np.float32(_BRIGHTEST))
 
-    def _reflected(self, seen: _Seen, roughness: Floats, direct: Floats, random: np.random.Generator) -> Floats:
+    def _reflected(
+        self, draws: "_Draws", seen: _Seen, roughness: Floats, usual: Floats, random: np.random.Generator
+    ) -> Floats:
         """Radiance that surfaces mirror, by one ray of each that is not rough; float32, shape (n, 3)."""
         found = np.zeros((len(seen.pixel), 3), np.float32)
         rows = np.flatnonzero(roughness < _GLOSSY)
         normals = _microfacets(seen.shades.normal[rows], roughness[rows], random)
         way = seen.way[rows] - 2 * dots(seen.way[rows], normals)[:, None] * normals
         is_out = dots(way, seen.flat[rows]) > 0
-        rows, way = rows[is_out], way[is_out]
+        rows, way = rows[is_out], np.ascontiguousarray(way[is_out])
         places = seen.place_m[rows] + seen.flat[rows] * np.float32(_OFF_M)
-        found[rows] = self._incoming(places, np.ascontiguousarray(way), _mean_of(direct), random)
+        found[rows] = self._incoming(places, way, usual, random)
+        if not len(self._lamps.middle_m) or not len(rows):
+            return found
+        faces = self._faces.run(places, way, output=True)
+        lit = np.flatnonzero(faces["primID"] >= 0)
+        lit = lit[~self._lit.is_dark(places[lit], way[lit], faces["tfar"][lit] - np.float32(2 * _OFF_M))]
+        lamp, range_m, own = faces["primID"][lit].astype(np.int64) // FACE_TRIANGLES, faces["tfar"][lit], rows[lit]
+        density, _ = _Facets(seen, roughness).towards(way[lit], own)
+        other = draws.odds_of(own, lamp) * self._density(lamp, way[lit], range_m) * draws.count
+        shone = self._lamps.intensity(lamp, -way[lit]) / range_m[:, None] ** 2  # over the solid angle: the radiance
+        radiance = shone * self._density(lamp, way[lit], range_m)[:, None]
+        found[own] = radiance * (density / (density + other))[:, None]
         return found
+
+    @cached_property
+    def _faces(self) -> "EmbreeScene":
+        return embree_scene(self._lamps.faces_m)
 
     def _surfaces(self, shape: tuple[int, int], rays: "_PixelRays", hits: Hits) -> Surfaces:
         ways = rays.ways[rays.pixels]
@@ -220,9 +257,77 @@ class QuickLight:
         depth = np.full(shape, np.inf, np.float32)
         normal, instance = np.zeros((*shape, 3), np.float32), np.zeros(shape, np.int32)
         depth.ravel()[pixel] = shown.range_m
-        normal.reshape(-1, 3)[pixel] = self._lit.flat_normals(shown, ways[shown.ray])
+        normal.reshape(-1, 3)[pixel] = self._lit.smooth_normals(shown, ways[shown.ray])
         instance.ravel()[pixel] = self._lit.scene.instance[shown.triangle]
         return Surfaces(depth, normal, instance)
+
+
+class _Light(NamedTuple):
+    """Irradiance by lamps and by what scatters their light, and mirrored radiance; float32, shape (n, 3) each."""
+
+    direct: Floats
+    scattered: Floats
+    mirrored: Floats
+
+
+class _Draws:
+    """Lamps drawn for places, by odds that are equal in each block of them."""
+
+    def __init__(
+        self,
+        lamps: Lamps,
+        block: NDArray[np.int64],
+        places: Floats,
+        mirrored: Floats,
+        roughness: Floats,
+        count: int,
+    ) -> None:
+        self.count = count
+        self._number = len(lamps.middle_m) if len(places) else 0
+        if self._number:
+            _, self._block = np.unique(block, return_inverse=True)
+            values = np.concatenate([places, mirrored, np.maximum(roughness, _LEAST_LOBE)[:, None] ** 4], axis=1)
+            sums = np.stack([np.bincount(self._block, column) for column in values.T], axis=1)
+            means = (sums / np.bincount(self._block)[:, None]).astype(np.float32)
+            self._odds = lamps.odds(means[:, :3], unit(means[:, 3:6]), means[:, 6])
+
+    def lamps(self, random: np.random.Generator) -> Iterator[tuple[NDArray[np.int64], Floats]]:
+        """Yield a lamp for each place, and the odds of it."""
+        if not self._number:
+            return
+        rising = np.cumsum(self._odds.astype(np.float64), axis=1)
+        stairs = (rising / rising[:, -1:] + np.arange(len(rising))[:, None]).ravel()
+        offset = random.random(len(self._block))
+        for draw in range(self.count):
+            step = np.searchsorted(stairs, self._block + (draw + offset) / self.count, side="right")
+            lamp = np.minimum(step - self._block * self._number, self._number - 1)
+            yield lamp, self._odds[self._block, lamp]
+
+    def odds_of(self, places: NDArray[np.int64], lamp: NDArray[np.int64]) -> Floats:
+        """Odds of lamps at some of the places, by their numbers."""
+        found: Floats = self._odds[self._block[places], lamp]
+        return found
+
+
+class _Facets:
+    """The microfacets of what pixels see: GGX, which hide one another as Smith has it (Walter et al., 2007)."""
+
+    def __init__(self, seen: _Seen, roughness: Floats) -> None:
+        self._seen, self.roughness = seen, roughness
+
+    def towards(self, ways: Floats, rows: NDArray[np.int64]) -> tuple[Floats, Floats]:
+        """How dense mirrored rays are along ways, 1 / sr, and what of a lamp's irradiance is mirrored, 1 / sr."""
+        normal, back = self._seen.shades.normal[rows], -self._seen.way[rows]
+        half = unit(ways + back)
+        tilt = np.clip(dots(half, normal), 0.0, 1.0)
+        alpha2 = self.roughness[rows] ** 4
+        facets = alpha2 / (math.pi * ((alpha2 - 1) * tilt**2 + 1) ** 2)
+        density = facets * tilt / (4 * np.maximum(dots(half, back), _LEAST_COSINE))
+        facing, leaving = (np.maximum(dots(normal, each), _LEAST_COSINE) for each in (back, ways))
+        shadows = leaving * np.sqrt(alpha2 + (1 - alpha2) * facing**2)
+        masks = facing * np.sqrt(alpha2 + (1 - alpha2) * leaving**2)
+        mirrored = facets * leaving / (2 * (shadows + masks))
+        return density, mirrored
 
 
 class _PixelRays:
@@ -331,10 +436,6 @@ def _row_of(shades: Shades) -> Floats:
     ones = np.ones((len(shades.roughness), 1), np.float32)
     columns = (shades.diffuse_rgb, shades.shine_rgb, shades.glow_rgb, shades.roughness[:, None], ones)
     return np.concatenate(columns, axis=1)
-
-
-def _mean_of(light: Floats) -> Floats:
-    return light.mean(axis=0) if len(light) else np.zeros(3, np.float32)
 
 
 def _scattered(normals: Floats, random: np.random.Generator) -> Floats:

@@ -96,7 +96,7 @@ class Pictures:
     def give_values(self, file: str, values: NDArray[np.float64], *, is_srgb: bool = False) -> None:
         """Add a picture of bytes by its linear values, shape (rows, columns) or (rows, columns, 3)."""
         buffer = io.BytesIO()
-        Image.fromarray(_stored(values, is_srgb=is_srgb)).save(buffer, format="PNG")
+        Image.fromarray(stored(values, is_srgb=is_srgb)).save(buffer, format="PNG")
         self.give(file, buffer.getvalue())
 
     def mosaic(self, tiles: Mapping[tuple[int, int], str]) -> str:
@@ -223,7 +223,7 @@ class Pictures:
         share = min(1.0, (largest_px or columns) / max(columns, rows)) if largest_px else 1.0
         size = max(1, round(share * columns)), max(1, round(share * rows))
         parts = [
-            _stored(resized(plane, size), is_srgb=is_srgb and number != ALPHA) for number, plane in enumerate(planes)
+            stored(resized(plane, size), is_srgb=is_srgb and number != ALPHA) for number, plane in enumerate(planes)
         ]
         buffer = io.BytesIO()
         Image.fromarray(np.stack(parts, axis=2)).save(buffer, format="PNG", optimize=True)
@@ -267,7 +267,7 @@ def _linear(stored: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.where(stored <= _SLOPE * _KNEE, straight, curved)
 
 
-def _stored(values: NDArray[np.float64], *, is_srgb: bool) -> NDArray[np.uint8]:
+def stored(values: NDArray[np.floating[Any]], *, is_srgb: bool) -> NDArray[np.uint8]:
     """Convert values to bytes."""
     kept = np.clip(np.nan_to_num(values), 0.0, 1.0)
     if is_srgb:

@@ -24,7 +24,7 @@ from support.soak import soak_but
 
 from garage2usd import GarageConfig, build
 from garage2usd.objects.kind import PAINT_CLASSES
-from garage2usd.render import Picture, render_stage
+from garage2usd.render import Device, Picture, render_stage
 
 pytestmark = [
     pytest.mark.client,
@@ -111,6 +111,29 @@ def test_signs_that_blender_reads_in_paths_are_signs_of_names(tmp_path, monkeypa
         (picture,) = (made.folder / kind).iterdir()
         assert picture.read_bytes() == (plain.folder / kind / picture.name).read_bytes()
     assert not list(temporary.iterdir())
+
+
+def test_few_rays_draw_what_the_path_tracer_draws(data_set, tmp_path):
+    made = data_set("instanced")
+    wanted = {frame.about["name"]: frame for frame in made.frames}
+    how = {"cameras": ("Inside", "Drive"), "frames": "96", "size_px": SIZE, "samples": 4, "device": Device.RAYS}
+    by_rays = render_stage(made.stage, tmp_path, pictures=tuple(Picture), **how)
+    for entry in json.loads(by_rays.frames.read_text())["frames"]:
+        drawn, traced = read_frame(tmp_path, entry), wanted[entry["name"]]
+        same = drawn.instance == traced.instance
+        assert same.mean() > 1 - 10 * MOST_STRAY_PIXELS  # edges between objects, in single precision
+        assert (drawn.semantic == traced.semantic).mean() > 1 - 10 * MOST_STRAY_PIXELS
+        seen = same & np.isfinite(traced.depth)
+        apart_m = np.abs(drawn.depth - traced.depth)[seen]
+        assert np.quantile(apart_m / traced.depth[seen], 0.99) < MILLIMETRE
+        assert np.quantile((drawn.normal * traced.normal).sum(axis=-1)[seen], 0.02) > 0.999
+        for channel in range(3):
+            one, other = (
+                each.colour[..., channel].reshape(SIZE[1] // 10, 10, SIZE[0] // 10, 10).mean(axis=(1, 3))
+                for each in (drawn, traced)
+            )
+            assert one.mean() == pytest.approx(other.mean(), rel=0.15)
+            assert np.corrcoef(one.ravel(), other.ravel())[0, 1] > 0.8  # without the longest streaks of lamps
 
 
 @pytest.mark.parametrize("form", soak_but(1, ["instanced", "nested"]))
