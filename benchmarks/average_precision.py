@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["WITHIN_PX", "Detections", "Matched", "Score", "matched", "score"]
+__all__ = ["WITHIN_PX", "Detections", "Matched", "Score", "at_threshold", "matched", "score"]
 
 WITHIN_PX = 6.0
 """How far from a true corner a found one may be: 0.2 m in pictures of 1/30 m a pixel."""
@@ -122,3 +122,19 @@ def score(pictures: Sequence[Matched]) -> Score:
     f1 = 2 * hits / (last + 1 + true)
     best = int(f1.argmax()) if len(f1) else -1
     return Score(average, float(f1[best]) if best >= 0 else 0.0, float(confidence[last[best]]) if best >= 0 else 1.0)
+
+
+def at_threshold(pictures: Sequence[Matched], threshold: float) -> tuple[float, float]:
+    """Recall and precision of what is at least so sure, all pictures together; without any found, precision is 1.
+
+    Raises
+    ------
+    ValueError
+        If there is no corner to find.
+    """
+    true = sum(picture.true for picture in pictures)
+    if not true:
+        raise ValueError("no corner to find")
+    found = sum(int((picture.confidence >= threshold).sum()) for picture in pictures)
+    hits = sum(int(picture.is_hit[picture.confidence >= threshold].sum()) for picture in pictures)
+    return hits / true, hits / found if found else 1.0

@@ -24,10 +24,10 @@ def corner_map(corners_px: NDArray[np.float64]) -> NDArray[np.float32]:
     return heat.astype(np.float32)
 
 
-def peaks(heat: NDArray[np.floating]) -> Detections:
-    """The cells of a map, shape `MAP_SIZE`, that are no less than the eight around them, as corners."""
+def peaks(heat: NDArray[np.floating], cell_px: int = STRIDE_PX) -> Detections:
+    """The cells of a map that are no less than the eight around them, as corners; so many pixels to a cell."""
     around = np.pad(heat, 1, constant_values=-np.inf)
     highest = np.max(np.lib.stride_tricks.sliding_window_view(around, (3, 3)), axis=(2, 3))
     rows, columns = np.nonzero((heat >= highest) & (heat > _LEAST_CONFIDENCE))
-    places_px = (np.stack([columns, rows], axis=1) + 0.5) * STRIDE_PX
+    places_px = (np.stack([columns, rows], axis=1) + 0.5) * cell_px
     return Detections(places_px, heat[rows, columns].astype(np.float64))

@@ -8,8 +8,10 @@ from strips import Strip, read_strips
 
 from garage2usd.common.errors import ConfigError
 
-__all__ = ["read_drawn", "write_drawn"]
+__all__ = ["ABOUT_FILE", "drawn_garages", "read_drawn", "write_drawn"]
 
+ABOUT_FILE = "about.json"
+"""In the folder of each garage: its seed, and where its car stands in each picture."""
 _DRAWN_FILE = "drawn.json"
 
 
@@ -20,6 +22,21 @@ def write_drawn(folder: Path, garages: Sequence[Path]) -> None:
     )
 
 
+def drawn_garages(folder: Path) -> list[Path]:
+    """The folder of strips of each garage that a recipe made last, in its order.
+
+    Raises
+    ------
+    ConfigError
+        If nothing was drawn there.
+    """
+    try:
+        names = json.loads((folder / _DRAWN_FILE).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        raise ConfigError("drawn", str(folder), f"a folder with {_DRAWN_FILE}, which `real.py draw` writes") from None
+    return [folder / name for name in names]
+
+
 def read_drawn(folder: Path) -> list[list[Strip]]:
     """The strips of each garage that a recipe made last, in its order.
 
@@ -28,8 +45,4 @@ def read_drawn(folder: Path) -> list[list[Strip]]:
     ConfigError
         If nothing was drawn there, or not all of it is there.
     """
-    try:
-        names = json.loads((folder / _DRAWN_FILE).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        raise ConfigError("drawn", str(folder), f"a folder with {_DRAWN_FILE}, which `real.py draw` writes") from None
-    return [read_strips(folder / name) for name in names]
+    return [read_strips(garage) for garage in drawn_garages(folder)]

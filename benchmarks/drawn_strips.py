@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from drawn_folder import ABOUT_FILE
 from strip_poses import Pose, StripPoses
 from strip_rig import drawn_rig
 from strips import CORNERS_FILE, write_strips
@@ -37,7 +38,6 @@ __all__ = ["DrawnGarage", "StripSettings", "draw_strips"]
 
 _SAME_CORNER_PX = 3.0
 """Corners of neighbouring stalls that are nearer to each other than this are one."""
-_ABOUT_FILE = "about.json"
 _MOST_SEED = 2**31 - 1
 """Of Blender's samples."""
 _RANDOM = 34
@@ -131,7 +131,7 @@ def _drawn(recipe: Recipe, number: int, *, folder: Path, version: str, settings:
                 _draw(config, folder, key, settings)
         except (ConfigError, GenerationError):
             continue
-        about = json.loads((folder / key / _ABOUT_FILE).read_text(encoding="utf-8"))
+        about = json.loads((folder / key / ABOUT_FILE).read_text(encoding="utf-8"))
         return DrawnGarage(folder / key, about["pictures"], about["cpu_s"])
     raise GenerationError("strips", recipe.seed, f"garage {number}: none of {recipe.attempts} attempts made one")
 
@@ -190,7 +190,7 @@ def _draw(config: GarageConfig, folder: Path, key: str, settings: StripSettings)
                 for name, pose in zip(named, poses, strict=True)
             },
         }
-        (strips / _ABOUT_FILE).write_text(json.dumps(about) + "\n", encoding="utf-8")
+        (strips / ABOUT_FILE).write_text(json.dumps(about) + "\n", encoding="utf-8")
         shutil.rmtree(folder / key, ignore_errors=True)  # of a drawing that was broken off
         strips.rename(folder / key)
 

@@ -3,9 +3,12 @@
 Usage: python benchmarks/real.py FOLDER [-o OUT]                draws, trains on each teacher, tests, writes the table
        python benchmarks/real.py draw RECIPE -o DRAWN           draws the strips of a recipe's garages
        python benchmarks/real.py train FOLDER [--drawn DRAWN]   trains on those, or on photographs of the other garages
+       python benchmarks/real.py outside FOLDER --drawn DRAWN --weights FILE
+                                                                what SPFCN, trained by others, finds in both
 
-FOLDER has photographs as `strips` tells; how to get some says ``docs/guides/real_pictures.md``. Drawing needs the
-extras blender and dataset, training what ``real_requirements.txt`` names.
+FOLDER has photographs as `strips` tells; how to get some and the weights says ``docs/guides/real_pictures.md``. Drawing
+needs the extras blender and dataset, training what ``real_requirements.txt`` names, ``outside`` what
+``outside_requirements.txt`` does.
 """
 
 import argparse
@@ -15,7 +18,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drawn_folder import read_drawn, write_drawn
+from average_precision import at_threshold, matched, score
+from drawn_folder import drawn_garages, read_drawn, write_drawn
 from strips import Strip, read_strips
 
 from garage2usd.common.errors import ConfigError, Garage2UsdError
@@ -27,11 +31,13 @@ HERE = Path(__file__).parent
 RECIPES = {"one look": HERE / "one_look.toml", "drawn looks": HERE / "drawn_looks.toml"}
 ASIDE, LEAST_WITH_ASIDE = 4, 20
 """Of more garages than that so many are not learnt from: what is found in them is drawn."""
+THRESHOLDS = 0.2, 0.5, 0.8
+"""Of confidence, at which recall and precision are told; pictures show what is found at the middle one."""
 
 
 def main(arguments: Sequence[str]) -> None:
     """Do what is asked for; without a command, all."""
-    commands = {"draw": _draw, "train": _train, "all": _all}
+    commands = {"draw": _draw, "train": _train, "all": _all, "outside": _outside}
     if arguments and arguments[0] not in {*commands, "-h", "--help"}:
         arguments = ["all", *arguments]
     asked = _parser().parse_args(arguments)
@@ -50,9 +56,14 @@ def _parser() -> argparse.ArgumentParser:
     train = commands.add_parser("train", help="one teacher")
     train.add_argument("--drawn", type=Path, action="append", help="what draw wrote; several are learnt from together")
     everything = commands.add_parser("all", help="draw, and train on each teacher")
-    for command in (train, everything):
+    outside = commands.add_parser("outside", help="what a detector of others finds in photographs and drawn strips")
+    outside.add_argument("--drawn", type=Path, action="append", required=True, help="what draw wrote")
+    outside.add_argument("--weights", type=Path, required=True, help="stable_parameter_0914.pkl of SPFCN")
+    outside.add_argument("--recipe", type=Path, help="that of the drawn garages, for figures by their lines")
+    for command in (train, everything, outside):
         command.add_argument("folder", metavar="FOLDER", type=Path, help="photographs")
         command.add_argument("-o", "--output", type=Path, default=Path("out/real"), help="gets table and pictures")
+    for command in (train, everything):
         command.add_argument("--runs", type=int, default=3, help="trainings of each teacher")
         command.add_argument("--steps", type=int, default=1000, help="of each training")
     for command in (draw, everything):
@@ -113,6 +124,51 @@ def _all(asked: argparse.Namespace) -> None:
         _report(outcomes, asked)
         aside += _learnt_and_aside([folder])[1]
     _report([*outcomes, _taught_by_photographs(photographs, aside, asked)], asked)
+
+
+def _outside(asked: argparse.Namespace) -> None:
+    """Write what the outside detector finds in photographs of each garage and in each folder of drawn ones."""
+    from detections_sheet import write_sheet  # noqa: PLC0415
+    from outside_detector import read_detector  # noqa: PLC0415 - only this needs its network
+
+    def progress(step: str, done: int, total: int) -> None:
+        print(f"{step}: {done} of {total} pictures", file=sys.stderr)
+
+    detector, sets = read_detector(asked.weights), _outside_sets(asked)
+    strips = list(dict.fromkeys(strip for some in sets.values() for strip in some))
+    found = dict(zip(strips, detector.detect(strips, progress), strict=True))
+    at = " | ".join(f"recall, precision at {threshold}" for threshold in THRESHOLDS)
+    rows = [f"| corners in | pictures | corners | AP | {at} |", "|---|" + "---|" * (3 + len(THRESHOLDS))]
+    asked.output.mkdir(parents=True, exist_ok=True)
+    for name, some in sets.items():
+        results = [matched(found[strip], strip.corners_px, strip.is_occluded) for strip in some]
+        corners = sum(result.true for result in results)
+        cells = [name, f"{len(some):,}", f"{corners:,}", f"{score(results).average_precision:.3f}"]
+        cells += ["{:.3f}, {:.3f}".format(*at_threshold(results, threshold)) for threshold in THRESHOLDS]
+        rows.append(f"| {' | '.join(cells)} |")
+        sheet = f"outside_{name.replace(',', '').replace(' ', '_')}.png"
+        write_sheet(some, [found[strip] for strip in some], THRESHOLDS[1], asked.output / sheet)
+    text = "\n".join(rows)
+    (asked.output / "outside.md").write_text(f"{text}\n", encoding="utf-8")
+    print(text, flush=True)
+
+
+def _outside_sets(asked: argparse.Namespace) -> dict[str, list[Strip]]:
+    """Strips by what tables call them: of each real garage, of each folder, and of each kind of drawn lines."""
+    from drawn_lines import lines  # noqa: PLC0415
+
+    from garage2usd.datasets import load_recipe  # noqa: PLC0415 - only this and drawing need what data sets do
+
+    recipe = load_recipe(asked.recipe) if asked.recipe else None
+    sets: dict[str, list[Strip]] = {}
+    for strip in read_strips(asked.folder):
+        sets.setdefault(f"photographs of {strip.garage}", []).append(strip)
+    for folder in asked.drawn:
+        for garage in drawn_garages(folder):
+            strips = read_strips(garage)
+            for kind in ["", f", {lines(recipe, garage)}"] if recipe else [""]:
+                sets.setdefault(f"drawn in {folder.name}{kind}", []).extend(strips)
+    return sets
 
 
 def _taught_by_photographs(photographs: list[Strip], aside: list[Strip], asked: argparse.Namespace) -> "Outcome":
