@@ -76,7 +76,7 @@ class Lamps:
         return np.asarray(np.where(self.is_round, math.pi, 4.0) * sides, dtype=np.float32)
 
     def odds(self, places_m: Floats, mirrored: Floats, facets: Floats) -> Floats:
-        """The probabilities by which lamps are drawn: half by how brightly they shine, half by how brightly they mirror.
+        """Probabilities by which lamps are drawn, half of them by how lamps shine and half by how they are mirrored.
 
         Parameters
         ----------

@@ -35,7 +35,7 @@ _SAME_PLANE_M, _SAME_NORMAL = 0.02, 0.95
 _FURTHER = 0.8
 """Light that is thrown back more than once, as a share of what the picture throws back."""
 _BRIGHTEST = 6.0
-"""Greatest radiance that a single ray brings, in means of the picture's irradiance: brighter ones would be specks."""
+"""Greatest radiance that a single ray brings, in means of the picture: brighter ones would be specks."""
 _STEEP, _LEAST_COSINE, _LEAST_M2 = 0.9, 0.02, 1e-4
 _LEAST_LOBE = 0.3
 """Roughness for which lamps are drawn on surfaces that are less rough: a block sees them in more than one direction."""
@@ -219,7 +219,7 @@ class QuickLight:
         light = direct + usual * np.float32(_FURTHER)
         reflects = shades.diffuse_rgb + shades.shine_rgb
         found[hits.ray] = reflects * light / np.float32(math.pi) + shades.glow_rgb
-        return np.minimum(found, usual.mean() * np.float32(_BRIGHTEST))
+        return np.minimum(found, max(usual.mean(), found.mean()) * np.float32(_BRIGHTEST)) if len(found) else found
 
     def _reflected(
         self, draws: "_Draws", seen: _Seen, roughness: Floats, usual: Floats, random: np.random.Generator
