@@ -2,6 +2,7 @@
 
 Usage: python benchmarks/real.py FOLDER [-o OUT]                draws, trains on each teacher, tests, writes the table
        python benchmarks/real.py draw RECIPE -o DRAWN           draws the strips of a recipe's garages
+       python benchmarks/real.py recorded DATASET -o DRAWN      takes the strips out of a data set's recordings
        python benchmarks/real.py train FOLDER [--drawn DRAWN]   trains on those, or on photographs of the other garages
        python benchmarks/real.py outside FOLDER --drawn DRAWN --weights FILE
                                                                 what SPFCN, trained by others, finds in both
@@ -37,7 +38,7 @@ THRESHOLDS = 0.2, 0.5, 0.8
 
 def main(arguments: Sequence[str]) -> None:
     """Do what is asked for; without a command, all."""
-    commands = {"draw": _draw, "train": _train, "all": _all, "outside": _outside}
+    commands = {"draw": _draw, "recorded": _recorded, "train": _train, "all": _all, "outside": _outside}
     if arguments and arguments[0] not in {*commands, "-h", "--help"}:
         arguments = ["all", *arguments]
     asked = _parser().parse_args(arguments)
@@ -53,6 +54,10 @@ def _parser() -> argparse.ArgumentParser:
     draw = commands.add_parser("draw", help="strips of a recipe's garages")
     draw.add_argument("recipe", type=Path)
     draw.add_argument("-o", "--output", type=Path, required=True)
+    recorded = commands.add_parser("recorded", help="strips of a data set, as of recorded.toml")
+    recorded.add_argument("dataset", metavar="DATASET", type=Path)
+    recorded.add_argument("-o", "--output", type=Path, required=True)
+    recorded.add_argument("--pictures", type=int, default=11, help="of each garage at most")
     train = commands.add_parser("train", help="one teacher")
     train.add_argument("--drawn", type=Path, action="append", help="what draw wrote; several are learnt from together")
     everything = commands.add_parser("all", help="draw, and train on each teacher")
@@ -98,6 +103,13 @@ def _drawn(recipe: Path, folder: Path, asked: argparse.Namespace) -> None:
         pictures, cpu_s = pictures + drawn.pictures, cpu_s + drawn.cpu_s
         each = f"{cpu_s / pictures:.2f} processor seconds each, {time.monotonic() - start:.0f} s"
         print(f"{len(places)} of {asked.garages} garages, {pictures} pictures, {each}", flush=True)
+
+
+def _recorded(asked: argparse.Namespace) -> None:
+    from recorded_strips import convert  # noqa: PLC0415 - only this and drawing need what data sets do
+
+    pictures = [written for _, written in convert(asked.dataset, asked.output, pictures=asked.pictures)]
+    print(f"{len(pictures)} garages, {sum(pictures)} pictures")
 
 
 def _train(asked: argparse.Namespace) -> None:
