@@ -61,7 +61,9 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     show_default=True,
     help="Seed of the samples, not of the garage.",
 )
-@device_option("What draws the colour: auto takes a GPU where Blender finds one.")
+@device_option(
+    "What draws: auto takes a GPU where Blender finds one; rays needs no Blender, and is quicker and coarser."
+)
 @click.option(
     "--blender",
     metavar="PROGRAM",
