@@ -61,9 +61,7 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     show_default=True,
     help="Seed of the samples, not of the garage.",
 )
-@device_option(
-    "What draws: auto takes a GPU where Blender finds one; rays needs no Blender, and is quicker and coarser."
-)
+@device_option("What draws: auto is a GPU where Blender finds one; rays is quicker and coarser, without Blender.")
 @click.option(
     "--blender",
     metavar="PROGRAM",

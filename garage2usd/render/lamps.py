@@ -1,6 +1,7 @@
 """Lamps of a stage as surfaces that shine, and light from points drawn on them."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -10,10 +11,13 @@ from numpy.typing import NDArray
 from pxr import Usd
 
 from garage2usd.reading.lights import DOMES, LIGHT_TYPES, LightSource, light_of
+from garage2usd.scenes.meshes import unit
 from garage2usd.scenes.values import metres_per_unit
 from garage2usd.scenes.walk import placed_objects
 
 Floats = NDArray[np.float32]
+_LEAST_LOBE = 0.3
+"""Roughness for which lamps are drawn on surfaces that are less rough: a block sees them in more than one direction."""
 _DISTANT_M, _TINY = 1e4, 1e-12
 _DISTANT = "DistantLight"
 _ALL_ROUND_DEG = 90.0
@@ -120,6 +124,57 @@ class Lamps:
         cosine = (away * self.axis[lamps]).sum(axis=1)
         share = np.where(self.is_one_sided[lamps], np.maximum(cosine, 0.0), 1.0) * (cosine >= self.least_cos[lamps])
         found: Floats = self.candela_rgb[lamps] * share[:, None].astype(np.float32)
+        return found
+
+
+class LampDraws:
+    """Lamps drawn for places, by odds that are equal in each block of them.
+
+    Parameters
+    ----------
+    lamps
+        The lamps.
+    block
+        Number of each place's block; int64, shape (n,).
+    places, mirrored, roughness
+        Each place, the way of a ray that is mirrored there, and the roughness; float32, shapes (n, 3), (n, 3) and (n,).
+    count
+        How many lamps are drawn for each place.
+    """
+
+    def __init__(
+        self,
+        lamps: Lamps,
+        block: NDArray[np.int64],
+        places: Floats,
+        mirrored: Floats,
+        roughness: Floats,
+        count: int,
+    ) -> None:
+        self.count = count
+        self._number = len(lamps.middle_m) if len(places) else 0
+        if self._number:
+            _, self._block = np.unique(block, return_inverse=True)
+            values = np.concatenate([places, mirrored, np.maximum(roughness, _LEAST_LOBE)[:, None] ** 4], axis=1)
+            sums = np.stack([np.bincount(self._block, column) for column in values.T], axis=1)
+            means = (sums / np.bincount(self._block)[:, None]).astype(np.float32)
+            self._odds = lamps.odds(means[:, :3], unit(means[:, 3:6]), means[:, 6])
+
+    def lamps(self, random: np.random.Generator) -> Iterator[tuple[NDArray[np.int64], Floats]]:
+        """Yield a lamp for each place, and the odds of it."""
+        if not self._number:
+            return
+        rising = np.cumsum(self._odds.astype(np.float64), axis=1)
+        stairs = (rising / rising[:, -1:] + np.arange(len(rising))[:, None]).ravel()
+        offset = random.random(len(self._block))
+        for draw in range(self.count):
+            step = np.searchsorted(stairs, self._block + (draw + offset) / self.count, side="right")
+            lamp = np.minimum(step - self._block * self._number, self._number - 1)
+            yield lamp, self._odds[self._block, lamp]
+
+    def odds_of(self, places: NDArray[np.int64], lamp: NDArray[np.int64]) -> Floats:
+        """Odds of lamps at some of the places, by their numbers."""
+        found: Floats = self._odds[self._block[places], lamp]
         return found
 
 
