@@ -147,12 +147,22 @@ class StallPattern(StrEnum):
     """An angle in each of the four corners."""
     DOUBLE = "double"
     """Two parallel lines between neighbours, joined at the aisle."""
+    HAIRPIN = "hairpin"
+    """As 'double', joined by half a circle and further apart."""
     CORNERS = "corners"
     """An angle in each corner at the aisle only."""
     DASHED = "dashed"
     """As 'closed', by dashes."""
     NONE = "none"
     """No lines; numbers may remain."""
+
+
+class LineEnds(StrEnum):
+    """Form of the free ends of stalls' lines."""
+
+    SQUARE = "square"
+    ROUND = "round"
+    """Half discs; closed stalls have rounded corners."""
 
 
 class BandForm(StrEnum):
@@ -189,7 +199,13 @@ class MarkingsLook(Settings):
     """Markings on the floor."""
 
     pattern: StallPattern = StallPattern.SIDES
-    """'sides', 'closed', 't_marks', 'l_marks', 'double', 'corners', 'dashed' or 'none'."""
+    """'sides', 'closed', 't_marks', 'l_marks', 'double', 'hairpin', 'corners', 'dashed' or 'none'."""
+    line_ends: LineEnds = LineEnds.SQUARE
+    """Free ends of the stalls' lines: 'square', or 'round'; then the corners of closed stalls are rounded too."""
+    corner_radius_m: float = Field(0.25, ge=0.15, le=0.4)
+    """Outer radius of the corners of 'closed' stalls with round ends."""
+    closed_behind: bool = True
+    """Lines or marks at the rear of the stalls too; patterns without any there, such as 'corners', have none."""
     colour: Colour = "white"
     """Colour of the stalls' lines."""
     line_width_m: float = Field(0.12, ge=0.05, le=0.3)

@@ -392,8 +392,13 @@ def row_strip(tile: Tile, row: StallRow, start: float, end: float, depth: tuple[
     if not lean:
         return row_rectangle(tile, row.edge, start, end, depth)
     near, far = depth
-    corners = (start, near), (end, near), (end, far), (start, far)
-    return tuple(row_point(tile, row.edge, along + lean * inside, inside) for along, inside in corners)
+    return row_polygon(tile, row, ((start, near), (end, near), (end, far), (start, far)))
+
+
+def row_polygon(tile: Tile, row: StallRow, points: Iterable[Point]) -> Polygon:
+    """Polygon on a tile by its corners along a row's entries and inside them, with the slant of its stalls."""
+    lean = row.lean * row.shape.slope
+    return tuple(row_point(tile, row.edge, along + lean * inside, inside) for along, inside in points)
 
 
 def row_point(tile: Tile, edge: Edge, along_m: float, inside_m: float) -> Point:

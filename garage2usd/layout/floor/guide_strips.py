@@ -8,7 +8,7 @@ import shapely
 from shapely import affinity
 
 from garage2usd.config.look import BandForm, MarkingsLook
-from garage2usd.layout.floor.markings import chevron, pictogram
+from garage2usd.layout.floor.markings import area_markings, chevron, pictogram, polygon_of
 from garage2usd.layout.placement import edge_yaw_rad
 from garage2usd.objects.kind import Polygon
 from garage2usd.objects.panel import Marking, Paint, Surface
@@ -17,7 +17,6 @@ from garage2usd.structure.stalls import Edge
 _BEYOND_M = 6.0
 """Extent of the ground of adjacent open squares, in metres."""
 _INNER_RADIUS_M = 0.3
-_LEAST_MM2 = 1e-6
 _ROUND_STEPS = 4
 """Number of segments of a quarter circle."""
 _MOST_SIGN_M, _SIGN_SHARE = 0.8, 0.72
@@ -72,7 +71,7 @@ def guide_strips(
     gap, line = look.band_gap_m, look.line_width_m
     inside = _LaneGround(closed, half_x, half_z, gap, strip_depth_m(look), is_round=look.band is BandForm.BAND)
     if look.band is BandForm.LINE:
-        return _markings(inside.between(gap, gap + line), Surface.PAINT_EDGE)
+        return area_markings(inside.between(gap, gap + line), Surface.PAINT_EDGE)
     first, second = gap + line, gap + line + look.band_width_m
     coloured = shapely.union_all(_coloured_ground(closed, half_x, half_z, second + line + inside.radius_m, look))
     strip = shapely.intersection(inside.between(first, second), coloured)
@@ -84,9 +83,9 @@ def guide_strips(
     ]
     return (
         *(Marking(shape, Surface.PAINT_WHITE, Paint.LANE_ARROW) for shape in signs),
-        *_markings(inside.between(gap, first), Surface.PAINT_EDGE),
-        *_markings(inner, Surface.PAINT_EDGE),
-        *_markings(strip, Surface.PAINT_BAND, None),
+        *area_markings(inside.between(gap, first), Surface.PAINT_EDGE),
+        *area_markings(inner, Surface.PAINT_EDGE),
+        *area_markings(strip, Surface.PAINT_BAND, None),
     )
 
 
@@ -193,25 +192,5 @@ def _symbols(
             turned = affinity.rotate(shapely.Polygon(shape), 90, origin=(0, 0))
             moved = affinity.translate(turned, along, across - depth)
             whole = affinity.rotate(moved, -edge_yaw_rad(edge), origin=(0, 0), use_radians=True)
-            placed.append(_polygon(whole))
+            placed.append(polygon_of(whole))
     return placed
-
-
-def _markings(area: shapely.Geometry, surface: Surface, paint: Paint | None = Paint.LANE_LINE) -> tuple[Marking, ...]:
-    """Convert an area to markings: polygons without holes."""
-    parts = [part for part in shapely.get_parts(area) if part.geom_type == "Polygon" and part.area > _LEAST_MM2]
-    whole = []
-    for part in parts:
-        if not part.interiors:
-            whole.append(part)
-            continue
-        left, top, right, bottom = part.bounds
-        middle = (left + right) / 2
-        for side in (shapely.box(left, top, middle, bottom), shapely.box(middle, top, right, bottom)):
-            whole += list(shapely.get_parts(part.intersection(side)))
-    return tuple(Marking(_polygon(part), surface, paint) for part in sorted(whole, key=lambda part: part.bounds))
-
-
-def _polygon(shape: shapely.Polygon) -> Polygon:
-    """Convert a shapely polygon to corners, rounded to the micrometre."""
-    return tuple((round(x, 6), round(z, 6)) for x, z in shapely.get_coordinates(shape.exterior)[:-1].tolist())

@@ -23,6 +23,7 @@ _HATCH_MARGIN_M = 0.6
 _HATCH_GAP_M = 0.1
 _MIN_HATCHED_M = 1.0
 _STRIPE_WIDTH_M, _STRIPE_PERIOD_M = 0.15, 0.5
+_LEAST_M2 = 1e-6
 _STROKE, _FRAME = 0.09, 0.05
 """Widths of strokes and frame, as shares of the pictogram's size."""
 
@@ -201,6 +202,28 @@ def pictogram(of: Pictogram, size_m: float) -> tuple[Polygon, ...]:
             if cut.geom_type == "Polygon"
         ]
     return tuple(pieces)
+
+
+def area_markings(
+    area: shapely.Geometry, surface: Surface, paint: Paint | None = Paint.LANE_LINE
+) -> tuple[Marking, ...]:
+    """Convert an area to markings: polygons without holes."""
+    parts = [part for part in shapely.get_parts(area) if part.geom_type == "Polygon" and part.area > _LEAST_M2]
+    whole = []
+    for part in parts:
+        if not part.interiors:
+            whole.append(part)
+            continue
+        left, top, right, bottom = part.bounds
+        middle = (left + right) / 2
+        for side in (shapely.box(left, top, middle, bottom), shapely.box(middle, top, right, bottom)):
+            whole += list(shapely.get_parts(part.intersection(side)))
+    return tuple(Marking(polygon_of(part), surface, paint) for part in sorted(whole, key=lambda part: part.bounds))
+
+
+def polygon_of(shape: shapely.Polygon) -> Polygon:
+    """Convert a shapely polygon to corners, rounded to the micrometre."""
+    return tuple((round(x, 6), round(z, 6)) for x, z in shapely.get_coordinates(shape.exterior)[:-1].tolist())
 
 
 def _strokes(*lines: tuple[tuple[float, float], ...], width: float = _STROKE) -> list[shapely.Geometry]:

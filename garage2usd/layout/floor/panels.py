@@ -1,6 +1,7 @@
 """Floor panels of squares with their markings: lanes, portals, and the floor around stalls."""
 
 import itertools
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -24,7 +25,13 @@ from garage2usd.layout.floor.markings import (
     two_way_arrows,
     zebra,
 )
-from garage2usd.layout.floor.stall_lines import GHOST_ROWS, ghosts_on_lane, outer_spans, row_end_hatching
+from garage2usd.layout.floor.stall_lines import (
+    GHOST_ROWS,
+    ghosts_on_lane,
+    outer_round_lines,
+    outer_spans,
+    row_end_hatching,
+)
 from garage2usd.layout.placement import Placement, of_spec
 from garage2usd.layout.tiles import (
     LEAST_FLOOR_M2,
@@ -32,6 +39,7 @@ from garage2usd.layout.tiles import (
     Tile,
     Tiles,
     lane_edges,
+    row_polygon,
     row_strip,
 )
 from garage2usd.objects.floor import FloorSpec
@@ -117,6 +125,13 @@ class _Panels:
             for end, span in itertools.product(ends, spans):
                 shape = row_strip(tile, row, end, end + half_line, span)
                 yield Marking(shape, Surface.PAINT_STALL, Paint.STALL_LINE)
+            # along an angled row, both directions are longer than across the stall and down the row
+            slant = math.hypot(1.0, row.shape.slope)
+            outer = outer_round_lines(row.shape.pitch_m / slant, row.shape.depth_m * slant, self.look)
+            sides = [(start, -slant)] * place.is_first + [(start + row.shape.pitch_m, slant)] * place.is_last
+            for (side, away), marking in itertools.product(sides, outer):
+                points = [(side + away * beyond, inwards / slant) for beyond, inwards in marking.polygon]
+                yield replace(marking, polygon=row_polygon(tile, row, points))
 
     def _lane(self, tile: Tile, *, has_bump: bool, crossing_m: float | None) -> Iterator[Marking]:
         half_x, half_z = tile.half_x_m, tile.half_z_m

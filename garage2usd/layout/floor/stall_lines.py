@@ -6,8 +6,10 @@ from functools import lru_cache
 
 import shapely
 
-from garage2usd.config.look import MarkingsLook, StallPattern, Wear
+from garage2usd.config.look import LineEnds, MarkingsLook, StallPattern, Wear
 from garage2usd.garage import StallKind
+from garage2usd.layout.floor.markings import area_markings
+from garage2usd.layout.floor.rounded_lines import LineBox, closed_stall, hairpins, with_round_ends
 from garage2usd.layout.placement import PlacedStall, box_inside
 from garage2usd.layout.tiles import StallPlace, Tile, row_rectangle
 from garage2usd.objects.kind import Box, Point, rectangle
@@ -20,8 +22,8 @@ _MARK_ALONG_M, _MARK_ACROSS_M = 0.9, 0.5
 """Lengths of corner marks along a stall and across it."""
 _BESIDE_M = 0.06
 """Distance from a stall's side to lines of its own."""
-_DOUBLE_GAP_M = 0.2
-"""Half the distance between two parallel lines."""
+_GAPS_M = {StallPattern.DOUBLE: 0.2, StallPattern.HAIRPIN: 0.3}
+"""Gap between two parallel lines."""
 _DASH_M, _DASH_GAP_M = 0.6, 0.5
 _SHARED = {StallPattern.SIDES, StallPattern.CLOSED, StallPattern.DASHED, StallPattern.T_MARKS}
 """Patterns with side lines shared by neighbours, half on each stall."""
@@ -47,8 +49,13 @@ _LEAST_M2 = 1e-4
 def stall_lines(width_m: float, length_m: float, look: MarkingsLook) -> tuple[Marking, ...]:
     """Return the painted lines of one stall; of a shared side line, the half on this stall."""
     half_width, half_length, line = width_m / 2, length_m / 2, look.line_width_m
+    if _is_round(look):
+        ground = _round_ground(width_m, length_m, look).intersection(shapely.box(-half_width, 0, half_width, length_m))
+        return tuple(
+            _round_lines(shapely.transform(ground, lambda at: at * (1, -1) + (0, half_length)), half_length, look)
+        )
     lines = []
-    for left, right, near, far in _line_boxes(half_width, length_m, line, look.pattern):
+    for left, right, near, far in _line_boxes(half_width, length_m, look):
         is_driven_over = near == 0.0 and far == line and look.wear in _UNEVEN
         for start, end, surface in _worn_pieces(left, right) if is_driven_over else ((left, right, _PAINT),):
             shape = rectangle(round(start, 6), round(half_length - far, 6), round(end, 6), round(half_length - near, 6))
@@ -58,7 +65,49 @@ def stall_lines(width_m: float, length_m: float, look: MarkingsLook) -> tuple[Ma
 
 def outer_spans(length_m: float, look: MarkingsLook) -> tuple[Span, ...]:
     """Return the spans along a stall of the outer half of a side line, needed at sides without a neighbour."""
-    return _side_spans(length_m, look.pattern) if look.pattern in _SHARED else ()
+    return _side_spans(length_m, look) if look.pattern in _SHARED and not _is_round(look) else ()
+
+
+@lru_cache(maxsize=1024)
+def outer_round_lines(width_m: float, length_m: float, look: MarkingsLook) -> tuple[Marking, ...]:
+    """Return the outer half of a round side line, in metres outwards from the side and inwards from the mouth."""
+    if look.pattern not in _SHARED or not _is_round(look):
+        return ()
+    side = width_m / 2
+    beyond = shapely.box(side, 0, side + look.line_width_m / 2, length_m)
+    outer = shapely.transform(_round_ground(width_m, length_m, look).intersection(beyond), lambda at: at - (side, 0))
+    return area_markings(outer, _PAINT, Paint.STALL_LINE)
+
+
+def _is_round(look: MarkingsLook) -> bool:
+    return look.pattern is StallPattern.HAIRPIN or look.line_ends is LineEnds.ROUND
+
+
+@lru_cache(maxsize=1024)
+def _round_ground(width_m: float, length_m: float, look: MarkingsLook) -> shapely.Geometry:
+    """Return the painted ground of a pattern with round parts, across from the stall's middle and from its mouth."""
+    half_width, line = width_m / 2, look.line_width_m
+    boxes = list(_line_boxes(half_width, length_m, look))
+    if look.pattern is StallPattern.HAIRPIN:
+        loops = hairpins(half_width, length_m, line, _GAPS_M[look.pattern])
+        return shapely.union_all([loops, *(shapely.box(left, near, right, far) for left, right, near, far in boxes)])
+    if look.pattern is StallPattern.CLOSED:
+        far_m = length_m if look.closed_behind else 2 * length_m
+        return closed_stall(half_width, far_m, line, look.corner_radius_m)
+    return with_round_ends(boxes, half_width, line)
+
+
+def _round_lines(ground: shapely.Geometry, mouth_m: float, look: MarkingsLook) -> Iterator[Marking]:
+    """Yield the markings of painted ground, with worn paint where wheels cross lines at a mouth."""
+    low, high = _WHEELS_M
+    tracks = [
+        shapely.box(min(near, far), mouth_m - look.line_width_m, max(near, far), mouth_m)
+        for near, far in ((-high, -low), (low, high))
+        if look.wear in _UNEVEN
+    ]
+    worn = shapely.union_all(tracks)
+    yield from area_markings(ground.difference(worn), _PAINT, Paint.STALL_LINE)
+    yield from area_markings(ground.intersection(worn), _WORN_PAINT, Paint.STALL_LINE)
 
 
 def _worn_pieces(left: float, right: float) -> Iterator[tuple[float, float, Surface]]:
@@ -75,11 +124,11 @@ def _worn_pieces(left: float, right: float) -> Iterator[tuple[float, float, Surf
             yield max(left, start), min(right, end), surface
 
 
-def _side_spans(length_m: float, pattern: StallPattern) -> tuple[Span, ...]:
+def _side_spans(length_m: float, look: MarkingsLook) -> tuple[Span, ...]:
     """Return the painted spans of a shared side line."""
-    if pattern is StallPattern.T_MARKS:
-        return (0.0, _MARK_ALONG_M), (length_m - _MARK_ALONG_M, length_m)
-    if pattern is StallPattern.DASHED:
+    if look.pattern is StallPattern.T_MARKS:
+        return (0.0, _MARK_ALONG_M), *([(length_m - _MARK_ALONG_M, length_m)] if look.closed_behind else [])
+    if look.pattern is StallPattern.DASHED:
         return tuple(_dashes(length_m))
     return ((0.0, length_m),)
 
@@ -93,27 +142,28 @@ def _dashes(length_m: float) -> Iterator[Span]:
         yield start, start + _DASH_M
 
 
-def _line_boxes(
-    half_width: float, length_m: float, line: float, pattern: StallPattern
-) -> Iterator[tuple[float, float, float, float]]:
-    """Yield each line of a pattern as left, right, near and far, the last two in metres from the mouth."""
+def _line_boxes(half_width: float, length_m: float, look: MarkingsLook) -> Iterator[LineBox]:
+    """Yield each straight line of a pattern; of a hairpin, only the line at the rear."""
+    pattern, line = look.pattern, look.line_width_m
     rear = length_m - line
     if pattern is StallPattern.NONE:
         return
     if pattern in _SHARED:
-        yield from _shared_line_boxes(half_width, length_m, line, pattern)
+        yield from _shared_line_boxes(half_width, length_m, look)
         return
-    inset = _DOUBLE_GAP_M / 2 if pattern is StallPattern.DOUBLE else _BESIDE_M
+    inset = _GAPS_M.get(pattern, 2 * _BESIDE_M) / 2
     outer, inner = half_width - inset, half_width - inset - line
     if pattern is StallPattern.DOUBLE:
         for sign in (-1, 1):
             yield *_ascending(sign * inner, sign * outer), 0.0, length_m
             # end of the loop that two adjacent stalls share
             yield *_ascending(sign * outer, sign * half_width), 0.0, line
-        yield -inner, inner, rear, length_m
+    if pattern in _GAPS_M:
+        if look.closed_behind:
+            yield -inner, inner, rear, length_m
         return
     ends = [(0.0, line, 0.0, _MARK_ALONG_M)]
-    if pattern is StallPattern.L_MARKS:
+    if pattern is StallPattern.L_MARKS and look.closed_behind:
         ends.append((rear, length_m, length_m - _MARK_ALONG_M, length_m))
     for near, far, start, end in ends:
         for sign in (-1, 1):
@@ -121,12 +171,11 @@ def _line_boxes(
             yield *_ascending(sign * (outer - _MARK_ACROSS_M), sign * inner), near, far
 
 
-def _shared_line_boxes(
-    half_width: float, length_m: float, line: float, pattern: StallPattern
-) -> Iterator[tuple[float, float, float, float]]:
+def _shared_line_boxes(half_width: float, length_m: float, look: MarkingsLook) -> Iterator[LineBox]:
     """Yield the boxes of patterns with shared side lines, as `_line_boxes` does."""
+    pattern, line = look.pattern, look.line_width_m
     half = line / 2
-    ends = [(length_m - line, length_m)] + [(0.0, line)] * (pattern is not StallPattern.SIDES)
+    ends = [(length_m - line, length_m)] * look.closed_behind + [(0.0, line)] * (pattern is not StallPattern.SIDES)
     for near, far in ends:
         if pattern is StallPattern.T_MARKS:
             yield -half_width, -half_width + _MARK_ACROSS_M, near, far
@@ -138,8 +187,9 @@ def _shared_line_boxes(
             yield -half_width, half_width, near, far
     # the ends of closed lines are drawn already
     least = line if pattern is StallPattern.CLOSED else 0.0
-    most = length_m - line if pattern in {StallPattern.SIDES, StallPattern.CLOSED} else length_m
-    for start, end in _side_spans(length_m, pattern):
+    is_ended = look.closed_behind and pattern in {StallPattern.SIDES, StallPattern.CLOSED}
+    most = length_m - line if is_ended else length_m
+    for start, end in _side_spans(length_m, look):
         for sign in (-1, 1):
             yield *_ascending(sign * half_width, sign * (half_width - half)), max(start, least), min(end, most)
 

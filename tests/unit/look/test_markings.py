@@ -22,6 +22,7 @@ from garage2usd.structure.stalls import Edge
 MARKED = [
     *({"pattern": pattern.value} for pattern in StallPattern),
     {"band": "line", "hatching": True, "wear": "worn"},
+    {"pattern": "closed", "line_ends": "round", "closed_behind": False},
     {"band": "band", "band_both_sides": False, "pictogram": "car", "ghosts": 1.0, "zebra": 1.0},
 ]
 
@@ -76,7 +77,7 @@ def test_numbers_move_nothing_else(usual, axes):
     assert without("stall_number", garage(numbers=axes)) == without("stall_number", usual)
 
 
-@pytest.mark.parametrize("pattern", ["closed", "dashed", "double", "t_marks", "l_marks", "corners", "sides", "none"])
+@pytest.mark.parametrize("pattern", StallPattern)
 def test_patterns_mark_the_mouth_or_leave_it_open(pattern):
     made = garage(markings={"pattern": pattern, "line_width_m": 0.1})
     stall = next(place for place in made.layout.of_kind("stall") if place.spec.markings or pattern == "none")
@@ -91,6 +92,7 @@ def test_patterns_mark_the_mouth_or_leave_it_open(pattern):
         "closed": (1.0, 1.0),
         "dashed": (0.3, 0.8),
         "double": (0.0, 0.1),
+        "hairpin": (0.0, 0.1),
         "t_marks": (0.2, 0.5),
         "l_marks": (0.2, 0.5),
         "corners": (0.2, 0.5),
@@ -291,4 +293,7 @@ def test_most_drawn_lines_close_the_entry():
     closed = sum(one.pattern in {StallPattern.CLOSED, StallPattern.DASHED} for one in drawn) / len(drawn)
     assert 0.62 <= closed <= 0.8
     assert {one.wear for one in drawn} == set(type(drawn[0].wear))
+    assert {one.pattern for one in drawn} == set(StallPattern)
+    assert 0.1 < sum(one.line_ends == "round" for one in drawn) / len(drawn) < 0.2
+    assert 0.2 < sum(not one.closed_behind for one in drawn) / len(drawn) < 0.3
     assert 0.35 < sum(one.band != "none" for one in drawn) / len(drawn) < 0.65
