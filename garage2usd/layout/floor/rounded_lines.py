@@ -4,10 +4,12 @@ Shapes are in metres across from a stall's middle and inwards from its mouth. Th
 lines of its neighbours do, and are cut by the caller.
 """
 
+import math
 from collections.abc import Iterable
 from itertools import product
 
 import shapely
+from shapely.affinity import affine_transform
 
 LineBox = tuple[float, float, float, float]
 """Left, right, near and far side of a straight line, the last two from the mouth."""
@@ -40,13 +42,18 @@ def closed_stall(half_width_m: float, far_m: float, line_m: float, radius_m: flo
     return _loop((-side, side, 0.0, far_m), line_m, radius_m)
 
 
-def hairpins(half_width_m: float, length_m: float, line_m: float, gap_m: float) -> shapely.Geometry:
-    """Return the hairpins at both sides of a stall: two lines with a gap, joined at the mouth by half a circle."""
+def hairpins(half_width_m: float, length_m: float, line_m: float, gap_m: float, slope: float) -> shapely.Geometry:
+    """Return the hairpins at both sides of a stall: two lines with a gap, joined at the mouth by half a circle.
+
+    `slope` is that of an angled stall's mouth. The half circle remains one after the stall is slanted by it, and
+    touches the mouth.
+    """
     radius = gap_m / 2 + line_m
-    loops = [
-        _loop((side - radius, side + radius, 0.0, length_m + 2 * radius), line_m, radius)
-        for side in (-half_width_m, half_width_m)
-    ]
+    near = radius * (math.hypot(1.0, slope) - 1.0)
+    loops = []
+    for side in (-half_width_m, half_width_m):
+        loop = _loop((side - radius, side + radius, near, 2 * length_m), line_m, radius)
+        loops.append(affine_transform(loop, [1.0, 0.0, slope, 1.0, 0.0, -slope * side]))
     return shapely.union_all(loops)
 
 

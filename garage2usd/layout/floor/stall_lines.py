@@ -46,11 +46,12 @@ _LEAST_M2 = 1e-4
 
 
 @lru_cache(maxsize=1024)
-def stall_lines(width_m: float, length_m: float, look: MarkingsLook) -> tuple[Marking, ...]:
-    """Return the painted lines of one stall; of a shared side line, the half on this stall."""
+def stall_lines(width_m: float, length_m: float, look: MarkingsLook, slope: float = 0.0) -> tuple[Marking, ...]:
+    """Return the lines of a stall that is slanted by `slope` afterwards; of shared side lines, the half on the stall."""
     half_width, half_length, line = width_m / 2, length_m / 2, look.line_width_m
     if _is_round(look):
-        ground = _round_ground(width_m, length_m, look).intersection(shapely.box(-half_width, 0, half_width, length_m))
+        stall = shapely.box(-half_width, 0, half_width, length_m)
+        ground = _round_ground(width_m, length_m, look, slope).intersection(stall)
         return tuple(
             _round_lines(shapely.transform(ground, lambda at: at * (1, -1) + (0, half_length)), half_length, look)
         )
@@ -84,12 +85,12 @@ def _is_round(look: MarkingsLook) -> bool:
 
 
 @lru_cache(maxsize=1024)
-def _round_ground(width_m: float, length_m: float, look: MarkingsLook) -> shapely.Geometry:
+def _round_ground(width_m: float, length_m: float, look: MarkingsLook, slope: float = 0.0) -> shapely.Geometry:
     """Return the painted ground of a pattern with round parts, across from the stall's middle and from its mouth."""
     half_width, line = width_m / 2, look.line_width_m
     boxes = list(_line_boxes(half_width, length_m, look))
     if look.pattern is StallPattern.HAIRPIN:
-        loops = hairpins(half_width, length_m, line, _GAPS_M[look.pattern])
+        loops = hairpins(half_width, length_m, line, _GAPS_M[look.pattern], slope)
         return shapely.union_all([loops, *(shapely.box(left, near, right, far) for left, right, near, far in boxes)])
     if look.pattern is StallPattern.CLOSED:
         far_m = length_m if look.closed_behind else 2 * length_m

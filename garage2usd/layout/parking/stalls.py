@@ -140,7 +140,7 @@ def _stall_panel(
         lines = _moved(stall_lines(length_m, width_m, look), lambda x, z: (-turn * z, turn * x))
     else:
         depth_m = round(length_m + width_m * abs(slope), 6)
-        lines = stall_lines(width_m, depth_m, look)
+        lines = stall_lines(width_m, depth_m, look, slope)
         if slope:
             lines = _moved(lines, lambda x, z: (x, z + slope * x))
     if not use.is_parked_in:

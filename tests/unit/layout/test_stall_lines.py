@@ -75,6 +75,23 @@ def test_a_hairpin_is_two_lines_and_half_a_circle():
     assert not painted.intersects(shapely.box(WIDTH / 2 - inner + 1e-3, -mouth, WIDTH / 2, mouth - outer))
 
 
+@pytest.mark.parametrize("slope", [-1.0, 0.5])
+def test_hairpins_of_angled_stalls_end_in_half_circles_at_the_mouth(slope):
+    sheared = stall_lines(WIDTH, LENGTH, look(pattern="hairpin", closed_behind=False), slope)
+    paint = shapely.affinity.affine_transform(ground(sheared), [1, 0, slope, 1, 0, 0])
+    radius = 0.15 + LINE
+    for side, sign in ((-WIDTH / 2, 1), (WIDTH / 2, -1)):
+        # the centre of a circle that touches the slanted mouth
+        centre = shapely.Point(side, LENGTH / 2 + slope * side - radius * math.hypot(1, slope))
+        left, right = sorted((side, side + sign))
+        around = shapely.box(left, centre.y, right, centre.y + 1)
+        bend = paint.intersection(around)
+        ring = centre.buffer(radius, quad_segs=64).difference(centre.buffer(0.15, quad_segs=64)).intersection(around)
+        assert bend.symmetric_difference(ring).area < 0.03 * ring.area
+        mouth = shapely.LineString([(x, LENGTH / 2 + slope * x) for x in (-WIDTH, WIDTH)])
+        assert mouth.distance(centre) == pytest.approx(radius)
+
+
 @pytest.mark.parametrize("radius", [0.15, 0.3, 0.4])
 @pytest.mark.parametrize("behind", [True, False])
 def test_closed_stalls_have_corners_of_the_radius(radius, behind):
