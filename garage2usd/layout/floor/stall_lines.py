@@ -47,7 +47,7 @@ _LEAST_M2 = 1e-4
 
 @lru_cache(maxsize=1024)
 def stall_lines(width_m: float, length_m: float, look: MarkingsLook, slope: float = 0.0) -> tuple[Marking, ...]:
-    """Return the lines of a stall that is slanted by `slope` afterwards; of shared side lines, the half on the stall."""
+    """Return a stall's lines before they are slanted by `slope`; of shared side lines, the half on the stall."""
     half_width, half_length, line = width_m / 2, length_m / 2, look.line_width_m
     if _is_round(look):
         stall = shapely.box(-half_width, 0, half_width, length_m)
