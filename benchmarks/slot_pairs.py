@@ -21,7 +21,7 @@ _BETWEEN_PX = 8.0
 """How near to an entry a point is between its ends."""
 _SURE_SHARE = 0.5
 """A point that is less sure than this share of the less sure end is not between them."""
-_LEAST_CONFIDENCE = 0.01
+_LEAST_CONFIDENCE = 0.03
 _STALL_PX = 50.0, 80.0
 """From corner to corner of one stall in photographs."""
 _COLUMN_PX = 42.0
@@ -136,24 +136,31 @@ def paired(points: MarkingPoints, lengths_px: tuple[float, float]) -> FoundSlots
     fits = (length >= lengths_px[0]) & (length <= lengths_px[1]) & (sine >= _LEAST_SIN)
     fits &= (direction @ direction.T >= _LEAST_COS) & (confidence >= _LEAST_CONFIDENCE)
     lefts, rights = np.nonzero(fits)
+    is_whole = ~_are_divided(points, lefts, rights)
+    lefts, rights = lefts[is_whole], rights[is_whole]
     chosen: list[tuple[int, int]] = []
-    for number in np.argsort(-confidence[lefts, rights], kind="stable").tolist():
+    used_left, used_right = set[int](), set[int]()
+    for number in np.argsort(-confidence[lefts, rights], kind="stable"):
         left, right = int(lefts[number]), int(rights[number])
-        is_used = any(left == other or right == end for other, end in chosen)
-        if not is_used and not _is_between(points, left, right):
+        if left not in used_left and right not in used_right:
             chosen.append((left, right))
+            used_left.add(left)
+            used_right.add(right)
     ends = np.array(chosen, dtype=np.int64).reshape(-1, 2)
     return FoundSlots(places[ends], mean[ends[:, 0], ends[:, 1]], confidence[ends[:, 0], ends[:, 1]])
 
 
-def _is_between(points: MarkingPoints, left: int, right: int) -> bool:
-    """Whether a third point is on the line between two."""
-    start, along = points.places_px[left], points.places_px[right] - points.places_px[left]
-    length = float(np.hypot(*along))
+def _are_divided(points: MarkingPoints, lefts: NDArray[np.int64], rights: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Whether a third point is on the line between two, for each pair of them."""
+    start, along = points.places_px[lefts, None], (points.places_px[rights] - points.places_px[lefts])[:, None]
+    length = np.hypot(*along[:, 0].T)[:, None]
     from_start = points.places_px - start
-    on, off = from_start @ along / length, np.abs(from_start @ (-along[1], along[0])) / length
-    is_sure = points.confidence >= _SURE_SHARE * points.confidence[[left, right]].min()
-    return bool((is_sure & (off <= _BETWEEN_PX) & (on > _BETWEEN_PX) & (on < length - _BETWEEN_PX)).any())
+    on = (from_start * along).sum(axis=2) / length
+    off = np.abs(from_start[..., 1] * along[..., 0] - from_start[..., 0] * along[..., 1]) / length
+    weaker = np.minimum(points.confidence[lefts], points.confidence[rights])
+    is_sure = points.confidence >= _SURE_SHARE * weaker[:, None]
+    between: NDArray[np.bool_] = is_sure & (off <= _BETWEEN_PX) & (on > _BETWEEN_PX) & (on < length - _BETWEEN_PX)
+    return between.any(axis=1)
 
 
 def matched_slots(found: FoundSlots, true: TrueSlots) -> MatchedSlots:
