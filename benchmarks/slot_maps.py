@@ -7,12 +7,13 @@ import numpy as np
 from corner_maps import MAP_SIZE, STRIDE_PX, corner_map, peaks
 from numpy.typing import NDArray
 from slot_pairs import FoundSlots, MarkingPoints, TrueSlots
+from strip_changes import moved_px, warped
 from strip_labels import StripLabels
 from strips import SIZE_PX
 
 from garage2usd.sensors.slots import Visibility
 
-__all__ = ["CHANNELS", "SlotMaps", "points_in", "shares_occupied", "slot_maps", "true_slots", "turned_round"]
+__all__ = ["CHANNELS", "SlotMaps", "logistic", "moved", "points_in", "shares_occupied", "slot_maps", "true_slots"]
 
 CHANNELS = 9
 """Of a network's answer: confidence, offset from the cell's middle in cells (column, row), direction (column, row),
@@ -103,21 +104,27 @@ def true_slots(labels: StripLabels) -> TrueSlots:
     return TrueSlots(entries, _unit(inwards), labels.is_occupied, counts)
 
 
-def turned_round(labels: StripLabels) -> StripLabels:
-    """The labels of a strip whose rows are in the other order, as if the car drove backwards."""
-    corners = labels.corners_px[:, [1, 0, 3, 2]] * (1, -1) + (0, SIZE_PX[1])
-    return StripLabels(
-        corners, labels.visibility[:, ::-1], labels.is_occupied, labels.is_free[::-1], labels.is_known[::-1]
-    )
+def moved(labels: StripLabels, matrix: Floats) -> StripLabels:
+    """The labels of a strip whose places a matrix moves, shape (3, 3), as `strip_changes` does.
+
+    What comes into the picture from beyond its edges is not known, nor are entries that come in from there seen.
+    """
+    corners, visibility = moved_px(labels.corners_px, matrix), labels.visibility
+    inside = ((corners[:, :2] >= 0) & (corners[:, :2] < SIZE_PX)).all(axis=2)
+    visibility = np.where(inside, np.maximum(visibility, Visibility.OCCLUDED), Visibility.NOT_IN_PICTURE)
+    if np.linalg.det(matrix) < 0:  # what was left is right
+        corners, visibility = corners[:, [1, 0, 3, 2]], visibility[:, ::-1]
+    free, known = (warped(mask.astype(np.uint8), matrix, beyond=0) > 0 for mask in (labels.is_free, labels.is_known))
+    return StripLabels(corners, visibility, labels.is_occupied, free, known)
 
 
 def points_in(answer: NDArray[np.floating]) -> MarkingPoints:
     """The marking points in a network's answer, shape (*`MAP_SIZE`, `CHANNELS`), where it is surer than all around."""
-    found = peaks(_logistic(answer[..., _CONFIDENCE]))
+    found = peaks(logistic(answer[..., _CONFIDENCE]))
     columns, rows = (found.places_px // STRIDE_PX).astype(np.int64).T
     values = answer[rows, columns].astype(np.float64)
     places = found.places_px + values[:, _OFFSET] * STRIDE_PX
-    return MarkingPoints(places, _unit(values[:, _DIRECTION]), _logistic(values[:, _OPENS]), found.confidence)
+    return MarkingPoints(places, _unit(values[:, _DIRECTION]), logistic(values[:, _OPENS]), found.confidence)
 
 
 def shares_occupied(answer: NDArray[np.floating], slots: FoundSlots) -> Floats:
@@ -125,7 +132,7 @@ def shares_occupied(answer: NDArray[np.floating], slots: FoundSlots) -> Floats:
     columns, rows = np.clip(
         _asked_px(slots.entries_px, slots.direction) // STRIDE_PX, 0, np.array(MAP_SIZE[::-1]) - 1
     ).T
-    return _logistic(answer[rows.astype(np.int64), columns.astype(np.int64), OCCUPIED].astype(np.float64))
+    return logistic(answer[rows.astype(np.int64), columns.astype(np.int64), OCCUPIED].astype(np.float64))
 
 
 def _points_of(labels: StripLabels) -> tuple[MarkingPoints, NDArray[np.bool_]]:
@@ -187,5 +194,6 @@ def _unit(vectors: Floats) -> Floats:
     return vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-9)
 
 
-def _logistic(logits: NDArray[np.floating]) -> Floats:
+def logistic(logits: NDArray[np.floating]) -> Floats:
+    """What logits are worth, from 0 to 1."""
     return 1 / (1 + np.exp(-np.clip(logits.astype(np.float64), -60, 60)))

@@ -28,13 +28,13 @@ class Understood:
     occupied
         How surely each slot is occupied; float64, shape (n,).
     free
-        How surely each pixel shows free ground; float32, shape (300, 96).
+        How surely each pixel shows free ground; float64, shape (300, 96).
     """
 
     points: MarkingPoints
     slots: FoundSlots
     occupied: NDArray[np.float64]
-    free: NDArray[np.float32]
+    free: NDArray[np.float64]
 
 
 @dataclass(frozen=True)

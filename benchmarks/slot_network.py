@@ -8,6 +8,7 @@ whether the ground is free. Needs jax, flax and optax, see ``real_requirements.t
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import cv2
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -15,10 +16,10 @@ import optax
 from corner_network import FIRST_LOGIT, Training, answers, features, fitted, focal_loss
 from flax import linen as nn
 from numpy.typing import NDArray
-from slot_maps import CHANNELS, FREE, OCCUPIED, SlotMaps, points_in, shares_occupied, slot_maps, turned_round
+from slot_maps import CHANNELS, FREE, OCCUPIED, SlotMaps, logistic, moved, points_in, shares_occupied, slot_maps
 from slot_measures import Understood
 from slot_pairs import paired
-from strip_changes import changed
+from strip_changes import changed_and_moved
 from strip_labels import StripLabels
 from strips import SIZE_PX, Strip
 
@@ -62,8 +63,8 @@ class SlotNetwork:
         for answer in answers(_Layers(), self.parameters, strips):
             points = points_in(answer)
             slots = paired(points, self.lengths_px)
-            free = nn.sigmoid(jax.image.resize(answer[..., FREE], SIZE_PX[::-1], "bilinear"))
-            found.append(Understood(points, slots, shares_occupied(answer, slots), np.asarray(free)))
+            free = logistic(cv2.resize(answer[..., FREE], SIZE_PX, interpolation=cv2.INTER_LINEAR))
+            found.append(Understood(points, slots, shares_occupied(answer, slots), free))
         return found
 
 
@@ -73,22 +74,12 @@ def train_slots(
     """Train a network on strips and their labels, as `corner_network.train` does."""
     random = np.random.default_rng(seed)
     pixels = np.stack([strip.pixels for strip, _ in strips])
-    # each as it is, and as if the car drove backwards: what of a map is turned over with its picture is not all
-    both = [
-        SlotMaps.stacked([slot_maps(labels) for labels in kind])
-        for kind in ([labels for _, labels in strips], [turned_round(labels) for _, labels in strips])
-    ]
-    rows = np.linspace(0, 1, both[0].heat.shape[1], dtype=np.float32)[:, None] + np.zeros_like(both[0].heat[0])
 
     def batch() -> tuple[NDArray[np.float32], dict[str, NDArray[np.float32]]]:
         chosen = random.integers(len(pixels), size=training.batch)
-        x, turned = changed(pixels[chosen], np.tile(rows, (training.batch, 1, 1)), random)
-        is_turned = (turned[:, 0, 0] > turned[:, -1, 0]).tolist()
-        truth = {
-            name: np.stack([both[way].arrays()[name][number] for number, way in zip(chosen, is_turned, strict=True)])
-            for name in both[0].arrays()
-        }
-        return x, truth
+        x, matrices = changed_and_moved(pixels[chosen], random)
+        labels = [moved(strips[number][1], matrix) for number, matrix in zip(chosen, matrices, strict=True)]
+        return x, SlotMaps.stacked([slot_maps(each) for each in labels]).arrays()
 
     entries = np.concatenate([labels.corners_px[:, 1] - labels.corners_px[:, 0] for _, labels in strips])
     lengths = np.hypot(*entries.T)

@@ -19,6 +19,7 @@ strip_labels, slot_pairs, slot_maps, slot_measures, drawn_folder = map(
 )
 StripLabels, MarkingPoints, TrueSlots = strip_labels.StripLabels, slot_pairs.MarkingPoints, slot_pairs.TrueSlots
 INTO = (-1.0, 0.0)
+OVER = np.array([[1.0, 0.0, 0.0], [0.0, -1.0, 300.0], [0.0, 0.0, 1.0]])
 BOTH, LEFT_END, RIGHT_END = (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)
 
 
@@ -108,7 +109,7 @@ class TestPairs:
     )  # fmt: skip
     def test_slots_come_back_from_their_maps(self, count, width, at, tilt, slant, gap_after, is_turned):
         labels = row_of_stalls(count, width=width, at=at, tilt_deg=tilt, slant_deg=slant, gap_after=gap_after)
-        labels = slot_maps.turned_round(labels) if is_turned else labels
+        labels = slot_maps.moved(labels, OVER) if is_turned else labels
         true, answer = slot_maps.true_slots(labels), answer_of(labels)
         found = slot_pairs.paired(slot_maps.points_in(answer), (45, 95))
         found = found.of(found.confidence > 0.1)
@@ -124,13 +125,27 @@ class TestPairs:
 class TestMaps:
     def test_turning_round_turns_the_maps(self):
         labels = row_of_stalls(4, first=265.3, at=51.7, tilt_deg=4.0, slant_deg=70.0)
-        maps, turned = slot_maps.slot_maps(labels), slot_maps.slot_maps(slot_maps.turned_round(labels))
+        maps, turned = slot_maps.slot_maps(labels), slot_maps.slot_maps(slot_maps.moved(labels, OVER))
         assert turned.heat == pytest.approx(maps.heat[::-1], abs=1e-6)
         assert (turned.is_point == maps.is_point[::-1]).all()
         assert (turned.is_slot == maps.is_slot[::-1]).all()
         assert (turned.occupied == maps.occupied[::-1]).all()
         back = maps.point[::-1, :, [0, 1, 2, 3, 5, 4]] * np.array([1, -1, 1, -1, 1, 1])
         assert turned.point == pytest.approx(back, abs=1e-5)
+
+    def test_labels_move_as_places_do(self):
+        labels = row_of_stalls(4, at=90.0)
+        labels.is_free[100:140, 40:60] = False
+        move = np.array([[1.0, 0.0, -20.0], [0.0, 1.0, 8.0], [0.0, 0.0, 1.0]])
+        moved = slot_maps.moved(labels, move)
+        assert (moved.corners_px == labels.corners_px + np.array([-20, 8])).all()
+        assert moved.visibility.tolist() == [[2, 2]] * 4
+        assert (~moved.is_free[108:148, 20:40]).all()
+        assert moved.is_free[150:, :76].all()
+        assert not moved.is_known[:, 76:].any()
+        assert not moved.is_known[:8].any()
+        back = slot_maps.moved(slot_maps.moved(labels, np.array([[1.0, 0, 10], [0, 1.0, 0], [0, 0, 1.0]])), move)
+        assert back.visibility.tolist() == [[1, 1]] * 4  # what was outside is not known to be seen
 
     def test_of_hidden_points_nothing_is_learnt(self):
         labels = row_of_stalls(1)
