@@ -16,7 +16,7 @@ __all__ = ["write_slots_sheet"]
 
 _TICK_PX, _END_PX = 12.0, 2.0
 _SAID_TAKEN, _TAKEN_FOR_FREE = (255, 90, 40), (255, 0, 255)
-_FAINT, _STRONG = 0.3, 0.7
+_FAINT, _STRONG = 0.3, 0.5
 
 
 def write_slots_sheet(
