@@ -27,7 +27,6 @@ from strips import Strip, read_strips
 from garage2usd.common.errors import ConfigError, Garage2UsdError
 
 if TYPE_CHECKING:
-    from slot_teaching import SlotOutcome
     from teachers import Outcome, Teacher
 
 HERE = Path(__file__).parent
@@ -136,12 +135,7 @@ def _train(asked: argparse.Namespace) -> None:
 
 def _slots(asked: argparse.Namespace) -> None:
     """Train to find slots and free ground, and write tables and pictures of hits and misses."""
-    # only training needs what networks do
-    from slot_maps import true_slots  # noqa: PLC0415
-    from slot_pairs import pairs_of_corners  # noqa: PLC0415
-    from slot_teaching import SlotOutcome, measured_slots, slot_table  # noqa: PLC0415
-    from slots_sheet import write_slots_sheet  # noqa: PLC0415
-    from teachers import TOGETHER, Training  # noqa: PLC0415
+    from slot_teaching import teach_slots  # noqa: PLC0415 - only training needs what networks do
 
     photographs, learnt, aside = read_strips(asked.folder), [], []
     for folder in asked.drawn:
@@ -151,29 +145,8 @@ def _slots(asked: argparse.Namespace) -> None:
             raise ConfigError("drawn", str(folder), "two garages at least, as the last is not learnt from")
         learnt += [strip for garage in garages[:kept] for strip in garage]
         aside += [strip for garage in garages[kept:] for strip in garage]
-    start = time.monotonic()
-
-    def tell(outcome: "SlotOutcome") -> None:
-        print(f"run {len(outcome.drawn)}, {time.monotonic() - start:.0f} s\n{slot_table([outcome])}", flush=True)
-
-    def progress(_: str, done: int, total: int) -> None:
-        print(f"train: {done} of {total} steps, {time.monotonic() - start:.0f} s", file=sys.stderr)
-
-    asked.output.mkdir(parents=True, exist_ok=True)
     name = " and ".join(folder.name for folder in asked.drawn).replace("_", " ")
-    outcome = SlotOutcome(f"{name}, {len({strip.garage for strip, _ in learnt})} garages", len(learnt))
-    training = Training(steps=asked.steps)
-    measured_slots(
-        outcome, learnt, aside, photographs, runs=asked.runs, training=training, progress=progress, tell=tell
-    )
-    (asked.output / "slots.md").write_text(f"{slot_table([outcome])}\n", encoding="utf-8")
-    strips, labels = [strip for strip, _ in aside], [each for _, each in aside]
-    truths, threshold = [true_slots(each) for each in labels], outcome.drawn[-1].slots.threshold
-    path = asked.output / "slots_in_drawn.png"
-    write_slots_sheet(strips, outcome.in_drawn, truths, threshold, path, labels=labels)
-    pairs = [pairs_of_corners(strip.corners_px, strip.is_occluded) for strip in photographs]
-    threshold = outcome.pairs[TOGETHER][-1].threshold
-    write_slots_sheet(photographs, outcome.in_photographs, pairs, threshold, asked.output / "slots_in_photographs.png")
+    teach_slots(name, learnt, aside, photographs, runs=asked.runs, steps=asked.steps, output=asked.output)
 
 
 def _all(asked: argparse.Namespace) -> None:

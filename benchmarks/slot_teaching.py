@@ -1,21 +1,26 @@
 """What a network of slots learns from drawn strips, measured on drawn strips of other garages and on photographs."""
 
 import statistics
+import sys
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from average_precision import Score, matched, score
 from corner_network import Training
+from slot_maps import true_slots
 from slot_measures import Measured, Understood, in_drawn
 from slot_network import SlotNetwork, train_slots
 from slot_pairs import matched_slots, pairs_of_corners
+from slots_sheet import write_slots_sheet
 from strip_labels import StripLabels
 from strips import Strip
 from teachers import TOGETHER, figures
 
 from garage2usd.common.progress import Progress, silent
 
-__all__ = ["SlotOutcome", "measured_slots", "slot_table"]
+__all__ = ["SlotOutcome", "measured_slots", "slot_table", "teach_slots"]
 
 
 @dataclass
@@ -42,6 +47,38 @@ class SlotOutcome:
     network: SlotNetwork | None = None
     in_photographs: list[Understood] = field(default_factory=list)
     in_drawn: list[Understood] = field(default_factory=list)
+
+
+def teach_slots(
+    name: str,
+    learnt: Sequence[tuple[Strip, StripLabels]],
+    aside: Sequence[tuple[Strip, StripLabels]],
+    photographs: Sequence[Strip],
+    *,
+    runs: int,
+    steps: int,
+    output: Path,
+) -> None:
+    """Train on drawn strips so many times, and write tables and sheets of hits and misses into a folder."""
+    start = time.monotonic()
+
+    def tell(outcome: SlotOutcome) -> None:
+        print(f"run {len(outcome.drawn)}, {time.monotonic() - start:.0f} s\n{slot_table([outcome])}", flush=True)
+
+    def progress(_: str, done: int, total: int) -> None:
+        print(f"train: {done} of {total} steps, {time.monotonic() - start:.0f} s", file=sys.stderr)
+
+    output.mkdir(parents=True, exist_ok=True)
+    outcome = SlotOutcome(f"{name}, {len({strip.garage for strip, _ in learnt})} garages", len(learnt))
+    training = Training(steps=steps)
+    measured_slots(outcome, learnt, aside, photographs, runs=runs, training=training, progress=progress, tell=tell)
+    (output / "slots.md").write_text(f"{slot_table([outcome])}\n", encoding="utf-8")
+    strips, labels = [strip for strip, _ in aside], [each for _, each in aside]
+    truths, threshold = [true_slots(each) for each in labels], outcome.drawn[-1].slots.threshold
+    write_slots_sheet(strips, outcome.in_drawn, truths, threshold, output / "slots_in_drawn.png", labels=labels)
+    pairs = [pairs_of_corners(strip.corners_px, strip.is_occluded) for strip in photographs]
+    threshold = outcome.pairs[TOGETHER][-1].threshold
+    write_slots_sheet(photographs, outcome.in_photographs, pairs, threshold, output / "slots_in_photographs.png")
 
 
 def measured_slots(
