@@ -1,6 +1,6 @@
 """Contact sheets of strips with the corners that a network found and missed."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -8,11 +8,11 @@ from average_precision import Detections, matched
 from PIL import Image, ImageDraw
 from strips import SIZE_PX, Strip
 
-__all__ = ["write_sheet"]
+__all__ = ["FALSE", "HIDDEN", "HIT", "MISSED", "write_pictures", "write_sheet"]
 
 _COLUMNS, _ROWS = 16, 3
 _GAP_PX, _RADIUS_PX = 4, 4
-_HIT, _MISSED, _FALSE, _HIDDEN = (0, 230, 0), (255, 40, 40), (255, 220, 0), (90, 140, 255)
+HIT, MISSED, FALSE, HIDDEN = (0, 230, 0), (255, 40, 40), (255, 220, 0), (90, 140, 255)
 
 
 def write_sheet(strips: Sequence[Strip], found: Sequence[Detections], threshold: float, path: Path) -> None:
@@ -30,14 +30,18 @@ def write_sheet(strips: Sequence[Strip], found: Sequence[Detections], threshold:
     path
         A PNG.
     """
-    count = min(len(strips), _COLUMNS * _ROWS)
-    chosen = np.linspace(0, len(strips) - 1, count).round().astype(int).tolist()
+    write_pictures(len(strips), lambda number: _marked(strips[number], found[number], threshold), path)
+
+
+def write_pictures(count: int, picture: Callable[[int], Image.Image], path: Path) -> None:
+    """Write a sheet of some pictures of a size with strips, from all over a list of so many."""
+    shown = min(count, _COLUMNS * _ROWS)
+    chosen = np.linspace(0, count - 1, shown).round().astype(int).tolist()
     width, height = (side + _GAP_PX for side in SIZE_PX)
-    rows = -(-count // _COLUMNS)
-    sheet = Image.new("RGB", (width * min(count, _COLUMNS), height * rows), "white")
+    rows = -(-shown // _COLUMNS)
+    sheet = Image.new("RGB", (width * min(shown, _COLUMNS), height * rows), "white")
     for place, number in enumerate(chosen):
-        picture = _marked(strips[number], found[number], threshold)
-        sheet.paste(picture, (place % _COLUMNS * width, place // _COLUMNS * height))
+        sheet.paste(picture(number), (place % _COLUMNS * width, place // _COLUMNS * height))
     sheet.save(path, optimize=True)
 
 
@@ -48,12 +52,12 @@ def _marked(strip: Strip, found: Detections, threshold: float) -> Image.Image:
     draw = ImageDraw.Draw(picture)
     hit = set(result.owner.tolist())
     for number, corner in enumerate(strip.seen_px.tolist()):
-        _ring(draw, corner, _HIT if number in hit else _MISSED)
+        _ring(draw, corner, HIT if number in hit else MISSED)
     for corner in strip.corners_px[strip.is_occluded].tolist():
-        _ring(draw, corner, _HIDDEN)
+        _ring(draw, corner, HIDDEN)
     for x, y in result.places_px[~result.is_hit].tolist():
-        draw.line((x - _RADIUS_PX, y - _RADIUS_PX, x + _RADIUS_PX, y + _RADIUS_PX), fill=_FALSE)
-        draw.line((x - _RADIUS_PX, y + _RADIUS_PX, x + _RADIUS_PX, y - _RADIUS_PX), fill=_FALSE)
+        draw.line((x - _RADIUS_PX, y - _RADIUS_PX, x + _RADIUS_PX, y + _RADIUS_PX), fill=FALSE)
+        draw.line((x - _RADIUS_PX, y + _RADIUS_PX, x + _RADIUS_PX, y - _RADIUS_PX), fill=FALSE)
     return picture
 
 

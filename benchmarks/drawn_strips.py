@@ -16,9 +16,10 @@ from typing import Any
 
 import numpy as np
 from drawn_folder import ABOUT_FILE
+from strip_labels import LABELS_FILE, write_strip_labels
 from strip_poses import Pose, StripPoses
 from strip_rig import drawn_rig
-from strips import CORNERS_FILE, write_strips
+from strips import write_strips
 
 import garage2usd
 from garage2usd.common.errors import ConfigError, GenerationError
@@ -127,7 +128,7 @@ def _drawn(recipe: Recipe, number: int, *, folder: Path, version: str, settings:
         try:
             config, _ = recipe.drawn(recipe.garage_seed(number, attempt))
             key = _key(config, version, settings)
-            if not (folder / key / CORNERS_FILE).exists():
+            if not (folder / key / LABELS_FILE).exists():
                 _draw(config, folder, key, settings)
         except (ConfigError, GenerationError):
             continue
@@ -170,13 +171,14 @@ def _draw(config: GarageConfig, folder: Path, key: str, settings: StripSettings)
         SlotLabels(stage, labels, views, finished).write(())
         strips = work / "strips"
         corners = _corners(json.loads((finished / "slots.json").read_text(encoding="utf-8")))
-        named = {}
+        named, places = {}, {}
         for view in views:
             place = Path(f"{key[:8]}_{view.camera}") / f"{view.name}{Picture.COLOUR.extension}"
             (strips / place).parent.mkdir(parents=True, exist_ok=True)
             (finished / Picture.COLOUR / place.name).rename(strips / place)
-            named[str(place)] = corners[view.name]
+            named[str(place)], places[view.name] = corners[view.name], place
         write_strips(strips, named)
+        write_strip_labels(strips, places, finished, labels)
         about = {
             "seed": config.seed,
             "pictures": len(views),

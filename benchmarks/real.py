@@ -4,6 +4,7 @@ Usage: python benchmarks/real.py FOLDER [-o OUT]                draws, trains on
        python benchmarks/real.py draw RECIPE -o DRAWN           draws the strips of a recipe's garages
        python benchmarks/real.py recorded DATASET -o DRAWN      takes the strips out of a data set's recordings
        python benchmarks/real.py train FOLDER [--drawn DRAWN]   trains on those, or on photographs of the other garages
+       python benchmarks/real.py slots FOLDER --drawn DRAWN     trains to find slots and free ground, on those alone
        python benchmarks/real.py outside FOLDER --drawn DRAWN --weights FILE
                                                                 what SPFCN, trained by others, finds in both
 
@@ -20,7 +21,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from average_precision import at_threshold, matched, score
-from drawn_folder import drawn_garages, read_drawn, write_drawn
+from drawn_folder import drawn_garages, read_drawn, read_labelled, write_drawn
 from strips import Strip, read_strips
 
 from garage2usd.common.errors import ConfigError, Garage2UsdError
@@ -34,11 +35,20 @@ ASIDE, LEAST_WITH_ASIDE = 4, 20
 """Of more garages than that so many are not learnt from: what is found in them is drawn."""
 THRESHOLDS = 0.2, 0.5, 0.8
 """Of confidence, at which recall and precision are told; pictures show what is found at the middle one."""
+ASIDE_SHARE = 4
+"""One of so many drawn garages of a folder is not learnt from, as slots are measured in it."""
 
 
 def main(arguments: Sequence[str]) -> None:
     """Do what is asked for; without a command, all."""
-    commands = {"draw": _draw, "recorded": _recorded, "train": _train, "all": _all, "outside": _outside}
+    commands = {
+        "draw": _draw,
+        "recorded": _recorded,
+        "train": _train,
+        "slots": _slots,
+        "all": _all,
+        "outside": _outside,
+    }
     if arguments and arguments[0] not in {*commands, "-h", "--help"}:
         arguments = ["all", *arguments]
     asked = _parser().parse_args(arguments)
@@ -60,15 +70,17 @@ def _parser() -> argparse.ArgumentParser:
     recorded.add_argument("--pictures", type=int, default=11, help="of each garage at most")
     train = commands.add_parser("train", help="one teacher")
     train.add_argument("--drawn", type=Path, action="append", help="what draw wrote; several are learnt from together")
+    slots = commands.add_parser("slots", help="slots as pairs of corners, and free ground")
+    slots.add_argument("--drawn", type=Path, action="append", required=True, help="what draw wrote")
     everything = commands.add_parser("all", help="draw, and train on each teacher")
     outside = commands.add_parser("outside", help="what a detector of others finds in photographs and drawn strips")
     outside.add_argument("--drawn", type=Path, action="append", required=True, help="what draw wrote")
     outside.add_argument("--weights", type=Path, required=True, help="stable_parameter_0914.pkl of SPFCN")
     outside.add_argument("--recipe", type=Path, help="that of the drawn garages, for figures by their lines")
-    for command in (train, everything, outside):
+    for command in (train, slots, everything, outside):
         command.add_argument("folder", metavar="FOLDER", type=Path, help="photographs")
         command.add_argument("-o", "--output", type=Path, default=Path("out/real"), help="gets table and pictures")
-    for command in (train, everything):
+    for command in (train, slots, everything):
         command.add_argument("--runs", type=int, default=3, help="trainings of each teacher")
         command.add_argument("--steps", type=int, default=1000, help="of each training")
     for command in (draw, everything):
@@ -119,6 +131,22 @@ def _train(asked: argparse.Namespace) -> None:
     else:
         names = " and ".join(folder.name for folder in asked.drawn)
         _report([_taught_by_drawn(names, asked.drawn, photographs, asked)], asked)
+
+
+def _slots(asked: argparse.Namespace) -> None:
+    """Train to find slots and free ground, and write tables and pictures of hits and misses."""
+    from slot_teaching import teach_slots  # noqa: PLC0415 - only training needs what networks do
+
+    photographs, learnt, aside = read_strips(asked.folder), [], []
+    for folder in asked.drawn:
+        garages = read_labelled(folder)
+        kept = len(garages) - max(1, len(garages) // ASIDE_SHARE)
+        if not kept:
+            raise ConfigError("drawn", str(folder), "two garages at least, as the last is not learnt from")
+        learnt += [strip for garage in garages[:kept] for strip in garage]
+        aside += [strip for garage in garages[kept:] for strip in garage]
+    name = " and ".join(folder.name for folder in asked.drawn).replace("_", " ")
+    teach_slots(name, learnt, aside, photographs, runs=asked.runs, steps=asked.steps, output=asked.output)
 
 
 def _all(asked: argparse.Namespace) -> None:

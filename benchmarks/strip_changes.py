@@ -13,7 +13,7 @@ from corner_maps import corner_map
 from numpy.typing import NDArray
 from strips import SIZE_PX
 
-__all__ = ["changed"]
+__all__ = ["changed", "changed_and_moved", "moved_px", "warped"]
 
 Picture = NDArray[np.float32]
 """From 0 to 1, float32, shape (300, 96, 3)."""
@@ -65,16 +65,41 @@ def changed(
         Pictures from about 0 to about 1, float32, of the same shape, and their maps as `corner_map` makes them,
         float32, shape (n, *MAP_SIZE).
     """
-    pairs = [_warped(*pair, random) for pair in zip(pixels, corners_px, strict=True)]
-    maps = np.stack([corner_map(corners) for _, corners in pairs])
+    x, matrices = changed_and_moved(pixels, random)
+    moved = [moved_px(corners, matrix) for corners, matrix in zip(corners_px, matrices, strict=True)]
+    inside = [corners[((corners >= 0) & (corners <= SIZE_PX)).all(axis=1)] for corners in moved]
+    return x, np.stack([corner_map(corners) for corners in inside])
+
+
+def changed_and_moved(
+    pixels: NDArray[np.uint8], random: np.random.Generator
+) -> tuple[NDArray[np.float32], list[NDArray[np.float64]]]:
+    """Pictures as `changed` has them, and where each has its places: matrices for `moved_px`, shape (3, 3)."""
+    pairs = [_warped(each, random) for each in pixels]
     x = [_exposed(_lit_and_taken(picture.astype(np.float32) / 255, random), random) for picture, _ in pairs]
-    return np.stack(x), maps
+    return np.stack(x), [matrix for _, matrix in pairs]
 
 
-def _warped(
-    pixels: NDArray[np.uint8], corners_px: NDArray[np.float64], random: np.random.Generator
-) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
-    """A strip turned over, turned, scaled and shifted, what stands at its edges continued over them."""
+def moved_px(places_px: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Where places of a strip are in the changed one; shape (..., 2)."""
+    moved: NDArray[np.float64] = places_px @ matrix[:2, :2].T + matrix[:2, 2]
+    return moved
+
+
+def warped(picture: NDArray[np.uint8], matrix: NDArray[np.float64], *, beyond: int | None = None) -> NDArray[np.uint8]:
+    """A picture whose places are moved, what stands at its edges continued over them; masks have a value beyond."""
+    # of pixels' middles, which are half a pixel from the edges that corners count from
+    centred = matrix[:2, 2] + matrix[:2, :2] @ (0.5, 0.5) - 0.5
+    affine = np.column_stack([matrix[:2, :2], centred])
+    if beyond is None:
+        flags, border = cv2.INTER_LINEAR, {"borderMode": cv2.BORDER_REPLICATE}
+    else:
+        flags, border = cv2.INTER_NEAREST, {"borderMode": cv2.BORDER_CONSTANT, "borderValue": beyond}
+    return np.asarray(cv2.warpAffine(picture, affine, SIZE_PX, flags=flags, **border))
+
+
+def _warped(pixels: NDArray[np.uint8], random: np.random.Generator) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
+    """A strip turned over, turned, scaled and shifted, and the matrix that does so."""
     matrix = np.eye(3)
     if random.random() < _FLIPPED_SHARE:
         matrix = np.array([[1.0, 0.0, 0.0], [0.0, -1.0, SIZE_PX[1]], [0.0, 0.0, 1.0]])
@@ -84,13 +109,7 @@ def _warped(
         middle = np.array(SIZE_PX) / 2
         shift = middle - linear @ middle + random.normal(0.0, _SHIFT_SD_PX)
         matrix = np.vstack([np.column_stack([linear, shift]), [0.0, 0.0, 1.0]]) @ matrix
-    corners = corners_px @ matrix[:2, :2].T + matrix[:2, 2]
-    is_inside = ((corners >= 0) & (corners <= SIZE_PX)).all(axis=1)
-    # of pixels' middles, which are half a pixel from the edges that corners count from
-    centred = matrix[:2, 2] + matrix[:2, :2] @ (0.5, 0.5) - 0.5
-    affine = np.column_stack([matrix[:2, :2], centred])
-    picture = cv2.warpAffine(pixels, affine, SIZE_PX, flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-    return np.asarray(picture), corners[is_inside]
+    return warped(pixels, matrix), matrix
 
 
 def _lit_and_taken(x: Picture, random: np.random.Generator) -> Picture:

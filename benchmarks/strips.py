@@ -18,7 +18,7 @@ from PIL import Image, UnidentifiedImageError
 
 from garage2usd.common.errors import ConfigError
 
-__all__ = ["CORNERS_FILE", "SIDES", "SIZE_PX", "Strip", "read_strips", "write_strips"]
+__all__ = ["CORNERS_FILE", "SIDES", "SIZE_PX", "Strip", "is_mirrored", "read_strips", "write_strips"]
 
 SIZE_PX = 96, 300
 """Width and height of all strips."""
@@ -81,6 +81,11 @@ def write_strips(folder: Path, corners: dict[str, list[tuple[float, float, bool]
     (folder / CORNERS_FILE).write_text(f"{{\n{lines}\n}}\n", encoding="utf-8")
 
 
+def is_mirrored(name: str) -> bool:
+    """Whether a picture of a folder of strips shows the right side of a car, and is therefore read mirrored."""
+    return Path(name).parent.name.endswith("_right")
+
+
 def _strip(folder: Path, name: str, corners: object) -> Strip:
     place, file = folder / name, str(folder / name)
     garage, _, side = place.parent.name.rpartition("_")
@@ -96,7 +101,7 @@ def _strip(folder: Path, name: str, corners: object) -> Strip:
             "FOLDER", file, f"pictures of {SIZE_PX[0]} x {SIZE_PX[1]} px, not {image.width} x {image.height}"
         )
     places, is_occluded = _corners(file, corners)
-    if side == "right":
+    if is_mirrored(name):
         pixels = pixels[:, ::-1]
         places[:, 0] = SIZE_PX[0] - places[:, 0]
     return Strip(name, garage, np.ascontiguousarray(pixels), places, is_occluded)

@@ -11,7 +11,7 @@ from strips import Strip
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.progress import Progress, silent
 
-__all__ = ["TOGETHER", "Outcome", "Teacher", "Training", "measured", "photographs_of_others", "table"]
+__all__ = ["TOGETHER", "Outcome", "Teacher", "Training", "figures", "measured", "photographs_of_others", "table"]
 
 TOGETHER = "together"
 """All garages of photographs."""
@@ -126,12 +126,13 @@ def table(outcomes: Sequence[Outcome]) -> str:
         "|---|---|" + "---|" * (len(garages) + 1),
     ]
     for outcome in outcomes:
-        figures = [_figures([each.average_precision for each in outcome.scores[garage]]) for garage in garages]
-        best = _figures([each.best_f1 for each in outcome.scores[TOGETHER]])
+        figures = [figures([each.average_precision for each in outcome.scores[garage]]) for garage in garages]
+        best = figures([each.best_f1 for each in outcome.scores[TOGETHER]])
         rows.append(f"| {outcome.teacher.name} | {outcome.teacher.pictures} | {' | '.join(figures)} | {best} |")
     return "\n".join(rows)
 
 
-def _figures(values: Sequence[float]) -> str:
+def figures(values: Sequence[float]) -> str:
+    """The mean of some runs, and the range that they have."""
     mean = f"{statistics.mean(values):.3f}"
     return mean if len(values) == 1 else f"{mean} ({min(values):.3f} to {max(values):.3f})"

@@ -17,9 +17,18 @@ from garage2usd.datasets import load_recipe
 from garage2usd.pipeline import build, generate
 from garage2usd.reading.files import open_stage
 
-average_precision, corner_maps, strips, strip_changes, strip_rig, strip_poses, drawn_folder = map(
+average_precision, corner_maps, strips, strip_changes, strip_rig, strip_poses, drawn_folder, strip_labels = map(
     benchmark,
-    ("average_precision", "corner_maps", "strips", "strip_changes", "strip_rig", "strip_poses", "drawn_folder"),
+    (
+        "average_precision",
+        "corner_maps",
+        "strips",
+        "strip_changes",
+        "strip_rig",
+        "strip_poses",
+        "drawn_folder",
+        "strip_labels",
+    ),
 )
 Detections, matched, score = average_precision.Detections, average_precision.matched, average_precision.score
 NONE = np.zeros((0, 2))
@@ -312,8 +321,13 @@ def test_strips_are_drawn_once_with_the_corners_of_their_garage(tmp_path, monkey
     made = strips.read_strips(first.folder)
     assert first.pictures == len(made) == 2
     views = json.loads((first.folder / "about.json").read_text())["views"]
-    stalls = generate(recipe.drawn(json.loads((first.folder / "about.json").read_text())["seed"])[0]).layout.stalls
+    layout = generate(recipe.drawn(json.loads((first.folder / "about.json").read_text())["seed"])[0]).layout
+    stalls = layout.stalls
     entries = np.array([corner for stall in stalls for corner in stall.corners_m()[:2]])
+    labels = strip_labels.read_strip_labels(first.folder)
+    every = np.array([stall.corners_m() for stall in stalls])
+    is_occupied = layout.cars_in_stalls() >= 0
+    slots = 0
     for strip in made:
         # the car is black and at the right edge
         assert strip.pixels[140:160, -2].max() == 0
@@ -326,6 +340,21 @@ def test_strips_are_drawn_once_with_the_corners_of_their_garage(tmp_path, monkey
         column = 96 - column if "_right/" in strip.name else column
         for corner in strip.corners_px:
             assert np.hypot(column - corner[0], row - corner[1]).min() < 0.1
+        label = labels[strip.name]
+        assert (strip.pixels[~label.is_known] == 0).all()
+        assert label.is_free.mean() > 0.2
+        in_car = (every - matrix[[0, 2], 3]) @ matrix[[0, 2], :2]
+        column = 48 - (in_car[..., 1] - left_m) / where["metres_per_px"]
+        row = 150 - (in_car[..., 0] - ahead_m) / where["metres_per_px"]
+        places = np.stack([column, row], axis=-1)
+        if "_right/" in strip.name:
+            places = places[:, [1, 0, 3, 2]] * (-1, 1) + (96, 0)
+        for corners, occupied in zip(label.corners_px, label.is_occupied, strict=True):
+            apart = np.linalg.norm(places - corners, axis=2).max(axis=1)
+            assert apart.min() < 0.1
+            assert is_occupied[apart.argmin()] == occupied
+            slots += 1
+    assert slots
     monkeypatch.setattr(drawn_strips, "Drawing", None)
     assert list(draw("1")) == [first]
     with pytest.raises(TypeError):
