@@ -30,7 +30,7 @@ _BLOCK_PX = 10
 """Side of the squares of pixels for which odds of lamps are computed."""
 _NEAR_STEPS, _FARTHER_STEPS = (1, 2), (4, 8)
 """Pixels between those of which means are taken, of all light and of scattered light before."""
-_FURTHER = 0.8
+_FURTHER = 1.2
 """Light that is thrown back more than once, as a share of what the picture throws back."""
 _BRIGHTEST = 6.0
 """Greatest radiance that a single ray brings, in means of the picture: brighter ones would be specks."""
@@ -152,7 +152,9 @@ class QuickLight:
                 sums[rays.pixels[sheet.ray]] += _row_of(self._seen_by(rays, sheet, ways)) * share
                 left[sheet.ray] *= 1 - opacity
             shades = self._seen_by(rays, hits, ways) if turn else seen.shades
-            sums[rays.pixels[hits.ray]] += _row_of(shades) * left[hits.ray, None]
+            row, through = _row_of(shades), left[hits.ray, None]
+            row[:, :3] *= through  # light comes through what veils a surface, and leaves through it
+            sums[rays.pixels[hits.ray]] += row * through
         means = sums[seen.pixel, :10] / sums[seen.pixel, 10:]
         return _Coloured(means[:, :3], means[:, 3:6], means[:, 6:9], means[:, 9])
 
