@@ -184,7 +184,8 @@ class Drawing:
         moved, unseen = self.moved or [{}] * count, self.unseen or [()] * count
         frames = list(zip(self.views, self.hidden, unseen, moved, strict=True))
         missing = [frame for frame in frames if not self._is_finished(frame[0])]
-        announce(f"{count} views, {count - len(missing)} of them finished before, by {self.samples} rays a pixel")
+        finished = f", {count - len(missing)} of them finished before" if len(missing) < count else ""
+        announce(f"{count} views{finished}: {self.samples} rays a pixel on {self.device.words}")
         if missing:
             progress("scene", 0, 1)
             pictures = RayPictures(self.stage, self.labels, self.samples, self.seed)
