@@ -47,7 +47,6 @@ from garage2usd.render.pictures import (
     write_picture,
     write_pixels,
 )
-from garage2usd.render.ray_pictures import RayPictures
 from garage2usd.sensors.developing import develop
 from garage2usd.sensors.motion_blur import exposed_in_motion
 from garage2usd.sensors.rays.birds_eye import Orthographic
@@ -176,6 +175,8 @@ class Drawing:
 
     def _draw_by_rays(self, progress: Progress, announce: Announce) -> None:
         """Render the unfinished frames without Blender."""
+        from garage2usd.render.ray_pictures import RayPictures  # noqa: PLC0415 - Blender does not need its extra
+
         if any(isinstance(view.lens, Orthographic) for view in self.views):
             raise ConfigError(
                 "device", str(Device.RAYS), "cpu or gpu with bird's-eye views, which see through ceilings"
