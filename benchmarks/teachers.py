@@ -126,9 +126,9 @@ def table(outcomes: Sequence[Outcome]) -> str:
         "|---|---|" + "---|" * (len(garages) + 1),
     ]
     for outcome in outcomes:
-        figures = [figures([each.average_precision for each in outcome.scores[garage]]) for garage in garages]
-        best = figures([each.best_f1 for each in outcome.scores[TOGETHER]])
-        rows.append(f"| {outcome.teacher.name} | {outcome.teacher.pictures} | {' | '.join(figures)} | {best} |")
+        columns = [figures([each.average_precision for each in outcome.scores[garage]]) for garage in garages]
+        columns.append(figures([each.best_f1 for each in outcome.scores[TOGETHER]]))
+        rows.append(f"| {outcome.teacher.name} | {outcome.teacher.pictures} | {' | '.join(columns)} |")
     return "\n".join(rows)
 
 

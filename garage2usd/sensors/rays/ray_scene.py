@@ -1,7 +1,7 @@
 """Ray scene: the solid surfaces of a composed stage as one labelled mesh for ray casting."""
 # Over 300 lines: what rays meet, and how it is read.
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any, NamedTuple
@@ -237,20 +237,22 @@ def read_ray_scene(
             continue
         if only is not None and not _is_below(placed.path, only):
             continue
-        for piece in remembered(placed):
+        pieces = remembered(placed)
+        turn = placed.matrix[:3, :3]
+        turn_of_normals = np.linalg.pinv(turn).T.astype(np.float32) if pieces else None
+        for piece in pieces:
             path = placed.path + piece.path
             if path not in owners:
                 owners[path] = owner_of(path, labels.ids)
             owner, instance = owners[path], labels.instance_of(owners[path])
             if instance == owner:  # the car itself rather than its number plates
                 placed_by_id.setdefault(instance, placed)
-            turn = placed.matrix[:3, :3]
             places = piece.positions @ turn + placed.matrix[3, :3]
             count = len(piece.indices)
             columns.append(
                 (
                     places,
-                    unit(piece.normals @ np.linalg.pinv(turn).T),
+                    piece.normals @ turn_of_normals,
                     piece.coordinates,
                     piece.indices + first,
                     np.full(count, instance, dtype=np.int32),
@@ -261,16 +263,13 @@ def read_ray_scene(
             first += len(places)
     if not columns:
         raise StageError(stage.GetRootLayer().realPath, "nothing in it is solid")
-    most = max(column[2].shape[1] for column in columns)
-    padded = [(*column[:2], _padded(column[2], most), *column[3:]) for column in columns]
-    vertices, normals, coordinates, triangles, instance_of, class_of, surface = map(
-        np.concatenate, zip(*padded, strict=True)
-    )
+    positions, normals, coordinates, *rest = zip(*columns, strict=True)
+    triangles, instance_of, class_of, surface = map(np.concatenate, rest)
     placed_by_id.pop(0, None)
     return RayScene(
-        vertices,
-        normals,
-        coordinates,
+        np.concatenate(positions),
+        unit(np.concatenate(normals)),
+        _with_equal_sets(coordinates),
         triangles,
         instance_of,
         class_of,
@@ -286,7 +285,7 @@ class _Piece(NamedTuple):
 
     path: str
     positions: NDArray[np.float64]
-    normals: NDArray[np.float64]
+    normals: NDArray[np.float32]
     coordinates: NDArray[np.float32]
     indices: NDArray[np.int32]
     surface: int
@@ -305,16 +304,21 @@ def _pieces(placed: PlacedObject, part: DrawnPart, looks: MeshLooks) -> list[_Pi
         if _are_opaque(np.array(look.opacity), look):
             turn = part.matrix[:3, :3]
             places = triangles.positions_m @ turn + part.matrix[3, :3]
-            normals = triangles.normals @ np.linalg.pinv(turn).T
+            normals = triangles.normals @ np.linalg.pinv(turn).T.astype(np.float32)
             found.append(
                 _Piece(part.path, places, normals, triangles.coordinates, triangles.indices.astype(np.int32), surface)
             )
     return found
 
 
-def _padded(coordinates: NDArray[np.float32], sets: int) -> NDArray[np.float32]:
-    """Texture coordinates with as many sets as any surface has."""
-    return np.pad(coordinates, ((0, 0), (0, sets - coordinates.shape[1]), (0, 0)))
+def _with_equal_sets(coordinates: Sequence[NDArray[np.float32]]) -> NDArray[np.float32]:
+    """Join texture coordinates of pieces, shape (n, sets, 2) each, with as many sets as any piece has."""
+    joined = np.zeros((sum(map(len, coordinates)), max(each.shape[1] for each in coordinates), 2), np.float32)
+    first = 0
+    for each in coordinates:
+        joined[first : first + len(each), : each.shape[1]] = each
+        first += len(each)
+    return joined
 
 
 def _are_opaque(opacity: NDArray[np.float64], look: SurfaceLook) -> NDArray[np.bool_]:
