@@ -106,9 +106,7 @@ def score(pictures: Sequence[Matched]) -> Score:
     ValueError
         If there is no corner to find.
     """
-    true = sum(picture.true for picture in pictures)
-    if not true:
-        raise ValueError("no corner to find")
+    true = _true(pictures)
     confidence = np.concatenate([picture.confidence for picture in pictures])
     is_hit = np.concatenate([picture.is_hit for picture in pictures])
     order = np.argsort(-confidence, kind="stable")
@@ -132,9 +130,15 @@ def at_threshold(pictures: Sequence[Matched], threshold: float) -> tuple[float, 
     ValueError
         If there is no corner to find.
     """
-    true = sum(picture.true for picture in pictures)
-    if not true:
-        raise ValueError("no corner to find")
+    true = _true(pictures)
     found = sum(int((picture.confidence >= threshold).sum()) for picture in pictures)
     hits = sum(int(picture.is_hit[picture.confidence >= threshold].sum()) for picture in pictures)
     return hits / true, hits / found if found else 1.0
+
+
+def _true(pictures: Sequence[Matched]) -> int:
+    """How many corners there are to find in all pictures, at least one."""
+    true = sum(picture.true for picture in pictures)
+    if not true:
+        raise ValueError("no corner to find")
+    return true

@@ -29,13 +29,13 @@ from garage2usd.datasets import Recipe
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
 from garage2usd.render.cameras import USD_FROM_OPENCV, View
-from garage2usd.render.devices import ComputeDevice
+from garage2usd.render.devices import Device, find_device
 from garage2usd.render.drawing import Drawing
 from garage2usd.render.pictures import Picture
 from garage2usd.render.tables import NEEDED, SlotLabels
 from garage2usd.sensors.slots import Visibility
 
-__all__ = ["DrawnGarage", "StripSettings", "draw_strips"]
+__all__ = ["DrawnGarage", "StripSettings", "draw_strips", "entry_corners"]
 
 _SAME_CORNER_PX = 3.0
 """Corners of neighbouring stalls that are nearer to each other than this are one."""
@@ -164,13 +164,13 @@ def _draw(config: GarageConfig, folder: Path, key: str, settings: StripSettings)
         seed = config.seed & _MOST_SEED
         drawing = Drawing(
             *(stage, labels, views, [[]] * len(views), kinds, settings.samples, seed, finished),
-            device=ComputeDevice(settings.device.upper(), ""),
+            device=find_device(Device(settings.device), has_rays=True),
             is_draft=True,
         )
         drawing.draw(blender, silent)
         SlotLabels(stage, labels, views, finished).write(())
         strips = work / "strips"
-        corners = _corners(json.loads((finished / "slots.json").read_text(encoding="utf-8")))
+        corners = entry_corners(json.loads((finished / "slots.json").read_text(encoding="utf-8")))
         named, places = {}, {}
         for view in views:
             place = Path(f"{key[:8]}_{view.camera}") / f"{view.name}{Picture.COLOUR.extension}"
@@ -204,7 +204,7 @@ def _view(pose: Pose, number: int) -> View:
     return View(name, pose.camera.name, None, lens, lens.size_px, matrix, effects=pose.camera.effects)
 
 
-def _corners(slots: dict[str, Any]) -> dict[str, list[tuple[float, float, bool]]]:
+def entry_corners(slots: dict[str, Any]) -> dict[str, list[tuple[float, float, bool]]]:
     """The entry corners in each picture by its name, from a file of slots; those that stalls share are there once."""
     found = {}
     for frame in slots["frames"]:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 from drawn_folder import write_drawn
-from drawn_strips import _corners
+from drawn_strips import entry_corners
 from strips import SIDES, write_strips
 
 from garage2usd.common.errors import ConfigError
@@ -65,7 +65,7 @@ def _strips(packed: bytes, folder: Path, pictures: int) -> int:
     """Write the strips of a drive; none if no corner is in them."""
     named = {}
     with zipfile.ZipFile(BytesIO(packed)) as drive:
-        corners = _corners(json.loads(drive.read("slots.json")))
+        corners = entry_corners(json.loads(drive.read("slots.json")))
         frames = json.loads(drive.read("frames.json"))["frames"]
         shown = [frame for frame in frames if frame["camera"] in SIDES and corners[frame["name"]]]
         for number in np.unique(np.linspace(0, len(shown) - 1, min(pictures, len(shown))).round().astype(int)).tolist():

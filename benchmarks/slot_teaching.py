@@ -11,7 +11,7 @@ from average_precision import Score, matched, score
 from corner_network import Training
 from slot_maps import true_slots
 from slot_measures import Measured, Understood, in_drawn
-from slot_network import SlotNetwork, train_slots
+from slot_network import train_slots
 from slot_pairs import matched_slots, pairs_of_corners
 from slots_sheet import write_slots_sheet
 from strip_labels import StripLabels
@@ -35,8 +35,8 @@ class SlotOutcome:
         On drawn strips that nothing was learnt from, of each run.
     pairs, corners
         On photographs, by garage and `TOGETHER`, of each run.
-    network, in_photographs, in_drawn
-        Of the last run: the network, and what it finds.
+    in_photographs, in_drawn
+        What the network of the last run finds.
     """
 
     name: str
@@ -44,7 +44,6 @@ class SlotOutcome:
     drawn: list[Measured] = field(default_factory=list)
     pairs: dict[str, list[Score]] = field(default_factory=dict)
     corners: list[Score] = field(default_factory=list)
-    network: SlotNetwork | None = None
     in_photographs: list[Understood] = field(default_factory=list)
     in_drawn: list[Understood] = field(default_factory=list)
 
@@ -97,7 +96,6 @@ def measured_slots(
     pairs = [pairs_of_corners(strip.corners_px, strip.is_occluded) for strip in photographs]
     for run in range(runs):
         network = train_slots(learnt, training, run, progress)
-        outcome.network = network
         outcome.in_drawn = network.understand([strip for strip, _ in aside])
         outcome.drawn.append(in_drawn(outcome.in_drawn, [labels for _, labels in aside]))
         outcome.in_photographs = network.understand(photographs)

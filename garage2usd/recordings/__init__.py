@@ -22,7 +22,7 @@ from garage2usd.recordings.traffic import Traffic
 from garage2usd.recordings.way import Way
 from garage2usd.render import Picture, SlotFormat
 from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender
-from garage2usd.render.devices import CPU, Device, default_samples, find_device, modules_for
+from garage2usd.render.devices import CPU, Device, check_birds_eye_device, default_samples, find_device, modules_for
 from garage2usd.render.pictures import with_needed, write_mask
 from garage2usd.render.tables import NEEDED, check_slots, write_frames
 from garage2usd.sensors.formats.recording import Recording, write_calibration
@@ -258,8 +258,7 @@ def check_recording(
         raise ConfigError("points", list(points), f"at least one of {', '.join(CloudFormat)}")
     if birds_eye is not None:
         check_birds_eye(rig, kinds)
-        if device is Device.RAYS:
-            raise ConfigError("device", str(device), "cpu or gpu for bird's-eye views, which see through ceilings")
+        check_birds_eye_device(device)
     if slots is not None:
         has_around_view = any(isinstance(camera, AroundViewCamera) for camera in rig.cameras)
         check_slots(slots, kinds, has_ground_view=birds_eye is not None or has_around_view)

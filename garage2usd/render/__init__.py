@@ -15,7 +15,7 @@ from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import Labels, read_labels
 from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender
 from garage2usd.render.cameras import View, find_views
-from garage2usd.render.devices import Device, default_samples, find_device, modules_for
+from garage2usd.render.devices import Device, check_birds_eye_device, default_samples, find_device, modules_for
 from garage2usd.render.drawing import Drawing
 from garage2usd.render.free_views import OVERHEAD, free_view
 from garage2usd.render.pictures import Picture, with_needed
@@ -132,10 +132,13 @@ def render_stage(
     check_file(folder / "frames.json")
     opened = open_stage(path)
     views = _views(opened, cameras, frames, at_m, look_at_m, size_px)
+    has_birds_eye = any(isinstance(view.lens, Orthographic) for view in views)
+    if has_birds_eye:
+        check_birds_eye_device(device)
     labels = read_labels(opened, path)
     hidden = _hidden(opened, labels, views)
     if slots is not None:
-        check_slots(slots, kinds, has_ground_view=any(isinstance(view.lens, Orthographic) for view in views))
+        check_slots(slots, kinds, has_ground_view=has_birds_eye)
         read_slots(opened)  # raises before the work if there are no slots
     drawn_on = find_device(device, has_rays=False, blender=drawn_by)
     with staging_folder(folder) as staging:

@@ -79,6 +79,18 @@ def modules_for(device: Device, blender: Blender) -> tuple[str, ...]:
     return ("embreex", *PICTURES) if device is Device.RAYS else modules_of(blender)
 
 
+def check_birds_eye_device(device: Device) -> None:
+    """Check before the work that a device draws bird's-eye views.
+
+    Raises
+    ------
+    ConfigError
+        If it draws by rays, which do not see through ceilings.
+    """
+    if device is Device.RAYS:
+        raise ConfigError("device", str(device), "cpu or gpu for bird's-eye views, which see through ceilings")
+
+
 def find_device(asked: Device, *, has_rays: bool, blender: Blender = BLENDER_MODULE) -> ComputeDevice:
     """Find the device to render colour on.
 

@@ -7,7 +7,7 @@ import time
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
 from garage2usd.assets.light import EXPOSURE_EV, VIEW_TRANSFORM
-from garage2usd.common.errors import ConfigError
 from garage2usd.common.limits import lift
 from garage2usd.common.progress import Announce, Progress, time_in_words, unheard
 from garage2usd.common.system import cores
@@ -24,7 +23,7 @@ from garage2usd.reading.labels import Labels
 from garage2usd.render import agx
 from garage2usd.render.blender_process import run_blender
 from garage2usd.render.cameras import View
-from garage2usd.render.devices import CPU, ComputeDevice, Device, drawing_s
+from garage2usd.render.devices import CPU, ComputeDevice, drawing_s
 from garage2usd.render.drawn_prims import (
     SHAPE_PROPERTY,
     DrawnPrims,
@@ -50,7 +49,6 @@ from garage2usd.render.pictures import (
 from garage2usd.sensors.developing import develop
 from garage2usd.sensors.motion_blur import exposed_in_motion
 from garage2usd.sensors.rays.birds_eye import Orthographic
-from garage2usd.sensors.rays.lenses import Pinhole
 
 _BLENDER_FROM = {
     UsdGeom.Tokens.y: np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),
@@ -141,14 +139,22 @@ class Drawing:
             (self.finished / folder).mkdir(parents=True, exist_ok=True)
         if self.device.is_by_rays:
             self._draw_by_rays(progress, announce)
-            return [self._read_seen(view) if self._has_data else None for view in self.views]
+        else:
+            self._draw_by_blender(work, progress, announce)
+        return [self._read_seen(view) if self._has_data else None for view in self.views]
+
+    def _frames(self) -> list[tuple[View, Sequence[int], Sequence[int], Mapping[int, NDArray[np.float64]]]]:
+        """Each view with what is hidden from it, what it looks through, and what moves."""
+        count = len(self.views)
+        moved, unseen = self.moved or [{}] * count, self.unseen or [()] * count
+        return list(zip(self.views, self.hidden, unseen, moved, strict=True))
+
+    def _draw_by_blender(self, work: Path, progress: Progress, announce: Announce) -> None:
+        """Render the unfinished frames with Cycles."""
         digits = 1 + int(max(self.labels.ids.values(), default=0) >= INDEX_LIMIT)
-        moved = self.moved or [{}] * len(self.views)
-        unseen = self.unseen or [()] * len(self.views)
-        frames = zip(self.views, self.hidden, unseen, moved, strict=True)
         jobs = [
             {**self._frame_job(view, hide, work, digits), "unseen": list(through), "moved": _listed(places)}
-            for view, hide, through, places in frames
+            for view, hide, through, places in self._frames()
         ]
         order = self._order()
         total = len(self.views) * (self.samples * self._has_colour + self._has_data)
@@ -171,20 +177,13 @@ class Drawing:
             waiting.take()
         for view in self.views:
             self._develop_kept(view)
-        return [self._read_seen(view) if self._has_data else None for view in self.views]
 
     def _draw_by_rays(self, progress: Progress, announce: Announce) -> None:
         """Render the unfinished frames without Blender."""
         from garage2usd.render.ray_pictures import RayPictures  # noqa: PLC0415 - Blender does not need its extra
 
-        if any(isinstance(view.lens, Orthographic) for view in self.views):
-            raise ConfigError(
-                "device", str(Device.RAYS), "cpu or gpu with bird's-eye views, which see through ceilings"
-            )
         count = len(self.views)
-        moved, unseen = self.moved or [{}] * count, self.unseen or [()] * count
-        frames = list(zip(self.views, self.hidden, unseen, moved, strict=True))
-        missing = [frame for frame in frames if not self._is_finished(frame[0])]
+        missing = [frame for frame in self._frames() if any(self._lacks(frame[0]))]
         finished = f", {count - len(missing)} of them finished before" if len(missing) < count else ""
         announce(f"{count} views{finished}: {self.samples} rays a pixel on {self.device.words}")
         if missing:
@@ -204,9 +203,10 @@ class Drawing:
                 self._develop(view, light)
         progress("render", count, count)
 
-    def _is_finished(self, view: View) -> bool:
-        has_colour = not self._has_colour or self._path(view, Picture.COLOUR).exists()
-        return has_colour and (not self._has_data or self._seen_path(view).exists())
+    def _lacks(self, view: View) -> tuple[bool, bool]:
+        """Whether the colour of a view is still to be rendered, and whether its other pictures are."""
+        has_colour = self._path(view, Picture.COLOUR).exists() or self._light_path(view).exists()
+        return self._has_colour and not has_colour, self._has_data and not self._seen_path(view).exists()
 
     def take_colour(self, view: View, drawn: Path) -> None:
         """Store a rendered colour picture, or the picture that the view's camera develops from the light."""
@@ -223,11 +223,8 @@ class Drawing:
 
     def take_data(self, view: View, drawn: Sequence[Path]) -> None:
         """Store Blender's depth, normals and ids as pictures; the list of visible objects marks completion."""
-        surfaces = read_surfaces(drawn, self._axes.T, view.starts_m())
-        if isinstance(view.lens, Pinhole):  # Blender measures depth along the axis of a pinhole
-            along = view.lens.rays(view.lens.middles())[:, 2].reshape(surfaces.depth_m.shape)
-            surfaces = replace(surfaces, depth_m=(surfaces.depth_m * along).astype(np.float32))
-        self._keep_surfaces(view, surfaces)
+        # of a pinhole of a rig Blender measures depth along the ray, as its lens is a shader
+        self._keep_surfaces(view, read_surfaces(drawn, self._axes.T, view.starts_m()).along_axis(view.lens))
         self._develop_kept(view)
 
     def _keep_surfaces(self, view: View, surfaces: Surfaces) -> None:
@@ -312,9 +309,7 @@ class Drawing:
 
     def _frame_job(self, view: View, hidden: Sequence[int], work: Path, digits: int) -> dict[str, Any]:
         """Return a frame's job for Blender, without finished pictures."""
-        is_there = self._path(view, Picture.COLOUR).exists() or self._light_path(view).exists()
-        draws_colour = self._has_colour and not is_there
-        draws_data = self._has_data and not self._seen_path(view).exists()
+        draws_colour, draws_data = self._lacks(view)
         return {
             "colour": str(work / f"{view.name}.{'png' if view.effects is None else 'light.exr'}")
             if draws_colour

@@ -2,7 +2,7 @@
 # Over 300 lines: hits, and the looks and textures at them.
 
 import math
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -90,6 +90,21 @@ def _joined(parts: Sequence[Hits]) -> Hits:
     )
 
 
+def stopped(hits: Hits, sheets: Iterable[tuple[Hits, Floats]], count: int) -> Hits:
+    """Return the hits of so many rays with those on sheets that are more than half opaque, where these are nearer."""
+    range_m = np.full(count, np.inf, np.float32)
+    range_m[hits.ray] = hits.range_m
+    parts = []
+    for sheet, opacity in sheets:
+        own = sheet.of(np.flatnonzero((opacity > _OPAQUE) & (sheet.range_m < range_m[sheet.ray])))
+        range_m[own.ray] = own.range_m
+        parts.append(own)
+    if not parts:
+        return hits
+    veiled = _joined(parts)
+    return _joined([hits.of(np.flatnonzero(~np.isin(hits.ray, veiled.ray))), veiled])
+
+
 class Shades(NamedTuple):
     """How surfaces reflect light at places.
 
@@ -139,20 +154,6 @@ class LitScene:
         there = there._replace(ray=rays[there.ray], range_m=range_m)
         return _joined([found.of(np.flatnonzero(~passed)), there])
 
-    def stopped(self, hits: Hits, origins_m: Floats, directions: Floats) -> Hits:
-        """Hits with those on what is more than half opaque in part, where it is nearer."""
-        range_m = np.full(len(directions), np.inf, np.float32)
-        range_m[hits.ray] = hits.range_m
-        parts = []
-        for sheet, opacity in self.veils(origins_m, directions, range_m):
-            own = sheet.of(np.flatnonzero((opacity > _OPAQUE) & (sheet.range_m < range_m[sheet.ray])))
-            range_m[own.ray] = own.range_m
-            parts.append(own)
-        if not parts:
-            return hits
-        veiled = _joined(parts)
-        return _joined([hits.of(np.flatnonzero(~np.isin(hits.ray, veiled.ray))), veiled])
-
     def veils(self, origins_m: Floats, directions: Floats, range_m: Floats) -> Iterator[tuple[Hits, Floats]]:
         """Yield hits of rays on what is opaque in part, up to a range, from front to back, and their opacity."""
         going, passed_m, starts = np.arange(len(directions)), np.zeros(len(directions), np.float32), origins_m.copy()
@@ -184,8 +185,9 @@ class LitScene:
         diffuse, shine = np.empty((count, 3), np.float32), np.empty((count, 3), np.float32)
         glow, roughness = np.empty((count, 3), np.float32), np.empty(count, np.float32)
         normals, is_fine = self.blended(scene.normals, hits), bool(np.isfinite(footprint_m).all())
-        order = np.argsort(self._surfaces[hits.triangle], kind="stable")  # 16 bits are sorted by their digits
-        surface = scene.surface[hits.triangle[order]]
+        surface = self._surfaces[hits.triangle]
+        order = np.argsort(surface, kind="stable")  # 16 bits are sorted by their digits
+        surface = surface[order]
         ends = [*(np.flatnonzero(surface[1:] != surface[:-1]) + 1).tolist(), count]
         for first, last in pairwise([0, *ends] if count else []):
             rows = order[first:last]
@@ -202,22 +204,16 @@ class LitScene:
             roughness[rows] = rough + (look.clearcoat_roughness - rough) * coat
             if look.normal_texture and is_fine:
                 normals[rows] = own.bent(normals[rows])
-        normals = unit(normals)
-        is_behind = dots(normals, directions) > 0
-        normals[is_behind] *= -1
-        return Shades(diffuse, shine, glow, np.maximum(roughness, _LEAST_ROUGHNESS), normals)
+        facing = _facing(unit(normals), directions)
+        return Shades(diffuse, shine, glow, np.maximum(roughness, _LEAST_ROUGHNESS), facing)
 
     def flat_normals(self, hits: Hits, directions: NDArray[Any]) -> Floats:
         """Normals of the triangles that are hit, towards the side of the rays; float32, shape (n, 3)."""
-        normals = self._flat[hits.triangle]
-        normals[dots(normals, directions) > 0] *= -1
-        return normals
+        return _facing(self._flat[hits.triangle], directions)
 
     def smooth_normals(self, hits: Hits, directions: NDArray[Any]) -> Floats:
         """Normals without normal maps, between those of the vertices, towards the side of the rays; shape (n, 3)."""
-        normals = unit(self.blended(self.scene.normals, hits))
-        normals[dots(normals, directions) > 0] *= -1
-        return normals
+        return _facing(unit(self.blended(self.scene.normals, hits)), directions)
 
     @cached_property
     def corners_m(self) -> Floats:
@@ -362,6 +358,12 @@ class _Rows:
             if len(own):
                 found[own] = _bilinear(sizes[level], at[own])
         return found
+
+
+def _facing(normals: Floats, directions: NDArray[Any]) -> Floats:
+    """Turn normals towards the side that rays come from, in place."""
+    normals[dots(normals, directions) > 0] *= -1
+    return normals
 
 
 def _bilinear(picture: Floats, at: Floats) -> Floats:

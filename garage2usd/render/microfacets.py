@@ -40,6 +40,11 @@ class Facets:
         return density, mirrored
 
 
+def reflected(ways: Floats, normals: Floats) -> Floats:
+    """Return the directions of rays mirrored at normals; float32, shape (n, 3)."""
+    return ways - 2 * dots(ways, normals)[:, None] * normals
+
+
 def scattered(normals: Floats, random: np.random.Generator) -> Floats:
     """Directions at random, by the cosine from normals; float32, shape (n, 3)."""
     height = random.random(len(normals), dtype=np.float32) * 2 - 1

@@ -2,7 +2,7 @@
 
 import colorsys
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from garage2usd.reading.labels import Labels
+from garage2usd.sensors.rays.lenses import Pinhole
 
 INDEX_LIMIT = 32768
 """Limit of Blender's object indices; larger ids are rendered as several digits."""
@@ -60,6 +61,13 @@ class Surfaces:
     depth_m: NDArray[np.float32]
     normal: NDArray[np.float32]
     instance: NDArray[np.int32]
+
+    def along_axis(self, lens: object) -> "Surfaces":
+        """Return the surfaces with depth along the axis of a pinhole, in place of along its rays; others unchanged."""
+        if not isinstance(lens, Pinhole):
+            return self
+        along = lens.rays(lens.middles())[:, 2].reshape(self.depth_m.shape)
+        return replace(self, depth_m=(self.depth_m * along).astype(np.float32))
 
 
 @dataclass(frozen=True)

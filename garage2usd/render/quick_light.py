@@ -6,7 +6,7 @@ microfacets. Each is smoothed on its surface, without the textures of what is li
 """
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Iterator, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.render.lamps import FACE_TRIANGLES, LampDraws, Lamps
-from garage2usd.render.lit_scene import Floats, Hits, LitScene, Shades, dots, embree_scene
-from garage2usd.render.microfacets import LEAST_COSINE, Facets, facet_normals, scattered
+from garage2usd.render.lit_scene import Floats, Hits, LitScene, Shades, dots, embree_scene, stopped
+from garage2usd.render.microfacets import LEAST_COSINE, Facets, facet_normals, reflected, scattered
 from garage2usd.render.pictures import Surfaces
 from garage2usd.render.pixel_rays import PixelRays
 from garage2usd.render.smoothing import Smoothing
@@ -51,6 +51,7 @@ class _Seen(NamedTuple):
     way: Floats
     flat: Floats
     hits: Hits
+    sheets: Sequence[tuple[Hits, Floats]]
     shades: Shades
 
 
@@ -116,7 +117,8 @@ class QuickLight:
         ways = rays.ways[pixel]
         flat = self._lit.flat_normals(hits, ways)
         shades = self._shades(hits, ways, rays.angle[pixel], flat)
-        seen = _Seen(pixel, rays.origins[pixel] + ways * hits.range_m[:, None], ways, flat, hits, shades)
+        sheets = list(self._sheets(rays, rays.ways[rays.pixels], hits))
+        seen = _Seen(pixel, rays.origins[pixel] + ways * hits.range_m[:, None], ways, flat, hits, sheets, shades)
         own = self._coloured(rays, seen, random)
         shape = rows, columns
         smooth = Smoothing(shape, pixel, seen.place_m, flat)
@@ -132,7 +134,7 @@ class QuickLight:
         picture = np.zeros((rows * columns, 3), np.float32)
         picture[rays.pixels] = self._lamps.sky_rgb
         picture[pixel] = value
-        return picture.reshape(rows, columns, 3), self._surfaces(shape, rays, hits)
+        return picture.reshape(rows, columns, 3), self._surfaces(shape, rays, seen)
 
     def _shades(self, hits: Hits, ways: Floats, angle: Floats, flat: Floats) -> Shades:
         cosine = np.maximum(np.abs(dots(flat, ways)), 0.05)
@@ -141,13 +143,12 @@ class QuickLight:
     def _coloured(self, rays: PixelRays, seen: _Seen, random: np.random.Generator) -> _Coloured:
         """How the pixels that see something reflect, as means over each, with what veils them."""
         sums = np.zeros((len(rays.angle), 11), np.float32)
-        origins = rays.origins[rays.pixels]
         for turn in range(self._samples):
             ways = rays.within(random) if turn else rays.ways[rays.pixels]
-            hits = self._lit.hits(origins, ways, rays.unseen) if turn else seen.hits
-            range_m, left = np.full(len(ways), np.inf, np.float32), np.zeros(len(ways), np.float32)
-            range_m[hits.ray], left[hits.ray] = hits.range_m, 1
-            for sheet, opacity in self._lit.veils(origins, ways, range_m):
+            hits = self._lit.hits(rays.origins[rays.pixels], ways, rays.unseen) if turn else seen.hits
+            left = np.zeros(len(ways), np.float32)
+            left[hits.ray] = 1
+            for sheet, opacity in self._sheets(rays, ways, hits) if turn else seen.sheets:
                 share = (opacity * left[sheet.ray])[:, None]
                 sums[rays.pixels[sheet.ray]] += _row_of(self._seen_by(rays, sheet, ways)) * share
                 left[sheet.ray] *= 1 - opacity
@@ -157,6 +158,12 @@ class QuickLight:
             sums[rays.pixels[hits.ray]] += row * through
         means = sums[seen.pixel, :10] / sums[seen.pixel, 10:]
         return _Coloured(means[:, :3], means[:, 3:6], means[:, 6:9], means[:, 9])
+
+    def _sheets(self, rays: PixelRays, ways: Floats, hits: Hits) -> Iterator[tuple[Hits, Floats]]:
+        """Yield what veils the hits of rays from the origins of pixels, as `LitScene.veils` does."""
+        range_m = np.full(len(ways), np.inf, np.float32)
+        range_m[hits.ray] = hits.range_m
+        return self._lit.veils(rays.origins[rays.pixels], ways, range_m)
 
     def _seen_by(self, rays: PixelRays, hits: Hits, ways: Floats) -> Shades:
         own = ways[hits.ray]
@@ -168,14 +175,14 @@ class QuickLight:
         block = row // _BLOCK_PX * (shape[1] // _BLOCK_PX + 1) + column // _BLOCK_PX
         places = seen.place_m + seen.flat * np.float32(_OFF_M)
         normal = seen.shades.normal
-        mirrored = seen.way - 2 * dots(seen.way, normal)[:, None] * normal
-        draws = LampDraws(self._lamps, block, places, mirrored, roughness, self._samples)
-        direct, glare = self._direct(draws, places, normal, random, Facets(seen.way, seen.shades.normal, roughness))
+        draws = LampDraws(self._lamps, block, places, reflected(seen.way, normal), roughness, self._samples)
+        facets = Facets(seen.way, normal, roughness)
+        direct, glare = self._direct(draws, places, normal, random, facets)
         thrown_back = seen.shades.diffuse_rgb * direct
         usual = thrown_back.mean(axis=0) if len(direct) else np.zeros(3, np.float32)
         around = self._incoming(places, scattered(normal, random), usual, random)
         shown = np.where(roughness[:, None] < _GLOSSY, 0, around) + glare
-        shown += self._reflected(draws, seen, roughness, usual, random)
+        shown += self._mirrored(draws, seen, facets, usual, random)
         return _Light(direct, around * np.float32(math.pi), shown)
 
     def _direct(
@@ -227,14 +234,14 @@ class QuickLight:
         found[hits.ray] = reflects * light / np.float32(math.pi) + shades.glow_rgb
         return np.minimum(found, max(usual.mean(), found.mean()) * np.float32(_BRIGHTEST)) if len(found) else found
 
-    def _reflected(
-        self, draws: LampDraws, seen: _Seen, roughness: Floats, usual: Floats, random: np.random.Generator
+    def _mirrored(
+        self, draws: LampDraws, seen: _Seen, facets: Facets, usual: Floats, random: np.random.Generator
     ) -> Floats:
         """Radiance that surfaces mirror, by one ray of each that is not rough; float32, shape (n, 3)."""
         found = np.zeros((len(seen.pixel), 3), np.float32)
-        rows = np.flatnonzero(roughness < _GLOSSY)
-        normals = facet_normals(seen.shades.normal[rows], roughness[rows], random)
-        way = seen.way[rows] - 2 * dots(seen.way[rows], normals)[:, None] * normals
+        rows = np.flatnonzero(facets.roughness < _GLOSSY)
+        normals = facet_normals(seen.shades.normal[rows], facets.roughness[rows], random)
+        way = reflected(seen.way[rows], normals)
         is_out = dots(way, seen.flat[rows]) > 0
         rows, way = rows[is_out], np.ascontiguousarray(way[is_out])
         places = seen.place_m[rows] + seen.flat[rows] * np.float32(_OFF_M)
@@ -245,10 +252,11 @@ class QuickLight:
         lit = np.flatnonzero(faces["primID"] >= 0)
         lit = lit[~self._lit.is_dark(places[lit], way[lit], faces["tfar"][lit] - np.float32(2 * _OFF_M))]
         lamp, range_m, own = faces["primID"][lit].astype(np.int64) // FACE_TRIANGLES, faces["tfar"][lit], rows[lit]
-        density, _ = Facets(seen.way, seen.shades.normal, roughness).towards(way[lit], own)
-        other = draws.odds_of(own, lamp) * self._density(lamp, way[lit], range_m) * draws.count
-        shone = self._lamps.intensity(lamp, -way[lit]) / range_m[:, None] ** 2  # over the solid angle: the radiance
-        radiance = shone * self._density(lamp, way[lit], range_m)[:, None]
+        density, _ = facets.towards(way[lit], own)
+        of_lamp = self._density(lamp, way[lit], range_m)
+        other = draws.odds_of(own, lamp) * of_lamp * draws.count
+        shone = self._lamps.intensity(lamp, -way[lit]) / range_m[:, None] ** 2
+        radiance = shone * of_lamp[:, None]  # that is over the solid angle
         found[own] = radiance * (density / (density + other))[:, None]
         return found
 
@@ -256,9 +264,9 @@ class QuickLight:
     def _faces(self) -> "EmbreeScene":
         return embree_scene(self._lamps.faces_m)
 
-    def _surfaces(self, shape: tuple[int, int], rays: PixelRays, hits: Hits) -> Surfaces:
+    def _surfaces(self, shape: tuple[int, int], rays: PixelRays, seen: _Seen) -> Surfaces:
         ways = rays.ways[rays.pixels]
-        shown = self._lit.stopped(hits, rays.origins[rays.pixels], ways)
+        shown = stopped(seen.hits, seen.sheets, len(ways))
         pixel = rays.pixels[shown.ray]
         depth = np.full(shape, np.inf, np.float32)
         normal, instance = np.zeros((*shape, 3), np.float32), np.zeros(shape, np.int32)

@@ -2,7 +2,6 @@
 
 import zlib
 from collections.abc import Collection, Mapping
-from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -15,7 +14,6 @@ from garage2usd.render.lamps import read_lamps
 from garage2usd.render.lit_scene import LitScene
 from garage2usd.render.pictures import Surfaces
 from garage2usd.render.quick_light import QuickLight
-from garage2usd.sensors.rays.lenses import Pinhole
 from garage2usd.sensors.rays.ray_scene import read_ray_scene
 
 Matrix = NDArray[np.float64]
@@ -60,10 +58,7 @@ class RayPictures:
         lens, random = view.sensor_lens(), np.random.default_rng([self._seed, zlib.crc32(view.name.encode())])
         light = QuickLight(self._lit_scene(hidden, moved), self._lamps, self._samples)
         picture, surfaces = light.taken(lens, view.camera_to_world @ USD_FROM_OPENCV, random, unseen)
-        if isinstance(lens, Pinhole):
-            along = lens.rays(lens.middles())[:, 2].reshape(surfaces.depth_m.shape)
-            surfaces = replace(surfaces, depth_m=(surfaces.depth_m * along).astype(np.float32))
-        return picture, surfaces
+        return picture, surfaces.along_axis(lens)
 
     def _lit_scene(self, hidden: Collection[int], moved: Mapping[int, Matrix]) -> LitScene:
         """The scene without what is hidden, and with what moves where it is; the last one is kept."""

@@ -238,8 +238,10 @@ def read_ray_scene(
         if only is not None and not _is_below(placed.path, only):
             continue
         pieces = remembered(placed)
+        if not pieces:
+            continue
         turn = placed.matrix[:3, :3]
-        turn_of_normals = np.linalg.pinv(turn).T.astype(np.float32) if pieces else None
+        turn_of_normals = np.linalg.pinv(turn).T.astype(np.float32)
         for piece in pieces:
             path = placed.path + piece.path
             if path not in owners:
