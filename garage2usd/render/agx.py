@@ -38,7 +38,7 @@ _CURVE = (
 
 
 def developed(light: NDArray[np.floating[Any]]) -> NDArray[np.uint8]:
-    """The pixels of linear light of ITU-R BT.709's colours, shape (..., 3); uint8, of the same shape."""
+    """Return the pixels of linear light of ITU-R BT.709's colours, shape (..., 3); uint8, of the same shape."""
     stops = np.log2(np.maximum(light.astype(np.float32) @ _BEFORE, np.float32(_LEAST_LIGHT)))
     places = (stops - _LEAST_EV) / (_MOST_EV - _LEAST_EV) * (len(_CURVE) - 1)
     shown = np.interp(places, np.arange(len(_CURVE)), _CURVE).astype(np.float32) @ _OUTSET_ROWS

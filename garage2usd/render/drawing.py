@@ -144,7 +144,7 @@ class Drawing:
         return [self._read_seen(view) if self._has_data else None for view in self.views]
 
     def _frames(self) -> list[tuple[View, Sequence[int], Sequence[int], Mapping[int, NDArray[np.float64]]]]:
-        """Each view with what is hidden from it, what it looks through, and what moves."""
+        """Return each view with what is hidden from it, what it looks through, and what moves."""
         count = len(self.views)
         moved, unseen = self.moved or [{}] * count, self.unseen or [()] * count
         return list(zip(self.views, self.hidden, unseen, moved, strict=True))
@@ -204,7 +204,7 @@ class Drawing:
         progress("render", count, count)
 
     def _lacks(self, view: View) -> tuple[bool, bool]:
-        """Whether the colour of a view is still to be rendered, and whether its other pictures are."""
+        """Return whether the colour of a view is still to be rendered, and whether its other pictures are."""
         has_colour = self._path(view, Picture.COLOUR).exists() or self._light_path(view).exists()
         return self._has_colour and not has_colour, self._has_data and not self._seen_path(view).exists()
 

@@ -63,7 +63,7 @@ class Lamps:
 
     @cached_property
     def faces_m(self) -> Floats:
-        """Their faces as fans of triangles, each lamp's `FACE_TRIANGLES` in turn; float32, shape (n, 3, 3)."""
+        """Return their faces as fans of triangles, each lamp's `FACE_TRIANGLES` in turn; float32, shape (n, 3, 3)."""
         turns = np.arange(FACE_TRIANGLES + 1) * 2 * math.pi / FACE_TRIANGLES
         ring = np.stack([np.cos(turns), np.sin(turns)], axis=1).astype(np.float32)
         square = ring / np.abs(ring).max(axis=1, keepdims=True)
@@ -75,12 +75,12 @@ class Lamps:
 
     @cached_property
     def area_m2(self) -> Floats:
-        """Of their faces; float32, shape (n,)."""
+        """Return the areas of their faces; float32, shape (n,)."""
         sides = np.sqrt((self.across_m**2).sum(axis=1) * (self.along_m**2).sum(axis=1))
         return np.asarray(np.where(self.is_round, math.pi, 4.0) * sides, dtype=np.float32)
 
     def odds(self, places_m: Floats, mirrored: Floats, facets: Floats) -> Floats:
-        """Probabilities by which lamps are drawn, half of them by how lamps shine and half by how they are mirrored.
+        """Return the probabilities by which lamps are drawn, half by how they shine and half by how they are mirrored.
 
         Parameters
         ----------
@@ -109,7 +109,7 @@ class Lamps:
         return np.asarray(odds / odds.sum(axis=1, keepdims=True), dtype=np.float32)
 
     def points(self, lamps: NDArray[np.int64], random: np.random.Generator) -> Floats:
-        """A point on the face of each of some lamps; float32, shape (n, 3)."""
+        """Draw a point on the face of each of some lamps; float32, shape (n, 3)."""
         first, second = random.random((2, len(lamps)), dtype=np.float32)
         radius, angle = np.sqrt(first), second * np.float32(2 * math.pi)
         is_round = self.is_round[lamps]
@@ -120,7 +120,7 @@ class Lamps:
         return found
 
     def intensity(self, lamps: NDArray[np.int64], away: Floats) -> Floats:
-        """Luminous intensity of some lamps along unit vectors away from them, by colour; float32, shape (n, 3)."""
+        """Return the intensity of some lamps along unit vectors away from them, by colour; float32, shape (n, 3)."""
         cosine = (away * self.axis[lamps]).sum(axis=1)
         share = np.where(self.is_one_sided[lamps], np.maximum(cosine, 0.0), 1.0) * (cosine >= self.least_cos[lamps])
         found: Floats = self.candela_rgb[lamps] * share[:, None].astype(np.float32)
@@ -173,7 +173,7 @@ class LampDraws:
             yield lamp, self._odds[self._block, lamp]
 
     def odds_of(self, places: NDArray[np.int64], lamp: NDArray[np.int64]) -> Floats:
-        """Odds of lamps at some of the places, by their numbers."""
+        """Return the odds of lamps at some of the places, by their numbers."""
         found: Floats = self._odds[self._block[places], lamp]
         return found
 

@@ -34,13 +34,13 @@ _SHARPER = 0.7
 
 
 def dots(one: NDArray[Any], other: NDArray[Any]) -> Floats:
-    """Products of rows of vectors; shape (n,)."""
+    """Multiply rows of vectors; shape (n,)."""
     found: Floats = np.einsum("ij,ij->i", one, other)
     return found
 
 
 def embree_scene(corners_m: Floats) -> "EmbreeScene":
-    """Triangles, shape (n, 3, 3), as Embree casts rays on them.
+    """Make the scene of triangles, shape (n, 3, 3), on which Embree casts rays.
 
     Raises
     ------
@@ -76,12 +76,12 @@ class Hits(NamedTuple):
     range_m: Floats
 
     def of(self, rows: NDArray[np.int64]) -> "Hits":
-        """Some of the hits."""
+        """Return some of the hits."""
         return Hits(self.ray[rows], self.triangle[rows], self.weights[rows], self.range_m[rows])
 
 
 def _joined(parts: Sequence[Hits]) -> Hits:
-    """Hits of several kinds."""
+    """Join hits."""
     return Hits(
         np.concatenate([each.ray for each in parts]),
         np.concatenate([each.triangle for each in parts]),
@@ -138,7 +138,7 @@ class LitScene:
     scene: RayScene
 
     def hits(self, origins_m: NDArray[Any], directions: NDArray[Any], unseen: Collection[int] = ()) -> Hits:
-        """The first hits of rays, shape (n, 3) each, on what no texture makes opaque in part.
+        """Find the first hits of rays, shape (n, 3) each, on what no texture makes opaque in part.
 
         They pass through objects of the ids that are unseen.
         """
@@ -171,13 +171,13 @@ class LitScene:
             starts[going] = origins_m[going] + directions[going] * passed_m[going, None]
 
     def is_dark(self, origins_m: Floats, directions: Floats, range_m: Floats) -> NDArray[np.bool_]:
-        """Whether something stands between origins and the ends of rays; bool, shape (n,)."""
+        """Test if something stands between origins and the ends of rays; bool, shape (n,)."""
         found = self._solid.run(origins_m, directions, dists=np.ascontiguousarray(range_m), query="OCCLUDED")
         dark: NDArray[np.bool_] = found != -1
         return dark
 
     def shades(self, hits: Hits, directions: NDArray[Any], footprint_m: Floats) -> Shades:
-        """How surfaces reflect at hits of rays of unit vectors, shape (n, 3), seen by pixels of that size, shape (n,).
+        """Find how surfaces reflect at hits of rays of unit vectors, shape (n, 3), by pixels of a size, shape (n,).
 
         Where all sizes are infinite, textures are their means, and normal maps count for nothing.
         """
@@ -208,16 +208,16 @@ class LitScene:
         return Shades(diffuse, shine, glow, np.maximum(roughness, _LEAST_ROUGHNESS), facing)
 
     def flat_normals(self, hits: Hits, directions: NDArray[Any]) -> Floats:
-        """Normals of the triangles that are hit, towards the side of the rays; float32, shape (n, 3)."""
+        """Return the normals of the triangles that are hit, towards the side of the rays; float32, shape (n, 3)."""
         return _facing(self._flat[hits.triangle], directions)
 
     def smooth_normals(self, hits: Hits, directions: NDArray[Any]) -> Floats:
-        """Normals without normal maps, between those of the vertices, towards the side of the rays; shape (n, 3)."""
+        """Interpolate the normals of vertices, without normal maps, towards the side of the rays; shape (n, 3)."""
         return _facing(unit(self.blended(self.scene.normals, hits)), directions)
 
     @cached_property
     def corners_m(self) -> Floats:
-        """Corners of all triangles; float32, shape (triangles, 3, 3)."""
+        """Return the corners of all triangles; float32, shape (triangles, 3, 3)."""
         return self.scene.vertices_m.astype(np.float32)[self.scene.triangles]
 
     @cached_property
@@ -230,7 +230,7 @@ class LitScene:
         return unit(np.cross(second - first, third - first))
 
     def blended(self, values: NDArray[np.float32], hits: Hits) -> Floats:
-        """Values of the scene's vertices at hits, between those of their corners."""
+        """Interpolate values of the scene's vertices at hits, between those of their corners."""
         first, second, third = (values[self.scene.triangles[hits.triangle, corner]] for corner in range(3))
         shape = (len(hits.triangle),) + (1,) * (values.ndim - 1)
         one, other = (hits.weights[:, number].reshape(shape) for number in range(2))
@@ -238,7 +238,7 @@ class LitScene:
         return blended
 
     def _first(self, tree: "EmbreeScene", part: int, origins: Floats, ways: Floats) -> Hits:
-        """First hits on the solid part or the other one."""
+        """Find the first hits on the solid part or the other one."""
         found = tree.run(origins, ways, output=True)
         ray = np.flatnonzero(found["primID"] >= 0)
         # Embree's u and v belong to the second and third corner
@@ -246,7 +246,7 @@ class LitScene:
         return Hits(ray, self._numbers[part][found["primID"][ray]], weights, found["tfar"][ray])
 
     def _opacity(self, sheet: Hits) -> Floats:
-        """Opacity of hits on veils; float32, shape (n,)."""
+        """Return the opacity of hits on veils; float32, shape (n,)."""
         opacity = np.ones(len(sheet.triangle), np.float32)
         surface = self.scene.surface[sheet.triangle]
         for number in np.unique(surface).tolist():
@@ -259,7 +259,7 @@ class LitScene:
 
     @cached_property
     def _numbers(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Numbers of the triangles that are solid, and of those that textures make opaque in part."""
+        """Return the numbers of the triangles that are solid, and of those that textures make opaque in part."""
         veiled: NDArray[np.bool_]
         veiled = np.array([bool(look.opacity_texture) for look in self.scene.surfaces])[self.scene.surface]
         return np.flatnonzero(~veiled), np.flatnonzero(veiled)
@@ -277,7 +277,7 @@ class LitScene:
         return {}
 
     def pyramid(self, texture: Texture) -> list[Floats]:
-        """A texture in ever smaller sizes, with its last row first; float32, shape (rows, columns, 1 or 3) each."""
+        """Return a texture in ever smaller sizes, last row first; float32, shape (rows, columns, 1 or 3) each."""
         if texture not in self._pyramids:
             channels = range(3) if texture.channel < 0 else (0,)
             planes = [self.scene.pictures.plane(texture.band(channel)) for channel in channels]
@@ -297,19 +297,19 @@ class _Rows:
         self._lit, self._look, self._hits, self._footprint_m = lit, look, hits, footprint_m
 
     def colour(self, value: tuple[float, float, float], texture: Texture | None) -> Floats:
-        """A colour at each hit; float32, shape (n, 3)."""
+        """Return a colour at each hit; float32, shape (n, 3)."""
         if texture is None:
             return np.broadcast_to(np.array(value, np.float32), (len(self._hits.triangle), 3))
         return np.broadcast_to(self._sampled(texture), (len(self._hits.triangle), 3))
 
     def number(self, value: float, texture: Texture | None) -> Floats:
-        """A number at each hit; float32, shape (n,)."""
+        """Return a number at each hit; float32, shape (n,)."""
         if texture is None:
             return np.full(len(self._hits.triangle), value, np.float32)
         return self._sampled(texture)[:, 0]
 
     def bent(self, normals: Floats) -> Floats:
-        """Normals by the normal map, whose axes are those of the texture coordinates; float32, shape (n, 3)."""
+        """Bend normals by the normal map, whose axes are those of the texture coordinates; float32, shape (n, 3)."""
         texture = self._look.normal_texture
         if texture is None:
             return normals
@@ -322,7 +322,7 @@ class _Rows:
 
     @cached_property
     def _edges(self) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:
-        """Both edges from the first corner of each triangle, in space and on the surface's first texture."""
+        """Return both edges from the first corner of each triangle, in space and on the surface's first texture."""
         scene, triangles = self._lit.scene, self._lit.scene.triangles[self._hits.triangle]
         places = self._lit.corners_m[self._hits.triangle]
         textures = (self._look.normal_texture, self._look.colour_texture, self._look.roughness_texture)
@@ -333,7 +333,7 @@ class _Rows:
 
     @cached_property
     def _span(self) -> Floats:
-        """Length in texture coordinates of the pixels that see the hits; float32, shape (n,)."""
+        """Return the length in texture coordinates of the pixels that see the hits; float32, shape (n,)."""
         (edge, other), (turn, turned) = self._edges
         normal = np.cross(edge, other)
         area = np.sqrt(dots(normal, normal))
@@ -342,7 +342,7 @@ class _Rows:
         return span
 
     def _sampled(self, texture: Texture) -> Floats:
-        """Values of a texture at the hits; float32, shape (n, 1 or 3)."""
+        """Look up values of a texture at the hits; float32, shape (n, 1 or 3)."""
         sizes = self._lit.pyramid(texture)
         if np.isinf(self._footprint_m).all():
             return np.broadcast_to(sizes[-1].mean(axis=(0, 1)), (len(self._footprint_m), sizes[-1].shape[2]))
@@ -367,7 +367,7 @@ def _facing(normals: Floats, directions: NDArray[Any]) -> Floats:
 
 
 def _bilinear(picture: Floats, at: Floats) -> Floats:
-    """A repeated picture whose first row is the lowest, between the middles of its pixels."""
+    """Sample a repeated picture whose first row is the lowest, between the middles of its pixels."""
     rows, columns, channels = picture.shape
     flat = picture.reshape(-1, channels)
     across, up = at[:, 0] * columns - np.float32(0.5), at[:, 1] * rows - np.float32(0.5)

@@ -26,7 +26,7 @@ class Facets:
         self._ways, self._normals, self.roughness = ways, normals, roughness
 
     def towards(self, ways: Floats, rows: NDArray[np.int64]) -> tuple[Floats, Floats]:
-        """How dense mirrored rays are along ways, 1 / sr, and what of a lamp's irradiance is mirrored, 1 / sr."""
+        """Return how dense mirrored rays are along ways, and what of a lamp's irradiance is mirrored; 1 / sr."""
         normal, back = self._normals[rows], -self._ways[rows]
         half = unit(ways + back)
         tilt = np.clip(dots(half, normal), 0.0, 1.0)
@@ -46,7 +46,7 @@ def reflected(ways: Floats, normals: Floats) -> Floats:
 
 
 def scattered(normals: Floats, random: np.random.Generator) -> Floats:
-    """Directions at random, by the cosine from normals; float32, shape (n, 3)."""
+    """Draw directions at random, by the cosine from normals; float32, shape (n, 3)."""
     height = random.random(len(normals), dtype=np.float32) * 2 - 1
     angle = random.random(len(normals), dtype=np.float32) * np.float32(2 * math.pi)
     ring = np.sqrt(1 - height**2)
@@ -55,7 +55,7 @@ def scattered(normals: Floats, random: np.random.Generator) -> Floats:
 
 
 def facet_normals(normals: Floats, roughness: Floats, random: np.random.Generator) -> Floats:
-    """Normals of microfacets by the distribution of GGX; float32, shape (n, 3)."""
+    """Draw normals of microfacets by the distribution of GGX; float32, shape (n, 3)."""
     first, second = random.random((2, len(normals)), dtype=np.float32)
     slope = roughness**2 * np.sqrt(first / np.maximum(1 - first, 1e-6))
     angle = second * np.float32(2 * math.pi)

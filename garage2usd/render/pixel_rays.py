@@ -37,7 +37,7 @@ class PixelRays:
         self.angle = np.sqrt(down * across)
 
     def within(self, random: np.random.Generator) -> Floats:
-        """Directions through points at random within the pixels that have a ray; float32, shape (n, 3)."""
+        """Draw directions through points at random within the pixels that have a ray; float32, shape (n, 3)."""
         shares = random.random((2, len(self.pixels), 1), dtype=np.float32) - np.float32(0.5)
         ways = self.ways[self.pixels]
         for step, share in zip(self._steps, shares, strict=True):
@@ -47,7 +47,7 @@ class PixelRays:
 
 
 def _step_along(ways: Floats, axis: int) -> Floats:
-    """How rays change to the next pixel along an axis: the smaller of the changes to both sides; shape (pixels, 3)."""
+    """Return how rays change from pixel to pixel along an axis, to the nearer neighbour; shape (pixels, 3)."""
     step = np.diff(ways, axis=axis)
     nothing = np.full_like(np.take(ways, [0], axis=axis), np.nan)
     behind, ahead = np.concatenate([nothing, step], axis=axis), np.concatenate([step, nothing], axis=axis)

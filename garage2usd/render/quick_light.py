@@ -141,7 +141,7 @@ class QuickLight:
         return self._lit.shades(hits, ways, hits.range_m * angle / np.sqrt(cosine))
 
     def _coloured(self, rays: PixelRays, seen: _Seen, random: np.random.Generator) -> _Coloured:
-        """How the pixels that see something reflect, as means over each, with what veils them."""
+        """Find how the pixels that see something reflect, as means over each, with what veils them."""
         sums = np.zeros((len(rays.angle), 11), np.float32)
         for turn in range(self._samples):
             ways = rays.within(random) if turn else rays.ways[rays.pixels]
@@ -170,7 +170,7 @@ class QuickLight:
         return self._shades(hits, own, rays.angle[rays.pixels[hits.ray]], self._lit.flat_normals(hits, own))
 
     def _lit_by(self, seen: _Seen, roughness: Floats, shape: tuple[int, int], random: np.random.Generator) -> _Light:
-        """The light of each pixel that sees something, before it is smoothed."""
+        """Compute the light of each pixel that sees something, before it is smoothed."""
         row, column = np.divmod(seen.pixel, shape[1])
         block = row // _BLOCK_PX * (shape[1] // _BLOCK_PX + 1) + column // _BLOCK_PX
         places = seen.place_m + seen.flat * np.float32(_OFF_M)
@@ -193,7 +193,7 @@ class QuickLight:
         random: np.random.Generator,
         facets: Facets | None = None,
     ) -> tuple[Floats, Floats]:
-        """Irradiance by lamps, and the radiance that facets mirror if every angle mirrored all of it."""
+        """Compute the irradiance by lamps, and the radiance that facets mirror if every angle mirrored all of it."""
         total, glare = np.zeros((len(places), 3), np.float32), np.zeros((len(places), 3), np.float32)
         for lamp, odds in draws.lamps(random):
             apart = self._lamps.points(lamp, random) - places
@@ -212,13 +212,13 @@ class QuickLight:
         return total / draws.count, glare / draws.count
 
     def _density(self, lamp: NDArray[np.int64], way: Floats, range_m: Floats) -> Floats:
-        """How dense points of lamps' faces are by the solid angle, 1 / sr."""
+        """Return how dense points of lamps' faces are by the solid angle, 1 / sr."""
         facing = np.maximum(np.abs(dots(self._lamps.axis[lamp], way)), LEAST_COSINE)
         density: Floats = range_m**2 / (np.maximum(self._lamps.area_m2[lamp], _LEAST_M2) * facing)
         return density
 
     def _incoming(self, places: Floats, ways: Floats, usual: Floats, random: np.random.Generator) -> Floats:
-        """Radiance along rays from places, of what is no lamp; float32, shape (n, 3)."""
+        """Compute the radiance along rays from places, of what is no lamp; float32, shape (n, 3)."""
         found = np.broadcast_to(self._lamps.sky_rgb, (len(places), 3)).copy()
         hits = self._lit.hits(places, ways)
         own = ways[hits.ray]
@@ -237,7 +237,7 @@ class QuickLight:
     def _mirrored(
         self, draws: LampDraws, seen: _Seen, facets: Facets, usual: Floats, random: np.random.Generator
     ) -> Floats:
-        """Radiance that surfaces mirror, by one ray of each that is not rough; float32, shape (n, 3)."""
+        """Compute the radiance that surfaces mirror, by one ray of each that is not rough; float32, shape (n, 3)."""
         found = np.zeros((len(seen.pixel), 3), np.float32)
         rows = np.flatnonzero(facets.roughness < _GLOSSY)
         normals = facet_normals(seen.shades.normal[rows], facets.roughness[rows], random)
@@ -277,7 +277,7 @@ class QuickLight:
 
 
 def _row_of(shades: Shades) -> Floats:
-    """A row for each place, whose last number counts the places."""
+    """Make a row for each place, whose last number counts the places."""
     ones = np.ones((len(shades.roughness), 1), np.float32)
     columns = (shades.diffuse_rgb, shades.shine_rgb, shades.glow_rgb, shades.roughness[:, None], ones)
     return np.concatenate(columns, axis=1)

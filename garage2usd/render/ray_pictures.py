@@ -61,7 +61,7 @@ class RayPictures:
         return picture, surfaces.along_axis(lens)
 
     def _lit_scene(self, hidden: Collection[int], moved: Mapping[int, Matrix]) -> LitScene:
-        """The scene without what is hidden, and with what moves where it is; the last one is kept."""
+        """Return the scene without what is hidden, and with what moves where it is; the last one is kept."""
         key = sorted(hidden), [(number, place.tolist()) for number, place in sorted(moved.items())]
         if self._lit is None or self._lit[0] != key:
             scene = self._scene if not hidden else self._scene.of_objects(self._ids - set(hidden))

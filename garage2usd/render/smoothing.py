@@ -34,7 +34,7 @@ class Smoothing:
         self._known: dict[tuple[int, int], tuple[list[tuple[int, Floats]], Floats]] = {}
 
     def __call__(self, values: Floats, steps: Sequence[int]) -> Floats:
-        """Values of the pixels that see something, shape (n, 3), smoothed over pixels so far apart."""
+        """Smooth values of the pixels that see something, shape (n, 3), over pixels so far apart."""
         rows, columns = self._shape
         picture = np.zeros((rows, columns, 3), np.float32)
         picture.reshape(-1, 3)[self._pixel] = values
@@ -53,7 +53,7 @@ class Smoothing:
         return smoothed
 
     def _shares(self, axis: int, step: int) -> tuple[list[tuple[int, Floats]], Floats]:
-        """What each neighbour along an axis counts, by how far it is away, and the sum of all."""
+        """Return what each neighbour along an axis counts, by how far it is away, and the sum of all."""
         if (axis, step) not in self._known:
             whole, shares = np.full((*self._shape, 1), _KERNEL[2], np.float32), []
             for shift in (-2 * step, -step, step, 2 * step):
@@ -71,6 +71,6 @@ class Smoothing:
 
 
 def _part(axis: int, shift: int) -> tuple[slice, slice]:
-    """The pixels of a picture that have a neighbour so far before them, or behind them if the shift is negative."""
+    """Select the pixels that have a neighbour so far before them, or behind them if the shift is negative."""
     own = slice(shift, None) if shift > 0 else slice(None, shift)
     return (own, slice(None)) if axis == 0 else (slice(None), own)

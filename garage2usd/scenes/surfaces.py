@@ -107,7 +107,7 @@ class SurfaceLook:
         return tuple(dict.fromkeys(own.layout.coordinates for own in textures if own)) or (USUAL_COORDINATES,)
 
     def placed_on(self, texture: Texture, coordinates: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Coordinates on one of the surface's textures, shape (n, 2), from those of its `sets`, shape (n, sets, 2)."""
+        """Return coordinates on one of its textures, shape (n, 2), from those of its `sets`, shape (n, sets, 2)."""
         layout = texture.layout
         return layout.placed(coordinates[:, self.sets.index(layout.coordinates)])
 
