@@ -35,16 +35,14 @@ def _prims(stage: Usd.Stage | None) -> Iterator[Usd.Prim]:
                 yield prim
 
 
-@BOOK.rule("stage-units", asks="a stage is in metres, Y up, and has a default prim", severity=Severity.WARNING)
+@BOOK.rule("stage-units", asks="a stage is in metres and has a default prim", severity=Severity.WARNING)
 def _units(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
     stage = level.stage
     if stage is None:
         return
-    metres, axis = metres_per_unit(stage), UsdGeom.GetStageUpAxis(stage)
+    metres = metres_per_unit(stage)
     if not UsdGeom.LinearUnitsAre(metres, UsdGeom.LinearUnits.meters):
         yield Miss("/", None, "the stage is not in metres", metres, 1.0)
-    if axis != UsdGeom.Tokens.y:
-        yield Miss("/", None, f"{axis} is up, not Y")
     if not stage.GetDefaultPrim():
         yield Miss("/", None, "the stage has no default prim")
 

@@ -34,6 +34,15 @@ class StageForm(StrEnum):
     """Everything in one layer without references, variants or instances, for readers without composition."""
 
 
+class UpAxis(StrEnum):
+    """Axis of a stage that points up."""
+
+    Y = "Y"
+    """As in most programs that draw."""
+    Z = "Z"
+    """As in robotics and Isaac Sim: the garage is turned as a whole, so that its X stays and its -Z becomes Y."""
+
+
 class AssetPlace(StrEnum):
     """Location of a stage's assets, which are the same in every garage."""
 
@@ -51,6 +60,8 @@ class StageConfig(Settings):
     form: StageForm = StageForm.AUTO
     """'instanced', 'nested' for large garages, 'auto' to choose one of these by size, or 'flat' for readers without
     composition, which repeats the meshes for each object."""
+    up_axis: UpAxis = UpAxis.Y
+    """Axis that points up, 'Y' or 'Z'. Labels, plans and reports have the garage's own axes, of which Y points up."""
     arrangements: int = Field(16, ge=1, le=100_000)
     """In the nested form, number of different arrangements of cars and other movable objects that the squares share."""
     assets: AssetPlace = AssetPlace.OWN

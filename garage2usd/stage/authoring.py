@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 from pxr import Sdf, Tf, UsdGeom, UsdPhysics, Vt
 
 from garage2usd.common.errors import OutputError
+from garage2usd.config.outputs import UpAxis
 from garage2usd.scenes.prims import LABELS_SCHEMA, OBJECT_TAXONOMY, SQUARE_TAXONOMY, labels_name
 
 _NOT_WRITTEN = re.compile(r"Error occurred writing file: (.*?)'")
+_TURN = "xformOp:rotateX:unitsResolve"
 _ORDER = 'uniform token[] xformOpOrder = ["xformOp:translate"]\n'
 
 
@@ -29,12 +31,19 @@ def new_layer(path: Path, *, default_prim: str) -> Iterator[Sdf.Layer]:
     save_file(layer, path)
 
 
-def set_units(layer: Sdf.Layer) -> None:
-    """Set a layer's units to metres and kilograms, and its up axis to Y."""
+def set_units(layer: Sdf.Layer, up_axis: UpAxis = UpAxis.Y) -> None:
+    """Set a layer's units to metres and kilograms, and its up axis."""
     pseudo_root = layer.pseudoRoot
-    pseudo_root.SetInfo(UsdGeom.Tokens.upAxis, UsdGeom.Tokens.y)
+    pseudo_root.SetInfo(UsdGeom.Tokens.upAxis, up_axis.value)
     pseudo_root.SetInfo(UsdGeom.Tokens.metersPerUnit, 1.0)
     pseudo_root.SetInfo(UsdPhysics.Tokens.kilogramsPerUnit, 1.0)
+
+
+def turn_text(up_axis: UpAxis) -> str:
+    """Return the operations that turn the root of a garage, whose own axes have Y up, so that `up_axis` points up."""
+    if up_axis is UpAxis.Y:
+        return ""
+    return f'float {_TURN} = 90\nuniform token[] xformOpOrder = ["{_TURN}"]\n'
 
 
 def define(

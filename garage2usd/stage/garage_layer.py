@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from pxr import Gf, Kind, Sdf, Vt
 
 from garage2usd.common.processes import without_collector
+from garage2usd.config.outputs import UpAxis
 from garage2usd.garage.levels import GARAGE_NAME
 from garage2usd.layout import Layout, ObjectTable
 from garage2usd.objects import KINDS, Spec
@@ -37,6 +38,7 @@ from garage2usd.stage.authoring import (
     rounded_m,
     save,
     set_units,
+    turn_text,
 )
 from garage2usd.stage.cameras import author_cameras, set_frames
 from garage2usd.stage.curves import LANE_GRAPH_FILE, STALL_OUTLINES, write_lane_graph
@@ -117,6 +119,7 @@ def write_garage_layer(
     last_frame: int,
     path: Path,
     is_compact: bool = False,
+    up_axis: UpAxis = UpAxis.Y,
 ) -> None:
     """Author the layer that places all prototypes, and beside the assets the layers of this garage alone.
 
@@ -142,6 +145,8 @@ def write_garage_layer(
     is_compact
         True to write a ``.usda`` without indentation, for programs: two thirds of the bytes and half of the time, as
         USD does not parse and rewrite it.
+    up_axis
+        Axis of the stage that points up.
     """
     writer = InstanceWriter(
         layout,
@@ -152,7 +157,7 @@ def write_garage_layer(
         classes=f"/{GARAGE_NAME}/{_CLASSES}",
         describe_stalls=not arrangement.nested,
     )
-    frame = _frame(layout, arrangement, own, metadata, last_frame)
+    frame = _frame(layout, arrangement, own, metadata, last_frame, up_axis)
     if is_compact:
         with path.open("w", encoding="utf-8", newline="\n") as file:
             file.writelines(_pieces(frame, layout, arrangement, writer, own))
@@ -183,6 +188,7 @@ def _frame(
     own: str,
     metadata: Mapping[str, str | int],
     last_frame: int,
+    up_axis: UpAxis,
 ) -> str:
     """The layer without the garage's content, as USD writes it."""
     variants = variant_texts(
@@ -196,13 +202,14 @@ def _frame(
     classes = "".join(f'class "{name}"\n{{\n}}\n' for name in (*names, OCCUPIED_STALL))
     layer = Sdf.Layer.CreateAnonymous(".usda")
     layer.ImportFromString(
-        f'#usda 1.0\ndef Xform "{GARAGE_NAME}" (\nkind = "assembly"\n{variants.metadata})\n{{\n{variants.body}'
+        f'#usda 1.0\ndef Xform "{GARAGE_NAME}" (\nkind = "assembly"\n{variants.metadata})\n{{\n'
+        f"{turn_text(up_axis)}{variants.body}"
         f'class "{_CLASSES}"\n{{\n{classes}}}\n}}\n'
     )
     root_path = Sdf.Path.absoluteRootPath.AppendChild(GARAGE_NAME)
     with Sdf.ChangeBlock():
         layer.defaultPrim = GARAGE_NAME
-        set_units(layer)
+        set_units(layer, up_axis)
         set_frames(layer, last_frame)
         layer.GetPrimAtPath(root_path).SetInfo("customData", {**metadata, **_matrices(layout)})
         define(layer, root_path.AppendChild(_PHYSICS), _PHYSICS)

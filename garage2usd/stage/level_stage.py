@@ -174,6 +174,7 @@ def write_level_stage(
         last_frame=last_frame,
         path=layer_path,
         is_compact=is_compact,
+        up_axis=config.up_axis,
     )
     if is_flat:
         make_flat(layer_path, folder)

@@ -8,12 +8,12 @@ from pxr import Sdf
 
 from garage2usd.common.documents import json_text
 from garage2usd.common.progress import Progress, silent
-from garage2usd.config.outputs import AssetPlace, StageConfig, StageForm
+from garage2usd.config.outputs import AssetPlace, StageConfig, StageForm, UpAxis
 from garage2usd.garage.levels import GARAGE_NAME, LEVELS_NAME
 from garage2usd.garage_model import Garage, GarageLevel
 from garage2usd.objects.kind import VariantSet
 from garage2usd.reading.label_table import LabelledObject, LabelTable
-from garage2usd.stage.authoring import anchored
+from garage2usd.stage.authoring import anchored, turn_text
 from garage2usd.stage.curves import LANE_GRAPH_FILE, STALL_OUTLINES, Drivable, write_lane_graph
 from garage2usd.stage.forms import make_flat, pack
 from garage2usd.stage.labels import label_table
@@ -146,7 +146,7 @@ def _write_levels(
     write_lane_graph(path.parent / f"{layers}{LANE_GRAPH_FILE}", lanes)
     layer_path = path.with_suffix(".usda") if packed else path
     layer = Sdf.Layer.CreateAnonymous(".usda")
-    layer.ImportFromString(_root_text(levels, lanes, layers, garage.metadata, last_frame))
+    layer.ImportFromString(_root_text(levels, lanes, layers, garage.metadata, last_frame, config.up_axis))
     layer.Export(str(layer_path))
     if is_flat:
         make_flat(layer_path, folder)
@@ -159,7 +159,12 @@ def _write_levels(
 
 
 def _root_text(
-    levels: Sequence[GarageLevel], lanes: Drivable, layers: str, metadata: Mapping[str, str | int], last_frame: int
+    levels: Sequence[GarageLevel],
+    lanes: Drivable,
+    layers: str,
+    metadata: Mapping[str, str | int],
+    last_frame: int,
+    up_axis: UpAxis,
 ) -> str:
     """Return the root layer as text; `layers` precedes the names of the layers that it refers to."""
     data = "".join(
@@ -176,9 +181,9 @@ def _root_text(
     return (
         f'#usda 1.0\n(\ndefaultPrim = "{GARAGE_NAME}"\nendTimeCode = {last_frame}\nframesPerSecond = 24\n'
         "kilogramsPerUnit = 1\nmetersPerUnit = 1\nstartTimeCode = 0\ntimeCodesPerSecond = 24\n"
-        f'upAxis = "Y"\n)\n\ndef Xform "{GARAGE_NAME}" (\nkind = "assembly"\n'
+        f'upAxis = "{up_axis}"\n)\n\ndef Xform "{GARAGE_NAME}" (\nkind = "assembly"\n'
         f"customData = {{\n{data}string[] levels = [{names}]\ndouble[] floorsM = [{floors}]\n}}\n"
-        f"variants = {{\n{selections}}}\nprepend variantSets = [{set_names}]\n)\n{{\n{bodies}"
+        f"variants = {{\n{selections}}}\nprepend variantSets = [{set_names}]\n)\n{{\n{turn_text(up_axis)}{bodies}"
         f'def Xform "{LEVELS_NAME}" (\nkind = "group"\n)\n{{\n{places}}}\n'
         f'def "{Path(LANE_GRAPH_FILE).stem}" (\n'
         f"prepend references = @{anchored(f'{layers}{LANE_GRAPH_FILE}')}@\n)\n{{\n}}\n"

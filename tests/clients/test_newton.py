@@ -5,8 +5,10 @@ import pytest
 from support.newton_reader import needs_newton, running_newton
 from support.places import MILLIMETRE, assert_same_places
 from support.sample_files import REPOSITORY
+from support.small_garage import SETTINGS
 from support.soak import soak_but
 
+from garage2usd import GarageConfig, build
 from garage2usd.assets import Collider
 from garage2usd.layout.placement import to_world
 from garage2usd.stage.prototypes import asset_of
@@ -95,3 +97,17 @@ def test_newton_agrees_with_the_layout(name, form, builds, load_in_newton):
     assert all(shape["collides"] for shape in scene["shapes"])
     assert_same_kinds_and_places(scene["shapes"], expected)
     assert_same_sizes(scene["shapes"], expected)
+
+
+def test_a_garage_whose_z_points_up_is_loaded_as_any_other(tmp_path, load_in_newton):
+    """Newton turns it into its own axes, of which Y points up here."""
+    told, found = (
+        load_in_newton(
+            build(GarageConfig(**{**SETTINGS, "stage": {"up_axis": axis}}), tmp_path / f"{axis}.usdc").stage
+        )["shapes"]
+        for axis in ("Y", "Z")
+    )
+    assert len(told) > 100
+    assert [(shape["path"], shape["type"]) for shape in found] == [(shape["path"], shape["type"]) for shape in told]
+    for name in ("place", "size"):
+        assert np.allclose([shape[name] for shape in found], [shape[name] for shape in told], atol=MILLIMETRE), name

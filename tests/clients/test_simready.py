@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from pxr import Usd, UsdShade
 from support.sample_files import REPOSITORY
+from support.small_garage import SETTINGS
 
 import garage2usd
 
@@ -20,6 +21,7 @@ pytestmark = [
     pytest.mark.skipif(not VALIDATOR.is_file(), reason=".venv/simready is not there"),
 ]
 OF_EVERY_ASSET = {"NP.005", "RB.001", "SR.002", "SR.004", "UN.006"}
+OF_EVERY_STAGE = OF_EVERY_ASSET - {"NP.005", "UN.006"} | {"VG.025", "NP.006", "SR.001", "RV.001", "RV.004", "RV.007"}
 OF_SOME_ASSETS = {"GSP.001", "NVM.002", "VM.MDL.003", "VM.PBR.001", "VM.TEX.003"}
 
 
@@ -54,28 +56,44 @@ def assets(builds, tmp_path_factory):
     return found
 
 
-@pytest.mark.soak
-def test_simready_finds_what_is_documented(assets, tmp_path):
-    listed, output = tmp_path / "assets.txt", tmp_path / "findings.json"
-    listed.write_text("".join(f"{file}\n" for file in assets.values()))
+def findings_of(files, folder):
+    """The codes of the requirements that each of some files misses."""
+    listed, output = folder / "assets.txt", folder / "findings.json"
+    listed.write_text("".join(f"{file}\n" for file in files))
     command = [VALIDATOR, "--profile", "Robotics-Prop", "--asset_list", listed, "--output", output]
     inherited = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    run = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False, env=inherited, cwd=tmp_path)
+    run = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False, env=inherited, cwd=folder)
     assert output.is_file(), run.stderr[-2000:]
+    assert json.loads(output.read_text())
     found = {}
     for part in run.stdout.split("Asset: ")[1:]:
         file, _, said = part.partition("\n")
-        found[Path(file.strip()).name.partition("_")[0]] = set(
-            re.findall(r"com\.nvidia\.simready\.([A-Z.]+\.\d+)", said)
-        )
+        found[Path(file.strip())] = set(re.findall(r"com\.nvidia\.simready\.([A-Z.]+\.\d+)", said))
+    return found
+
+
+@pytest.mark.soak
+def test_simready_finds_what_is_documented(assets, tmp_path):
+    named = findings_of(assets.values(), tmp_path)
+    found = {file.name.partition("_")[0]: findings for file, findings in named.items()}
     assert found.keys() == assets.keys()
-    assert json.loads(output.read_text())
     for kind, findings in found.items():
         assert findings - OF_SOME_ASSETS == OF_EVERY_ASSET, kind
     assert {kind for kind, findings in found.items() if "NVM.002" in findings} == {"Sky"}
     assert {kind for kind, findings in found.items() if "VM.TEX.003" in findings} == {"FloorStain"}
     text = (REPOSITORY / "docs" / "stage.md").read_text()
     assert all(f"| `{code}` |" in text for code in OF_EVERY_ASSET | OF_SOME_ASSETS)
+
+
+@pytest.mark.soak
+def test_simready_finds_of_a_garage_whose_z_points_up_what_is_documented(tmp_path):
+    config = garage2usd.GarageConfig(**{**SETTINGS, "stage": {"texture_quality": "low", "up_axis": "Z"}})
+    # as it asks, in a folder of its own within one that is named like the file
+    made = garage2usd.build(config, tmp_path / "garage" / "usd" / "garage.usdc")
+    found = set.union(*findings_of([made.stage], tmp_path).values())
+    assert found == OF_EVERY_STAGE | OF_SOME_ASSETS
+    text = (REPOSITORY / "docs" / "stage.md").read_text()
+    assert all(re.search(rf"^\| .*`{code}`.* \|", text, re.MULTILINE) for code in OF_EVERY_STAGE)
 
 
 def test_materials_and_display_colours_tell_what_things_are(assets):

@@ -29,6 +29,7 @@ ALL_KINDS = {
     "plan": {"episodes": 40},
     "fittings": {"speed_bump_rate": 1.0},
 }
+Z_UP = {**ALL_KINDS, "stage": {"up_axis": "Z"}}
 VARIED = {
     "site": {"structure": "...\nE=X\n...\n"},
     "parking": {"occupancy": 0.0, "occupied_stalls": ["Stall_r00_c01_1"]},
@@ -67,6 +68,12 @@ def nvidia_findings(asset, output, *options):
 def test_nvidia_validation_finds_nothing(sample, extension, builds, tmp_path):
     options = ["--no-variants", "--no-instance-prototypes"]
     assert nvidia_findings(builds(sample, extension).stage, tmp_path / "findings.csv", *options) == []
+
+
+def test_nvidia_validation_finds_nothing_in_a_garage_whose_z_points_up(tmp_path):
+    stage = build(GarageConfig(**Z_UP), tmp_path / "garage.usdc").stage
+    assert usd_findings(stage) == []
+    assert nvidia_findings(stage, tmp_path / "findings.csv", "--no-variants", "--no-instance-prototypes") == []
 
 
 @pytest.fixture(scope="module")

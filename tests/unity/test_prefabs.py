@@ -14,8 +14,10 @@ from pxr import Usd, UsdGeom, UsdPhysics, UsdShade
 from support.label_tables import labelled_objects
 from support.places import assert_same_places, place_of_part
 from support.sample_files import OBJECT_SAMPLES, SAMPLES
+from support.small_garage import SETTINGS
 from support.unity.layer import axes_of, from_usd, place_of, world_vertices
 
+from garage2usd import GarageConfig, build
 from garage2usd.assets.mesh import Collider
 from garage2usd.objects import KINDS
 from garage2usd.stage.labels import OBJECT_LABELS
@@ -96,6 +98,18 @@ def test_every_object_of_the_layout_stands_and_looks_as_it_should(imported, samp
         items = [item for item in prefab.labelled(OBJECT_LABELS[kind]) if not item["path"].endswith(INSTANCERS)]
         found = np.array([directed_object(item) for item in items]).reshape(-1, 6)
         assert_same_places(found, expected)
+
+
+def test_a_garage_whose_z_points_up_is_imported_as_any_other(imported, prefabs, tmp_path):
+    _, usual = imported(SMALL, "usda")
+    turned = GarageConfig(**{**SETTINGS, "stage": {**SETTINGS["stage"], "up_axis": "Z"}})
+    found = prefabs(build(turned, tmp_path / "small.usda").stage)
+    assert [item["path"] for item in found.objects] == [item["path"] for item in usual.objects]
+    for item, other in zip(found.objects, usual.objects, strict=True):
+        assert np.allclose(place_of(item), place_of(other), atol=1e-4), item["path"]
+        if "mesh" in item:
+            told, shown = world_vertices(usual, other), world_vertices(found, item)
+            assert np.allclose(shown, told, atol=1e-4), item["path"]
 
 
 @in_forms(("usda", None), ("usdc", "nested"), ("usdc", "flat"))

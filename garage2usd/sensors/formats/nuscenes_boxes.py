@@ -17,9 +17,6 @@ from garage2usd.sensors.rays.moved_scene import MovedScene
 from garage2usd.sensors.rays.point_cloud import PointCloud
 from garage2usd.sensors.rays.ray_scene import RayScene
 
-_FORWARD = {UsdGeom.Tokens.y: (0.0, 0.0, -1.0), UsdGeom.Tokens.z: (0.0, 1.0, 0.0)}
-"""Forward direction of objects in their own axes, by the up axis of their stage."""
-_UP = {UsdGeom.Tokens.y: (0.0, 1.0, 0.0), UsdGeom.Tokens.z: (0.0, 0.0, 1.0)}
 _SIGHT_RAYS = 256
 PARKED = "vehicle.parked"
 """nuScenes attribute of parked cars."""
@@ -94,9 +91,9 @@ def object_boxes(
 
     Notes
     -----
-    Objects look to -Z of their own axes where Y is up, as those of garage2usd do, and to Y where Z is up.
+    Objects look to -Z of their own axes where their Y is up, as those of garage2usd do, and to Y where their Z is up.
     """
-    up_axis = UsdGeom.GetStageUpAxis(stage)
+    up_axis = "XYZ".index(UsdGeom.GetStageUpAxis(stage))
     wanted = np.isin(scene.class_id, list(class_ids))
     numbers = np.flatnonzero(wanted & (scene.instance > 0))
     order = numbers[np.argsort(scene.instance[numbers], kind="stable")]
@@ -104,7 +101,8 @@ def object_boxes(
     boxes = []
     for instance, own in zip(ids.tolist(), np.split(order, first)[1:], strict=True):
         matrix = scene.placed[instance].matrix[:3, :3]
-        axes = _axes(np.array(_FORWARD[up_axis]) @ matrix, np.array(_UP[up_axis]) @ matrix)
+        is_y_up = abs(matrix[1, up_axis]) >= abs(matrix[2, up_axis])
+        axes = _axes(-matrix[2], matrix[1]) if is_y_up else _axes(matrix[1], matrix[2])
         corners = scene.vertices_m[scene.triangles[own]]
         turned = corners.reshape(-1, 3) @ axes
         low, high = turned.min(axis=0), turned.max(axis=0)
