@@ -15,7 +15,7 @@ from garage2usd.config.design import designed_settings
 from garage2usd.config.files import with_files, with_textures, without_files
 from garage2usd.config.fittings import ClutterConfig, FittingsConfig, ParkingConfig
 from garage2usd.config.look import LookConfig
-from garage2usd.config.outputs import MapsConfig, StageConfig
+from garage2usd.config.outputs import MapsConfig, StageConfig, UpAxis
 from garage2usd.config.own_cars import VehiclesConfig, read_own_cars
 from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import BayConfig, BuildingConfig, SiteConfig
@@ -163,6 +163,8 @@ class GarageConfig(Settings):
             excluded["bay"] = {"column_setback_m"}
         if all(getattr(self.plan, name) == PlanConfig.model_fields[name].default for name in _DIRECTIONS):
             excluded["plan"] = set(_DIRECTIONS)
+        if self.stage.up_axis is UpAxis.Y:
+            excluded["stage"] = {"up_axis"}
         if isinstance(self.profile, Profile):
             excluded["profile"] = {name for name in _LATER_CLAUSES if getattr(self.profile, name) is None}
         settings = self.model_dump(mode="json", exclude=excluded)
