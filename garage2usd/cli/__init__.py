@@ -38,14 +38,27 @@ refused or found wrong, also for a file that is missing; 2 for wrong usage; 3 wh
 except exports whose extra is not installed; else 0."""
 
 
+_GREETING = """garage2usd generates underground parking garages as OpenUSD stages. Three commands to begin with:
+
+  garage2usd build --like residential-de --open    # build a garage, and walk through it in the browser
+  garage2usd drive garage.usdz                     # prove that a car gets into each stall and out again
+  garage2usd export garage.usdz -o garage.glb      # the garage for programs without USD; also maps and scenarios
+
+`garage2usd --help` lists all commands, `garage2usd build --help` tells how one is used."""
+
+
 @click.group(
     cls=Commands,
+    invoke_without_command=True,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     epilog=_EXIT_CODES,
 )
 @click.version_option(VERSION, "-V", "--version", prog_name="garage2usd")
-def main() -> None:
+@click.pass_context
+def main(ctx: click.Context) -> None:
     """Generate underground parking garages and export them as OpenUSD stages."""
+    if ctx.invoked_subcommand is None:
+        click.echo(_GREETING)
 
 
 for _command in (

@@ -15,11 +15,13 @@ from garage2usd.cli.options import (
     echo_notices,
     echo_table,
     end_incomplete,
+    like_option,
     log_steps,
     output_option,
     profile_option,
     seed_option,
 )
+from garage2usd.cli.view import view
 from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -36,6 +38,7 @@ _COLUMNS_NAMED = 3
 
 @click.command(short_help="Build a garage and write it as a USD stage.")
 @click.argument("config", required=False, type=INPUT_FILE)
+@like_option
 @seed_option
 @profile_option("The standard to design to, in place of the configuration's")
 @click.option(
@@ -64,6 +67,9 @@ _COLUMNS_NAMED = 3
     type=click.IntRange(1, 4096),
     help="How many levels are planned and laid out at a time; one a core. The files do not depend on it.",
 )
+@click.option(
+    "--open", "is_opened", is_flag=True, help="Show the stage in the browser afterwards, as `garage2usd view` does."
+)
 @click.option("--verbose", is_flag=True, help="Say on stderr what each step decides and how long it takes.")
 @output_option(
     "The stage: .usda, .usdc or .usdz. Its folder is made; files of that name are replaced.", default="garage.usdz"
@@ -73,6 +79,7 @@ def build(
     ctx: click.Context,
     *,
     config: Path | None,
+    like: str | None,
     seed: int | None,
     profile: str | None,
     tape: str | None,
@@ -80,10 +87,11 @@ def build(
     best_plans: int,
     formats: str | None,
     jobs: int | None,
+    is_opened: bool,
     verbose: bool,
     output: Path,
 ) -> None:
-    """Build the garage of the configuration CONFIG (TOML), by default one that fills 7 x 9 squares.
+    """Build the garage of the configuration CONFIG (TOML), or one --like a usual garage; else one of 7 x 9 squares.
 
     Beside the stage, such as out/a.usda, the command writes a picture of the plan (out/a_plan.png; of several levels
     a_U1_plan.png and so on, and likewise the pictures that the options below ask for), a report
@@ -96,15 +104,22 @@ def build(
 
     \b
     Examples:
-      garage2usd build --seed 7 --output garage.usdz
+      garage2usd build --like residential-de --seed 7 --output garage.usdz
+      garage2usd build --like mall-cn --open
       garage2usd build samples/paper_7x9.toml -o out/paper.usda
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.common.system import cores  # noqa: PLC0415
     from garage2usd.config import GarageConfig, load_config, profile_setting  # noqa: PLC0415 - keeps --help instant
     from garage2usd.pipeline import build as build_garage  # noqa: PLC0415
 
+    if config and like:
+        raise click.UsageError("Give either a CONFIG or --like NAME.")
     if config:
         settings = load_config(config, profile=profile)
+    elif like:
+        from garage2usd.config.starting_points import starting_point  # noqa: PLC0415 - most builds have a configuration
+
+        settings = starting_point(like, profile=profile)
     else:
         settings = GarageConfig(**({} if profile is None else {"profile": profile_setting(profile)}))
     echo_notices(settings.remarks())
@@ -136,6 +151,8 @@ def build(
     _describe(made)
     echo_table(("export", str(file)) for file in exports)
     _say_replaced(earlier, made.stage, *made.pictures, made.report, made.labels, *exports)
+    if is_opened:
+        ctx.invoke(view, path=made.stage)
     end_incomplete(lacking)
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.options import INPUT_FILE, echo_notices, echo_table, output_option
+from garage2usd.cli.options import INPUT_FILE, echo_notices, echo_table, like_option, output_option
 from garage2usd.common.errors import DataSetError
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ _HEADS = ("quantity", "published", "data set", "distance")
 
 @click.command(short_help="Make a data set of many garages, or verify one.")
 @click.argument("recipe", required=False, type=INPUT_FILE)
+@like_option
 @output_option("Where the data set goes.", metavar="FOLDER", file_okay=False)
 @click.option("--count", metavar="N", type=click.IntRange(1), help="How many garages, in place of the recipe's count.")
 @click.option(
@@ -40,6 +41,7 @@ _HEADS = ("quantity", "published", "data set", "distance")
 def dataset(
     *,
     recipe: Path | None,
+    like: str | None,
     output: Path | None,
     count: int | None,
     workers: int | None,
@@ -48,7 +50,7 @@ def dataset(
     resume: bool,
     verify: Path | None,
 ) -> None:
-    """Generate the distinct garages of RECIPE (TOML), with a manifest and a data card.
+    """Generate the distinct garages of RECIPE (TOML), or some --like a usual garage, with a manifest and a data card.
 
     Plans are drawn first; a duplicate, also a rotated or reflected one, is drawn again. The command can be interrupted
     at any time and resumed by --resume. The same recipe gives the same bytes with any number of workers.
@@ -56,20 +58,21 @@ def dataset(
     \b
     Examples:
       garage2usd dataset samples/recipes/mixed.toml -o garages --count 1000
+      garage2usd dataset --like mall-cn --count 20 -o malls
       garage2usd dataset --verify garages
     """  # noqa: D301 - click's mark for a block that is not wrapped
     if verify is not None:
-        if recipe is not None or output is not None:
-            raise click.UsageError("Give --verify FOLDER alone, without a RECIPE and --output.")
+        if recipe is not None or like is not None or output is not None:
+            raise click.UsageError("Give --verify FOLDER alone, without a RECIPE, --like and --output.")
         _verify(verify, workers=workers, scheduler=scheduler)
         return
-    if recipe is None or output is None:
-        raise click.UsageError("Give a RECIPE and --output FOLDER, or --verify FOLDER.")
+    if (recipe is None) is (like is None) or output is None:
+        raise click.UsageError("Give a RECIPE or --like NAME, and --output FOLDER; or --verify FOLDER.")
     from garage2usd.datasets import load_recipe, make_dataset  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.datasets.recipe import folder_remarks  # noqa: PLC0415
+    from garage2usd.datasets.recipe import folder_remarks, recipe_like  # noqa: PLC0415
     from garage2usd.datasets.shards import empty_splits  # noqa: PLC0415
 
-    asked = load_recipe(recipe)
+    asked = load_recipe(recipe) if recipe else recipe_like(like or "")
     changed = asked.model_copy(
         update={
             **({} if count is None else {"count": count}),

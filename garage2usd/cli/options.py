@@ -66,6 +66,21 @@ def _is_of_usd(error: Exception) -> bool:
     return tf is not None and isinstance(error, (tf.ErrorException, UnicodeDecodeError))
 
 
+def _complete_starting_point(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    from garage2usd.config.starting_points import STARTING_POINTS  # noqa: PLC0415 - keeps --help instant
+
+    return [CompletionItem(name) for name in STARTING_POINTS if name.startswith(incomplete)]
+
+
+like_option = click.option(
+    "--like",
+    metavar="NAME",
+    shell_complete=_complete_starting_point,
+    help="A usual garage to start from: airport-us, mall-cn, office-uk or residential-de.",
+)
+"""Option for a starting point in place of a configuration or recipe."""
+
+
 def profile_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Option for the standard; `text` gives its purpose."""
     names = "cn-jgj100, de-garvo, uk-istructe, us-ada or a TOML file"

@@ -18,6 +18,7 @@ from garage2usd.common.randomness import Step, derived_seed
 from garage2usd.common.settings import Settings, validated
 from garage2usd.config import GarageConfig, config_from_mapping, profile_setting
 from garage2usd.config.files import FOLDERS
+from garage2usd.config.starting_points import varied_settings
 from garage2usd.datasets.difficulty import Level
 from garage2usd.datasets.distribution import Weight, distribution_of
 from garage2usd.datasets.drives import DrivesConfig
@@ -305,6 +306,17 @@ def load_recipe(path: str | Path) -> Recipe:
     recipe = validated(Recipe, settings)
     recipe.check()
     return recipe
+
+
+def recipe_like(name: str) -> Recipe:
+    """Return a recipe whose garages are like a starting point, each with a size and look of its own.
+
+    Raises
+    ------
+    ConfigError
+        If the name is not one of `garage2usd.config.starting_points.STARTING_POINTS`.
+    """
+    return validated(Recipe, {"name": name, "garage": varied_settings(name)})
 
 
 def folder_remarks(recipe: Recipe) -> tuple[str, ...]:

@@ -22,6 +22,7 @@ DATA_FILES = (
     "survey/*.toml",
     "config/*.toml",
     "config/markets/*.toml",
+    "config/starting_points/*.toml",
     "profiles/*.toml",
     "profiles/countries.json",
     "render/*.osl",
