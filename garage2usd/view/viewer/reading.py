@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from pxr import Usd
 
 from garage2usd.common.errors import StageError
+from garage2usd.reading.colliders import BOXES, HULLS, collider_of
 from garage2usd.reading.label_table import read_label_table
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.levels import levels_of
@@ -20,7 +21,7 @@ from garage2usd.scenes.looks import MeshLooks, Numbered
 from garage2usd.scenes.meshes import DRAWN_TYPES, Triangles
 from garage2usd.scenes.prims import Matrix, PlacedObject, once_for_each_look
 from garage2usd.scenes.remarks import Remarks
-from garage2usd.scenes.values import READ_AT, metres_per_unit, metres_y_up
+from garage2usd.scenes.values import metres_per_unit, metres_y_up
 from garage2usd.scenes.walk import placed_objects
 from garage2usd.view.viewer.scene import (
     UNLABELLED,
@@ -35,23 +36,11 @@ from garage2usd.view.viewer.scene import (
     moved,
 )
 
-_BOXES = frozenset({"boundingCube"})
-_HULLS = frozenset({"convexHull", "convexDecomposition", "boundingSphere"})
 _CREASE_COS = 0.99999
 _BOX_EDGES = [(a, b) for a in range(8) for b in range(a + 1, 8) if (a ^ b).bit_count() == 1]
 NOWHERE = DOMES | {"DistantLight"}
 """Types of lights without a position."""
 _FACTS = ("generator", "version", "seed", "configDigest", "structureDigest")
-
-
-def collider_of(prim: Usd.Prim) -> str:
-    """Collision shape of a prim, as UsdPhysics' token of approximation; empty for a prim without collision."""
-    if "PhysicsCollisionAPI" not in prim.GetAppliedSchemas():
-        return ""
-    enabled = prim.GetAttribute("physics:collisionEnabled").Get(READ_AT)
-    if enabled is False:
-        return ""
-    return str(prim.GetAttribute("physics:approximation").Get() or "none")
 
 
 def collider_lines(piece: Piece) -> NDArray[np.float32]:
@@ -67,11 +56,11 @@ def collider_lines(piece: Piece) -> NDArray[np.float32]:
 
 def _lines(mesh: Triangles, approximation: str) -> NDArray[np.float32]:
     points = mesh.positions_m
-    if approximation in _BOXES:
+    if approximation in BOXES:
         edges: NDArray[np.float32] = box_corners(points)[_BOX_EDGES].astype(np.float32)
         return edges
     triangles = mesh.indices.astype(np.int64)
-    if approximation in _HULLS:
+    if approximation in HULLS:
         from scipy.spatial import ConvexHull, QhullError  # noqa: PLC0415 - slow to import, and colliders are rarely shown
 
         with suppress(QhullError):  # flat points have no hull; their triangles are drawn instead
