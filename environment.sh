@@ -25,13 +25,16 @@ if ! "$python" -c 'import ensurepip, venv' 2>/dev/null; then
     need "$("$python" -c 'import sys; print(f"python{sys.version_info[0]}.{sys.version_info[1]}-venv")')"
 fi
 if [ "$goal" = test ]; then
-    # git for the tests' clean clone, a C# compiler, a browser for three.js, and what Blender's Python module and Open3D
-    # link against
+    # git for the tests' clean clone, a C# compiler, a browser for three.js, Gazebo's reader of worlds with a C++ compiler,
+    # and what Blender's Python module and Open3D link against
     command -v git >/dev/null || need git
     command -v mcs >/dev/null || need mono-mcs
     command -v mono >/dev/null || need mono-runtime
     command -v chromium >/dev/null || command -v chromium-browser >/dev/null || command -v google-chrome >/dev/null ||
         command -v google-chrome-stable >/dev/null || need chromium
+    command -v g++ >/dev/null || need g++
+    command -v pkg-config >/dev/null || need pkg-config
+    pkg-config --list-all 2>/dev/null | grep -q '^sdformat' || need libsdformat-dev
     for library in libGL.so.1:libgl1 libEGL.so.1:libegl1 libX11.so.6:libx11-6 libXrender.so.1:libxrender1 \
         libXi.so.6:libxi6 libXxf86vm.so.1:libxxf86vm1 libXfixes.so.3:libxfixes3 libxkbcommon.so.0:libxkbcommon0 \
         libSM.so.6:libsm6 libICE.so.6:libice6 libgomp.so.1:libgomp1 libusb-1.0.so.0:libusb-1.0-0; do

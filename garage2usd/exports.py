@@ -24,6 +24,7 @@ from garage2usd.maps.level_networks import LevelNetwork, level_networks
 from garage2usd.maps.occupancy import grid_files, write_grid
 from garage2usd.maps.opendrive import write_opendrive
 from garage2usd.maps.parked_cars import parked_cars
+from garage2usd.maps.sdf_files import check_meshes, sdf_files
 from garage2usd.maps.sumo import NETWORK_SUFFIX, write_parking_areas
 from garage2usd.pipeline import build
 from garage2usd.reading.files import STAGE_SUFFIXES
@@ -36,7 +37,7 @@ from garage2usd.scenes.values import metres_y_up
 from garage2usd.scenes.walk import placed_objects
 
 _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO, _GRID = ".json", ".glb", ".osm", ".xodr", ".xosc", ".yaml"
-_GEOJSON, _DRAWING = ".geojson", ".dxf"
+_GEOJSON, _DRAWING, _WORLD = ".geojson", ".dxf", ".sdf"
 _AREAS, _OPENSTREETMAP = _COMPOUND = ".add.xml", ".osm.xml"
 _OF_EXTRA = {
     _LANELET2: ("a Lanelet2 map", "pyproj"),
@@ -46,6 +47,8 @@ _OF_EXTRA = {
     _DRAWING: ("a drawing in DXF", "ezdxf"),
 }
 """Formats that need a module of an extra, with their description and that module, by extension."""
+_MAP_OF = {_SCENARIO: _MAP, _AREAS: _MAP, _WORLD: _GRID}
+"""Extensions of the maps that files of other formats name and bring with them."""
 Notice = Callable[[str], None]
 """Callback for a line on data that a format cannot represent."""
 
@@ -59,7 +62,7 @@ class _Source:
     def read_for(self, formats: Sequence[str]) -> None:
         """Read the data that several files need, so that forks of this process share it."""
         of_lanes = [suffix for suffix in formats if suffix != _SCENE]
-        if _SCENE in formats and of_lanes:
+        if {_SCENE, _WORLD} & {*formats} and of_lanes:
             _ = self.objects
         if len(of_lanes) > 1:
             for level in self.garage.levels:
@@ -124,6 +127,8 @@ class _Asked(NamedTuple):
         path = folder / self.place.name
         if self.format == _AREAS:
             return path, path.with_name(f"{_stem_of(path)}{NETWORK_SUFFIX}")
+        if self.format == _WORLD:
+            return sdf_files(path, joint=self.joint)
         if self.format != _GRID:
             return (path,)
         grids = [grid_files(grid, self.settings.grid, joint=self.joint) for grid in self.grids(folder)]
@@ -140,6 +145,13 @@ _Write = Callable[["_Source", Path, _Asked, Remarks], object]
 
 def _glb(source: _Source, path: Path, _asked: _Asked, remarks: Remarks) -> None:
     write_glb(source.stage, path, objects=source.objects, remarks=remarks)
+
+
+def _world(source: _Source, path: Path, asked: _Asked, remarks: Remarks) -> None:
+    from garage2usd.maps.sdf import write_sdf  # noqa: PLC0415 - slow to import, and other formats do without it
+
+    maps = [grid.name for grid in asked._replace(place=asked.place.with_name(asked.road_file)).grids(path.parent)]
+    write_sdf(source.garage, path, objects=source.objects, maps=maps, remarks=remarks, joint=asked.joint)
 
 
 def _opendrive(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
@@ -208,6 +220,7 @@ def _parking_areas(source: _Source, path: Path, asked: _Asked, remarks: Remarks)
 
 
 _WRITERS: dict[str, _Write] = {
+    _WORLD: _world,
     _SCENE: _glb,
     _SCENARIO: _scenario,
     _LANELET2: _lanelet2,
@@ -238,7 +251,7 @@ def _write(source: _Source, folder: Path, asked: _Asked) -> tuple[tuple[Path, ..
 
 EXPORT_SUFFIXES = tuple(sorted(_WRITERS))
 """Extensions of the files that `export` writes: SUMO's parking areas, DXF drawings, GeoJSON, GLB scenes, Lanelet2 maps,
-OpenStreetMap's XML, OpenDRIVE maps, OpenSCENARIO scenarios, and YAML files of occupancy grids."""
+OpenStreetMap's XML, SDF worlds, OpenDRIVE maps, OpenSCENARIO scenarios, and YAML files of occupancy grids."""
 
 
 def export(
@@ -261,7 +274,8 @@ def export(
         (``.json``), whose garage is rebuilt.
     outputs
         One or more files, whose extensions select the formats: ``.glb`` a scene as binary glTF 2.0, ``.osm`` a Lanelet2
-        map, ``.osm.xml`` OpenStreetMap's XML, ``.geojson`` GeoJSON, ``.dxf`` a drawing, ``.xodr`` an OpenDRIVE 1.8 map,
+        map, ``.osm.xml`` OpenStreetMap's XML, ``.geojson`` GeoJSON, ``.dxf`` a drawing, ``.sdf`` a world for Gazebo
+        (SDF 1.9) with its meshes, launch file and occupancy grid beside it, ``.xodr`` an OpenDRIVE 1.8 map,
         ``.xosc`` an OpenSCENARIO 1.2 scenario with a ``.xodr`` map of the same stem beside it, ``.yaml`` an occupancy
         grid for robots with its image (``.pgm``) and, depending on the settings, masks, for each level of a garage of
         several levels (``a_U1.yaml``), ``.add.xml`` the stalls as parking areas of SUMO, with the map that their
@@ -284,8 +298,8 @@ def export(
     Returns
     -------
     tuple of Path
-        All files, in the order of `outputs`; the map of a scenario or of parking areas follows it if it is not an
-        output itself. Either all files appear or none.
+        All files, in the order of `outputs`; the map of a scenario, of parking areas or of a world follows it if it is
+        not an output itself. Either all files appear or none.
 
     Raises
     ------
@@ -361,11 +375,15 @@ def check_exports(
 def _check_files(asked: Sequence[_Asked]) -> None:
     """Check that no two outputs write the same file, and that all can be written."""
     brought = [file for each in asked for file in each.files(each.place.parent)]
+    meshes = {each.files(each.place.parent)[-1] for each in asked if each.format == _WORLD}
     for number, file in enumerate(brought):
         if file in brought[:number]:
             raise ConfigError("output", str(file), "paths of which none is a file that another one brings with it")
         check_name(file)
-        check_file(file)
+        if file in meshes:
+            check_meshes(file)
+        else:
+            check_file(file)
 
 
 def check_formats(suffixes: Iterable[str]) -> None:
@@ -409,15 +427,16 @@ def _with_maps(places: Sequence[Path]) -> Iterator[Path]:
     brought: list[Path] = []
     for place in places:
         yield place
-        if _format_of(place) in {_SCENARIO, _AREAS} and _map_beside(place, [*places, *brought]) is None:
-            brought.append(place.with_name(f"{_stem_of(place)}{_MAP}"))
+        kind = _MAP_OF.get(_format_of(place))
+        if kind is not None and _map_beside(place, [*places, *brought]) is None:
+            brought.append(place.with_name(f"{_stem_of(place)}{kind}"))
             yield brought[-1]
 
 
 def _map_beside(place: Path, places: Sequence[Path]) -> Path | None:
-    """Return the path of the map with the same stem in the same folder."""
-    beside = place.parent, _stem_of(place)
-    return next((map_ for map_ in places if _format_of(map_) == _MAP and (map_.parent, map_.stem) == beside), None)
+    """Return the path of the map that a file names, with the same stem in the same folder."""
+    wanted = _MAP_OF.get(_format_of(place)), place.parent, _stem_of(place)
+    return next((map_ for map_ in places if (_format_of(map_), map_.parent, map_.stem) == wanted), None)
 
 
 def _format_of(path: Path) -> str:

@@ -13,9 +13,10 @@ from garage2usd.cli.options import INPUT_FILE, drive_options, echo_notices, echo
 @click.argument("path", type=INPUT_FILE)
 @output_option(
     "A file: .add.xml for the stalls as parking areas of SUMO with the map of their network beside it, .dxf for a "
-    "drawing, .geojson for GeoJSON, .glb for a scene, .osm for a Lanelet2 map, .osm.xml for OpenStreetMap, .xodr for "
-    "an OpenDRIVE map, .xosc for an OpenSCENARIO scenario with the map it names beside it, .yaml for a robot's "
-    "occupancy grid with its picture beside it, and the masks that maps.grid asks for; may be repeated.",
+    "drawing, .geojson for GeoJSON, .glb for a scene, .osm for a Lanelet2 map, .osm.xml for OpenStreetMap, .sdf for a "
+    "world of Gazebo with its meshes, launch file and occupancy grid beside it, .xodr for an OpenDRIVE map, .xosc for "
+    "an OpenSCENARIO scenario with the map it names beside it, .yaml for a robot's occupancy grid with its picture "
+    "beside it, and the masks that maps.grid asks for; may be repeated.",
     several=True,
     required=True,
 )
@@ -60,6 +61,7 @@ def export(
       garage2usd export garage.usdz -o garage.glb -o garage.xodr
       garage2usd export garage_report.json -o garage.glb -o garage.yaml
       garage2usd export garage.usdz -o garage.xosc --stall A1-08 --leg in
+      garage2usd export garage.usdz -o garage.sdf
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.common.system import cores  # noqa: PLC0415
     from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant

@@ -77,7 +77,7 @@ def write_glb(
     objects, lights and stalls are nodes below it.
     """
     remarks, file = Remarks() if remarks is None else remarks, stage.GetRootLayer().realPath
-    looks = _Looks(remarks)
+    looks = Looks(remarks)
     glb = GlbFile(looks.pictures, remarks)
     labels = labels or read_labels(stage, Path(file) if file else None)
     look_of = once_for_each_look(looks.of)
@@ -173,7 +173,7 @@ def _level_of(path: str, levels: Sequence[_Level]) -> _Level:
     return next(level for level in levels if level.has(path))
 
 
-def _parked(drawn: Sequence[tuple[PlacedObject, "_Look"]], levels: Sequence[_Level]) -> dict[str, Stall | None]:
+def _parked(drawn: Sequence[tuple[PlacedObject, "Look"]], levels: Sequence[_Level]) -> dict[str, Stall | None]:
     """Park the cars of each level in its stalls; return the stall of each car by its path."""
     homes: dict[str, Stall | None] = {}
     for level in levels:
@@ -187,7 +187,7 @@ def _parked(drawn: Sequence[tuple[PlacedObject, "_Look"]], levels: Sequence[_Lev
     return homes
 
 
-class _Look(NamedTuple):
+class Look(NamedTuple):
     """The drawable parts of an object: triangles, outline and lights.
 
     Attributes
@@ -217,7 +217,7 @@ class _Look(NamedTuple):
         return placed
 
 
-class _Looks:
+class Looks:
     """Reader of objects' drawable parts, which reads each mesh and surface of the stage once."""
 
     def __init__(self, remarks: Remarks) -> None:
@@ -230,7 +230,7 @@ class _Looks:
         self._joined = cache(joined)
         self._outline_of = cache(lambda triangles: _hull(triangles.positions_m[:, [0, 2]]))
 
-    def of(self, placed: PlacedObject) -> _Look:
+    def of(self, placed: PlacedObject) -> Look:
         """Return an object's look, one piece for each surface; faceted triangles, without normals, are separate."""
         alike: dict[tuple[int, bool, bool, bool], list[Triangles]] = {}
         surfaces = self._looks.surfaces.values
@@ -256,10 +256,10 @@ class _Looks:
         left_out += [(reason, part) for part in lights if (reason := why_left_out(part.prim, glows=glows))]
         lights = [part for part in lights if not why_left_out(part.prim, glows=glows)]
         if placed.label not in CAR_LABELS or not pieces:
-            return _Look(pieces, np.zeros((0, 3)), np.zeros((0, 3)), lights, left_out)
+            return Look(pieces, np.zeros((0, 3)), np.zeros((0, 3)), lights, left_out)
         points_m = np.concatenate([piece.triangles.positions_m for piece in pieces])
         outline = _hull(np.concatenate([self._outline_of(piece.triangles) for piece in pieces]))
-        return _Look(pieces, points_m, np.insert(outline, 1, 0.0, axis=1), lights, left_out)
+        return Look(pieces, points_m, np.insert(outline, 1, 0.0, axis=1), lights, left_out)
 
     def _placed(self, triangles: Triangles, matrix: Matrix) -> Triangles:
         """Transform a part's triangles to the space of its object."""

@@ -75,14 +75,18 @@ class GlbFile:
         Pictures of the textures.
     remarks
         Receives remarks on features that glTF lacks.
+    for_assimp
+        True for programs that read by assimp, such as Gazebo: texture coordinates are floats, since assimp takes
+        normalized integers for floats, and no two materials have one name, by which Gazebo keeps their images.
 
     Notes
     -----
     Names of keys are those of glTF 2.0 (ISO/IEC 12113:2022).
     """
 
-    def __init__(self, pictures: Pictures, remarks: Remarks) -> None:
+    def __init__(self, pictures: Pictures, remarks: Remarks, *, for_assimp: bool = False) -> None:
         """Create an empty file."""
+        self._for_assimp = for_assimp
         self._materials = Materials(pictures, remarks)
         self._numbers = _Numbers()
         self._nodes: list[dict[str, Any]] = []
@@ -140,7 +144,9 @@ class GlbFile:
         for name, array in own.named().items():
             if name in within:
                 attributes[name] = self._numbers.beginning(within[name], array, with_bounds=name == "POSITION")
-            elif name.startswith("TEXCOORD") and bool((array >= 0).all() and (array <= 1).all()):
+            elif (
+                name.startswith("TEXCOORD") and not self._for_assimp and bool((array >= 0).all() and (array <= 1).all())
+            ):
                 attributes[name] = self._numbers.shares(array)
             else:
                 attributes[name] = self._numbers.vectors(array, with_bounds=name == "POSITION")
@@ -228,6 +234,9 @@ class GlbFile:
         for image in materials.textures.images:
             view = self._numbers.image(image.data)
             images.append({"name": image.name, "mimeType": image.kind, "bufferView": view})
+        if self._for_assimp:
+            for number, material in enumerate(materials.materials, 1):
+                material["name"] = f"{number:03d}_{material.get('name', '')}"
         buffer, places = self._numbers.buffer(), places_of(np.array(self._matrices))
         document = {
             "asset": {"version": "2.0", "generator": f"garage2usd {VERSION}"},

@@ -1,6 +1,7 @@
 """`garage2usd export`, `build --with` and `garage2usd.export`."""
 
 import json
+import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
@@ -136,6 +137,19 @@ def test_masks_keep_robots_off_hatched_ground_and_slow_on_ramps(made):
     assert set(np.unique(speed.cells)) == {0, 30, 50}
 
 
+def test_a_world_names_the_grid_that_is_asked_for_and_spares_folders_of_others(made, tmp_path):
+    files = garage2usd.export(made / "g.usdc", [tmp_path / "a b.yaml", tmp_path / "a b.SDF"])
+    names = ["a b.yaml", "a b.pgm", "a b.SDF", "a b.launch.py", "a b_meshes"]
+    assert [file.name for file in files] == names == [file.name for file in files if file.exists()]
+    assert "'Garage': 'a b.yaml'," in files[3].read_text()
+    assert all((tmp_path / uri).is_file() for uri in set(re.findall("<uri>(.*)</uri>", files[2].read_text())))
+    (tmp_path / "c_meshes").mkdir()
+    (tmp_path / "c_meshes" / "mine.stl").touch()
+    with pytest.raises(ConfigError, match="nothing stands but the meshes of an earlier export"):
+        garage2usd.export(made / "g.usdc", [tmp_path / "c.sdf"])
+    assert [file.name for file in (tmp_path / "c_meshes").iterdir()] == ["mine.stl"]
+
+
 def test_a_mask_does_not_take_the_place_of_another_map(made, tmp_path):
     settings = garage2usd.load_config(made / "g.toml").maps
     outputs = [tmp_path / "out" / "g.yaml", tmp_path / "out" / "g_speed.yaml"]
@@ -173,10 +187,15 @@ def test_an_edited_stage_is_exported_as_it_stands(made, tmp_path):
 @pytest.mark.parametrize(
     ("source", "outputs", "error", "said"),
     [
-        ("g.usdc", ["a.glb", "b.foo"], ConfigError, ".glb, .osm, .osm.xml, .xodr, .xosc, .yaml"),
-        ("g.usdc", [".glb"], ConfigError, ".add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml"),
-        ("g.usdc", [".add.xml"], ConfigError, ".add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml"),
-        ("g.usdc", ["a.xml"], ConfigError, ".add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml"),
+        ("g.usdc", ["a.glb", "b.foo"], ConfigError, ".glb, .osm, .osm.xml, .sdf, .xodr, .xosc, .yaml"),
+        ("g.usdc", [".glb"], ConfigError, ".add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .sdf, .xodr, .xosc, .yaml"),
+        (
+            "g.usdc",
+            [".add.xml"],
+            ConfigError,
+            ".add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .sdf, .xodr, .xosc, .yaml",
+        ),
+        ("g.usdc", ["a.xml"], ConfigError, ".add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .sdf, .xodr, .xosc, .yaml"),
         ("g.usdc", ["a.add.xml", "a.add.xml"], ConfigError, "each file once"),
         ("g.usdc", ["a.glb", "a.glb"], ConfigError, "each file once"),
         ("g.usdc", [], ConfigError, "one or more"),
@@ -188,6 +207,7 @@ def test_an_edited_stage_is_exported_as_it_stands(made, tmp_path):
         ("empty.usda", ["b.osm"], StageError, "lane graph"),
         ("empty.usda", ["b.xodr"], StageError, "lane graph"),
         ("empty.usda", ["b.add.xml"], StageError, "lane graph"),
+        ("empty.usda", ["b.sdf"], StageError, "nothing in it can be drawn"),
     ],
 )
 def test_what_cannot_be_exported_leaves_no_file(made, tmp_path, source, outputs, error, said):
@@ -203,7 +223,8 @@ def test_build_refuses_formats_before_it_works(tmp_path):
     run = CliRunner().invoke(main, ["build", "--with", "glb,ifc", "-o", str(tmp_path / "g.usdz")])
     assert run.exit_code == 2
     assert (
-        "allowed: a path that ends in .add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml" in run.output
+        "allowed: a path that ends in .add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .sdf, .xodr, .xosc, .yaml"
+        in run.output
     )
     assert not list(tmp_path.iterdir())
 
