@@ -126,6 +126,27 @@ def _sections(thing: Thing, low_m: float, high_m: float) -> Iterator[shapely.Geo
         yield from (part.convex_hull for part in shapely.get_parts(joined))
 
 
+def occupancy(level: BuiltLevel, grid: GridConfig) -> tuple[NDArray[np.int8], tuple[float, float]]:
+    """Return the cells of `write_grid` as ROS has them, and the lower left corner (x, y) of the grid.
+
+    Cells are int8, shape (rows, columns), the lowest row first: 0 if free, 100 if occupied, -1 if unknown. Raises as
+    `write_grid`.
+    """
+    cells, raster = _occupancy(level, grid)
+    values = np.full(256, -1, dtype=np.int8)
+    values[_FREE], values[_OCCUPIED] = 0, 100
+    return values[cells[::-1]], raster.origin_m
+
+
+def _occupancy(level: BuiltLevel, grid: GridConfig) -> tuple[NDArray[np.uint8], "_Raster"]:
+    floor = floor_of(level)
+    raster = _Raster.around(floor, grid.resolution_m)
+    cells = np.full(raster.shape, _UNKNOWN, dtype=np.uint8)
+    raster.fill(cells, floor, _FREE)
+    raster.fill(cells, _thickened(occupied_ground(level, grid.low_m, grid.high_m), grid.resolution_m), _OCCUPIED)
+    return cells, raster
+
+
 def grid_files(path: Path, grid: GridConfig, *, joint: str = "_") -> tuple[Path, ...]:
     """Return the files of `write_grid`, each YAML file before its picture."""
     masks = [name for name, is_asked in ((_KEEP_OUT_MASK, grid.keepout), (_SPEED_MASK, grid.speed)) if is_asked]
@@ -172,12 +193,7 @@ def write_grid(level: BuiltLevel, path: Path, grid: GridConfig, *, joint: str = 
     The masks have the mode raw, in which a grey is the value itself: 100 keeps out, and a speed is a percentage of the
     robot's own, 0 without a limit (filter type 1 with a base of 0 and a multiplier of 1).
     """
-    floor = floor_of(level)
-    raster = _Raster.around(floor, grid.resolution_m)
-    cells = np.full(raster.shape, _UNKNOWN, dtype=np.uint8)
-    raster.fill(cells, floor, _FREE)
-    thin = _thickened(occupied_ground(level, grid.low_m, grid.high_m), grid.resolution_m)
-    raster.fill(cells, thin, _OCCUPIED)
+    cells, raster = _occupancy(level, grid)
     _write(path, cells, raster, "trinary")
     if grid.keepout:
         mask = np.zeros(raster.shape, dtype=np.uint8)

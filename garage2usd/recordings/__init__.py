@@ -211,7 +211,7 @@ def record(  # noqa: PLR0915 - all steps of a recording, in order
             made.append(finished / POINTS_FOLDER)
         if sweeps is not None:
             whole = _recording(scene, sweeps, path, finished, kinds)
-            made += _write_sequences(asked, whole, finished, sweeps, work, progress)
+            made += _write_sequences(asked, whole, finished, sweeps, work, progress, announce)
         table = write_frames(
             finished / "frames.json",
             [(view, seen, []) for view, seen in zip(views, visible, strict=True)],
@@ -344,11 +344,12 @@ def _write_sequences(
     sweeps: "Sweeps",
     work: Path,
     progress: Progress,
+    announce: Announce,
 ) -> Iterator[Path]:
     for kind in Sequence:
         if kind in asked:
             progress(kind.value, 0, 1)
-            yield write_sequence(kind, recording, finished, sweeps, work)
+            yield from write_sequence(kind, recording, finished, sweeps, work, announce)
             progress(kind.value, 1, 1)
 
 

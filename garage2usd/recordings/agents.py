@@ -15,6 +15,7 @@ from garage2usd.driving.tracks import AgentClass, AgentState, Floats, Track, Tra
 from garage2usd.objects.car import car_spec
 from garage2usd.objects.trolley import TrolleySpec
 from garage2usd.reading.labels import Labels
+from garage2usd.sensors.formats.ros_scene import MarkedAgent
 from garage2usd.sensors.rig.poses import CAR_FROM_VEHICLE, Matrix, Twist, VehiclePose, car_to_y_up
 from garage2usd.stage.agent_models import CARS, body_of
 from garage2usd.stage.ego_car import AGENTS_PATH, RestingAgent
@@ -208,6 +209,19 @@ class Agents:
         states = [[self._state(owner, pose, to_stage) for owner, _ in self.shown(pose).values()]
                   for pose in range(len(self._times_s))]  # fmt: skip
         return {"source": self.tracks.source, "ego": self._ego, "agents": agents, "states": states}
+
+    def marked(self, to_stage: Matrix) -> list[list[MarkedAgent]]:
+        """Return the agents at each pose, in the stage's axes."""
+        return [
+            [self._marked(owner, float(time_s), to_stage) for owner, _ in self.shown(pose).values()]
+            for pose, time_s in enumerate(self._times_s)
+        ]
+
+    def _marked(self, owner: int, time_s: float, to_stage: Matrix) -> MarkedAgent:
+        agent = self._others[owner].agent
+        to_world = to_stage @ self.places(owner, np.array([time_s]))[0] @ CAR_FROM_VEHICLE
+        size_m = agent.length_m, agent.width_m, agent.height_m
+        return MarkedAgent(self._ids[owner], agent.name, agent.kind.value, size_m, to_world)
 
     def _state(self, owner: int, pose: int, to_stage: Matrix) -> dict[str, object]:
         time_s = float(self._times_s[pose])

@@ -2,15 +2,20 @@
 
 import shutil
 from collections.abc import Collection
+from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from garage2usd.common.errors import ConfigError
+from garage2usd.common.errors import ConfigError, StageError
+from garage2usd.common.progress import Announce
+from garage2usd.config.outputs import GridConfig
+from garage2usd.maps.occupancy import occupancy
 from garage2usd.render.pictures import Picture
 from garage2usd.sensors.formats.recording import Recording
+from garage2usd.sensors.formats.ros_scene import GridMap, write_views
 from garage2usd.sensors.rays.point_cloud import CloudFormat
 from garage2usd.sensors.rig.around_view_camera import AroundViewCamera
 from garage2usd.sensors.rig.poses import MAP_TO_Y_UP, y_up_to_stage
@@ -58,7 +63,9 @@ def check_sequences(
             raise ConfigError("rig", away[0], "sensors on the vehicle, for nuScenes")
 
 
-def write_sequence(kind: Sequence, recording: Recording, folder: Path, sweeps: "Sweeps", work: Path) -> Path:
+def write_sequence(
+    kind: Sequence, recording: Recording, folder: Path, sweeps: "Sweeps", work: Path, announce: Announce
+) -> list[Path]:
     """Write a recording in a sequence format: nuScenes tables or a ROS 2 bag.
 
     Parameters
@@ -73,6 +80,13 @@ def write_sequence(kind: Sequence, recording: Recording, folder: Path, sweeps: "
         Sweeps of the LiDARs, and the surfaces that they hit.
     work
         Folder for temporary files.
+    announce
+        Receives a line on what is left out.
+
+    Returns
+    -------
+    list of Path
+        The folder, and files beside it.
     """
     place = folder / kind
     shutil.rmtree(place, ignore_errors=True)
@@ -88,8 +102,26 @@ def write_sequence(kind: Sequence, recording: Recording, folder: Path, sweeps: "
             scene=sweeps.solids,
             traffic=sweeps.traffic_at(work),
         )
-    else:
-        from garage2usd.sensors.formats.ros_bag import write_ros_bag  # noqa: PLC0415 - as above
+        return [place]
+    from garage2usd.sensors.formats.ros_bag import write_ros_bag  # noqa: PLC0415 - as above
 
-        write_ros_bag(recording, place, stage_to_map=np.linalg.inv(y_up_to_stage(sweeps.stage) @ MAP_TO_Y_UP))
-    return place
+    maps, agents = _maps(sweeps, announce), sweeps.marked_agents()
+    stage_to_map = np.linalg.inv(y_up_to_stage(sweeps.stage) @ MAP_TO_Y_UP)
+    write_ros_bag(recording, place, stage_to_map=stage_to_map, maps=maps, agents=agents)
+    sensors = {shot.sensor.name: shot.sensor for shot in recording.shots}
+    return [place, *write_views(place, sensors.values(), maps, has_agents=bool(agents))]
+
+
+def _maps(sweeps: "Sweeps", announce: Announce) -> list[GridMap]:
+    """Return the occupancy grid of each level, without the cars that are gone or move."""
+    found, grid, without = [], GridConfig(), {*sweeps.left_out}
+    for level in sweeps.garage.levels:
+        things = tuple(thing for thing in level.things if level.place.path_in_whole(thing.name) not in without)
+        try:
+            cells, (x, y) = occupancy(replace(level, things=things), grid)
+        except (ConfigError, StageError) as error:
+            announce(f"ros2: {level.place.after('map', joint='_')} is left out: {error}")
+            continue
+        topic = f"/{level.place.after('map', joint='_')}"
+        found.append(GridMap(topic, cells, grid.resolution_m, (x, y, level.place.floor_m)))
+    return found

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from pxr import Usd
 
+from garage2usd.as_built import BuiltGarage
 from garage2usd.common.progress import Progress
 from garage2usd.driving.tracks import AgentClass, AgentState, Floats
 from garage2usd.reading.files import open_stage
@@ -18,6 +19,7 @@ from garage2usd.recordings.scene import POINTS_FOLDER
 from garage2usd.recordings.way import Way
 from garage2usd.sensors.formats.nuscenes_boxes import ATTRIBUTES, ObjectBox, spread_points
 from garage2usd.sensors.formats.recording import Shot
+from garage2usd.sensors.formats.ros_scene import MarkedAgent
 from garage2usd.sensors.rays.lidar import measure, ray_times_s
 from garage2usd.sensors.rays.moved_scene import MovedScene, joined
 from garage2usd.sensors.rays.point_cloud import CloudFormat, PointCloud, write_cloud
@@ -61,6 +63,20 @@ class Sweeps:
         places, lidars = len(self._way.poses), ", ".join(lidar.name for lidar in self._rig.lidars)
         count = places * len(self._rig.lidars)
         return f"{count} sweep{'s' if count > 1 else ''} of {lidars}: {', '.join(self._formats)}"
+
+    @property
+    def garage(self) -> BuiltGarage:
+        """The garage."""
+        return self._way.garage
+
+    @property
+    def left_out(self) -> list[str]:
+        """Paths of the parked cars that are not there, or move."""
+        return self._way.left_out
+
+    def marked_agents(self) -> list[list[MarkedAgent]]:
+        """Return the agents of the traffic at each pose; nothing without traffic."""
+        return [] if self._way.agents is None else self._way.agents.marked(self._way.to_stage)
 
     @cached_property
     def solids(self) -> RayScene:

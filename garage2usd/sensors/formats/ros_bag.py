@@ -1,4 +1,4 @@
-"""ROS 2 bags of recordings: pictures with calibration, point clouds, and transforms of vehicle and sensors."""
+"""ROS 2 bags of recordings: pictures, calibrations, points, transforms, maps, and markers of agents."""
 
 from collections.abc import Mapping, Sequence
 from itertools import groupby
@@ -7,11 +7,12 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from garage2usd.common.errors import ConfigError
 from garage2usd.common.package import of_extra
 from garage2usd.sensors.formats.recording import Recording, Shot
+from garage2usd.sensors.formats.ros_messages import MAP, Messages
+from garage2usd.sensors.formats.ros_scene import GridMap, MarkedAgent
 from garage2usd.sensors.rays.lenses import KannalaBrandt, Pinhole
 from garage2usd.sensors.rays.point_cloud import POINT_ROW, PointCloud, point_rows, read_npz
 from garage2usd.sensors.rig.sensors import Camera, Sensor
@@ -19,11 +20,10 @@ from garage2usd.sensors.rig.sensors import Camera, Sensor
 with of_extra("a ROS 2 bag"):
     from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
     from rosbags.rosbag2 import StoragePlugin, Writer
-    from rosbags.typesys import Stores, get_typestore
 
 _VERSION: Literal[8] = 8
 """Version of the metadata: the newest that ROS 2 Humble and Iron read; from 9 on QoS profiles are not text."""
-_MAP, _VEHICLE = "map", "base_link"
+_VEHICLE = "base_link"
 _BEGINS_S = 946_684_800
 """First stamp, 1 January 2000; tf2 would take a stamp of 0 for the latest transform."""
 _NANOSECONDS = 1_000_000_000
@@ -38,13 +38,24 @@ _KEPT = Qos(
     QosTime(0, 0),
     avoid_ros_namespace_conventions=False,
 )
-"""Quality of service of /tf_static: late subscribers receive the last message too."""
+"""Quality of service of /tf_static and maps: late subscribers receive the last message too."""
 _TYPE_OF = {"f": {4: 7}, "u": {1: 2, 2: 4, 4: 6}}
 """Data types of sensor_msgs/PointField, by NumPy kind and item size."""
 _NO_MODEL: Mapping[str, Any] = {"distortion_model": "", "d": np.zeros(0), "k": np.zeros(9), "p": np.zeros(12)}
 
 
-def write_ros_bag(recording: Recording, folder: Path, *, stage_to_map: NDArray[np.float64]) -> None:
+_TIMED_ROW = np.dtype([*((name, POINT_ROW[name]) for name in POINT_ROW.names or ()), ("time", "<f4")])
+"""Record of a point in a bag: that of all files, and its time after that of the message in seconds."""
+
+
+def write_ros_bag(
+    recording: Recording,
+    folder: Path,
+    *,
+    stage_to_map: NDArray[np.float64],
+    maps: Sequence[GridMap] = (),
+    agents: Sequence[Sequence[MarkedAgent]] = (),
+) -> None:
     """Write a recording as a ROS 2 bag in MCAP.
 
     Parameters
@@ -55,6 +66,10 @@ def write_ros_bag(recording: Recording, folder: Path, *, stage_to_map: NDArray[n
         Folder of the new bag.
     stage_to_map
         Transform from the stage's axes in metres to the frame ``map``, whose z is up; shape (4, 4).
+    maps
+        Occupancy grids, each for a topic of its own.
+    agents
+        Agents around the vehicle at each pose.
 
     Raises
     ------
@@ -67,7 +82,9 @@ def write_ros_bag(recording: Recording, folder: Path, *, stage_to_map: NDArray[n
     holds the pose of ``base_link``, the middle of the rear axle on the ground, in the frame ``map``. ``/tf_static``
     holds the poses of the sensors on ``base_link``, or on the map if they are not mounted on the vehicle. Cameras have
     optical frames (REP 103). Stamps start at 1 January 2000. ROS has no model for WoodScape's polynomial: K is zero
-    then, which marks an uncalibrated camera.
+    then, which marks an uncalibrated camera. Fields of points are those of `POINT_ROW` and ``time``, in seconds after
+    the message's stamp. Maps are latched. ``/agents`` has a box and a name for each agent, whose id it keeps as
+    long as it is there, and ``/tf`` its pose, by the middle of its footprint.
     """
     shots = [shot for shot in recording.shots if shot.files.keys() & {"colour", "npz"}]
     if not shots:
@@ -75,8 +92,12 @@ def write_ros_bag(recording: Recording, folder: Path, *, stage_to_map: NDArray[n
     with Writer(folder, version=_VERSION, storage_plugin=StoragePlugin.MCAP) as writer:
         bag = _Bag(writer, _names([shot.sensor for shot in shots]))
         bag.add_sensors(shots, stage_to_map)
-        for _, at_once in groupby(shots, key=lambda shot: (shot.pose, shot.time_s)):
+        for grid in maps:
+            bag.add_map(grid, shots[0])
+        for (pose, _), at_once in groupby(shots, key=lambda shot: (shot.pose, shot.time_s)):
             group = list(at_once)
+            if agents:
+                bag.add_agents(agents[pose], group[0], stage_to_map)
             bag.add_vehicle([shot for shot in group if shot.sensor.mount == "vehicle"], stage_to_map)
             for shot in group:
                 bag.add_shot(shot)
@@ -96,8 +117,9 @@ class _Bag:
 
     def __init__(self, writer: Writer, names: Mapping[str, str]) -> None:
         self._writer, self._names = writer, names
-        self._store = get_typestore(Stores.ROS2_JAZZY)
+        self._messages = Messages()
         self._connections: dict[str, Any] = {}
+        self._shown: dict[int, str] = {}
 
     def add_sensors(self, shots: Sequence[Shot], stage_to_map: NDArray[np.float64]) -> None:
         """Add the static transforms of the sensors to the bag."""
@@ -105,23 +127,41 @@ class _Bag:
         for shot in {shot.sensor.name: shot for shot in shots}.values():
             place, parent = shot.sensor.sensor_to_vehicle, _VEHICLE
             if shot.sensor.mount != "vehicle":
-                place, parent = stage_to_map @ shot.mount_to_world @ place, _MAP
-            transforms.append(self._transform(shots[0], parent, self._names[shot.sensor.name], place))
-        self._write("/tf_static", self._make("tf2_msgs/msg/TFMessage", transforms=transforms), shots[0], [_KEPT])
+                place, parent = stage_to_map @ shot.mount_to_world @ place, MAP
+            transforms.append(self._messages.transform(_stamp(shots[0]), parent, self._names[shot.sensor.name], place))
+        self._write("/tf_static", self._messages.transforms(transforms), shots[0], [_KEPT])
 
     def add_vehicle(self, shots: Sequence[Shot], stage_to_map: NDArray[np.float64]) -> None:
         """Add the vehicle's transforms to the bag."""
         if shots:
-            place = self._transform(shots[0], _MAP, _VEHICLE, stage_to_map @ shots[0].mount_to_world)
-            self._write("/tf", self._make("tf2_msgs/msg/TFMessage", transforms=[place]), shots[0])
+            place = self._messages.transform(_stamp(shots[0]), MAP, _VEHICLE, stage_to_map @ shots[0].mount_to_world)
+            self._write("/tf", self._messages.transforms([place]), shots[0])
+
+    def add_map(self, grid: GridMap, first: Shot) -> None:
+        """Add an occupancy grid to the bag, with the stamp of a shot."""
+        self._write(grid.topic, self._messages.occupancy_grid(_stamp(first), grid), first, [_KEPT])
+
+    def add_agents(self, agents: Sequence[MarkedAgent], shot: Shot, stage_to_map: NDArray[np.float64]) -> None:
+        """Add the poses of agents to the bag, and their markers; those of agents that have left are removed."""
+        placed = [(agent, stage_to_map @ agent.agent_to_stage) for agent in agents]
+        there = {agent.number: agent.label for agent in agents}
+        gone = [pair for pair in self._shown.items() if pair[0] not in there]
+        self._shown = there
+        self._write("/agents", self._messages.markers(_stamp(shot), placed, gone), shot)
+        if placed:
+            places = [self._messages.transform(_stamp(shot), MAP, agent.name, place) for agent, place in placed]
+            self._write("/tf", self._messages.transforms(places), shot)
 
     def add_shot(self, shot: Shot) -> None:
         """Add a sensor's shot to the bag."""
         name = self._names[shot.sensor.name]
         if isinstance(shot.sensor, Camera) and "colour" in shot.files:
             data = np.frombuffer(shot.files["colour"].read_bytes(), dtype=np.uint8)
-            picture = self._make(
-                "sensor_msgs/msg/CompressedImage", header=self._header(shot, name), format="png", data=data
+            picture = self._messages.make(
+                "sensor_msgs/msg/CompressedImage",
+                header=self._messages.header(_stamp(shot), name),
+                format="png",
+                data=data,
             )
             self._write(f"/{name}/image_raw/compressed", picture, shot)
             self._write(f"/{name}/camera_info", self._calibration(shot, shot.sensor, name), shot)
@@ -130,12 +170,12 @@ class _Bag:
 
     def _calibration(self, shot: Shot, camera: Camera, frame: str) -> object:
         width, height = camera.size_px
-        region = self._make(
+        region = self._messages.make(
             "sensor_msgs/msg/RegionOfInterest", x_offset=0, y_offset=0, height=0, width=0, do_rectify=False
         )
-        return self._make(
+        return self._messages.make(
             "sensor_msgs/msg/CameraInfo",
-            header=self._header(shot, frame),
+            header=self._messages.header(_stamp(shot), frame),
             height=height,
             width=width,
             r=np.eye(3).ravel(),
@@ -146,20 +186,25 @@ class _Bag:
         )
 
     def _points(self, shot: Shot, cloud: PointCloud, frame: str) -> object:
-        rows = point_rows(cloud)
+        rows = np.zeros(len(cloud), dtype=_TIMED_ROW)
+        plain = point_rows(cloud)
+        for name in plain.dtype.names or ():
+            rows[name] = plain[name]
+        if cloud.time_s is not None:
+            rows["time"] = cloud.time_s
         fields = [
-            self._make(
+            self._messages.make(
                 "sensor_msgs/msg/PointField",
                 name=name,
                 offset=offset,
                 datatype=_TYPE_OF[dtype.kind][dtype.itemsize],
                 count=1,
             )
-            for name, (dtype, offset, *_) in (POINT_ROW.fields or {}).items()
+            for name, (dtype, offset, *_) in (_TIMED_ROW.fields or {}).items()
         ]
-        return self._make(
+        return self._messages.make(
             "sensor_msgs/msg/PointCloud2",
-            header=self._header(shot, frame),
+            header=self._messages.header(_stamp(shot), frame),
             height=1,
             width=len(rows),
             fields=fields,
@@ -170,31 +215,13 @@ class _Bag:
             is_dense=True,
         )
 
-    def _transform(self, shot: Shot, parent: str, child: str, place: NDArray[np.float64]) -> object:
-        move, turn = place[:3, 3].tolist(), Rotation.from_matrix(place[:3, :3]).as_quat(canonical=True).tolist()
-        vector = self._make("geometry_msgs/msg/Vector3", **dict(zip("xyz", move, strict=True)))
-        quaternion = self._make("geometry_msgs/msg/Quaternion", **dict(zip("xyzw", turn, strict=True)))
-        transform = self._make("geometry_msgs/msg/Transform", translation=vector, rotation=quaternion)
-        header = self._header(shot, parent)
-        return self._make(
-            "geometry_msgs/msg/TransformStamped", header=header, child_frame_id=child, transform=transform
-        )
-
-    def _header(self, shot: Shot, frame: str) -> object:
-        seconds, nanoseconds = divmod(_stamp(shot), _NANOSECONDS)
-        stamp = self._make("builtin_interfaces/msg/Time", sec=seconds, nanosec=nanoseconds)
-        return self._make("std_msgs/msg/Header", stamp=stamp, frame_id=frame)
-
-    def _make(self, kind: str, **fields: Any) -> Any:  # noqa: ANN401 - a class that is made of its definition
-        return self._store.types[kind](**fields)
-
     def _write(self, topic: str, message: Any, shot: Shot, qos: Sequence[Qos] = ()) -> None:  # noqa: ANN401 - as above
         kind = message.__msgtype__
         if topic not in self._connections:
             self._connections[topic] = self._writer.add_connection(
-                topic, kind, typestore=self._store, offered_qos_profiles=qos
+                topic, kind, typestore=self._messages.store, offered_qos_profiles=qos
             )
-        self._writer.write(self._connections[topic], _stamp(shot), self._store.serialize_cdr(message, kind))
+        self._writer.write(self._connections[topic], _stamp(shot), self._messages.store.serialize_cdr(message, kind))
 
 
 def _stamp(shot: Shot) -> int:

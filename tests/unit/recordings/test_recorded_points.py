@@ -262,7 +262,7 @@ def test_a_drive_is_a_bag_and_tables(small, tmp_path):
 
     with AnyReader([tmp_path / "out" / "ros2"]) as reader:
         counts = {connection.topic: connection.msgcount for connection in reader.connections}
-    assert counts == {"/tf_static": 1, "/tf": shots, "/top/points": shots}
+    assert counts == {"/tf_static": 1, "/map": 1, "/tf": shots, "/top/points": shots}
 
 
 @pytest.mark.parametrize(("missing", "named"), [("embreex", "needs embreex"), ("rosbags", "needs rosbags")])
