@@ -25,6 +25,8 @@ _FLAT_M = 1e-3
 _NEAR_M, _NEAR_SHARE = 0.025, 0.1
 """Greatest distance of a convex hull's surface from that of its box or cylinder: in metres, and as a share of its least
 size. Chamfers of columns and shoulders of tyres come to 2 cm."""
+_THINNEST_M = 1e-3
+"""Least side of a box: engines take no flat ones."""
 _DIRECTIONS = 1000
 _DIGITS = 6
 _STL = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -189,7 +191,7 @@ def _box(points: Floats) -> Shape:
     low, high = points.min(axis=0), points.max(axis=0)
     place = np.eye(4)
     place[:3, 3] = (low + high) / 2
-    return Shape("box", _rounded(high - low), place=place)
+    return Shape("box", _rounded(np.maximum(high - low, _THINNEST_M)), place=place)
 
 
 def _simple(points: Floats, volume_m3: float) -> Shape | None:

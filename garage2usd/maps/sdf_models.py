@@ -84,7 +84,9 @@ class Visuals:
         to_model = np.linalg.inv(model.place) @ Z_UP
         for placed in model.objects:
             look = self._look(placed)
-            if look.pieces:
+            if look.pieces and not are_rigid(placed.matrix[None])[0]:  # a visual has no such place
+                yield self._add(f"{model.name}_{self.count}", self._joined([placed]), to_model)
+            elif look.pieces:
                 mesh = self.glb.add_mesh(look.pieces, name=placed.path.rpartition("/")[2])
                 if mesh not in self._node_of:
                     self._node_of[mesh] = self._add(f"Look_{len(self._node_of) + 1}", look.pieces, Z_UP).node

@@ -11,6 +11,7 @@ import shapely
 import trimesh
 from pxr import Usd, UsdGeom, UsdPhysics
 from support.glb_reader import Glb
+from support.gltf_validator import find_node, find_validator, validated
 from support.label_tables import labelled_objects
 from support.launch_files import launched, run
 from support.sample_files import LEVELS_SAMPLE, REPOSITORY
@@ -179,6 +180,12 @@ def test_visuals_are_where_the_stage_draws_them(world):
     for model in expected:
         ahead = world.model[model]["matrix"][:3, 0]
         assert abs(ahead[2]) < 0.2
+
+
+@pytest.mark.skipif(find_validator() is None or find_node() is None, reason="no Khronos validator")
+def test_visuals_are_valid_gltf(world):
+    issues = validated(world.path.parent / "my gar.age_meshes/visuals.glb")["issues"]
+    assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"][:5]
 
 
 def test_assimp_reads_the_texture_coordinates_of_visuals(world):

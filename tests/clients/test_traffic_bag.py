@@ -12,9 +12,10 @@ from scipy.spatial.transform import Rotation
 from support.launch_files import launched
 from support.map_reader import read_map
 from support.recorded_traffic import EGO, TOP, Recorded, middle_of
+from support.small_levels import FLOORS_M, SMALL_LEVELS
 
 import garage2usd
-from garage2usd.recordings import Sequence
+from garage2usd.recordings import CloudFormat, Sequence, record
 from garage2usd.sensors.rig.rig import rig_from_mapping
 
 pytestmark = pytest.mark.client
@@ -174,3 +175,21 @@ def test_rviz_and_the_launch_file_name_what_the_bag_has(bag):
     assert arguments == {"rate": "1.0", "rviz": "true"}
     assert player["cmd"] == ["ros2", "bag", "play", str(bag.folder / "ros2"), "--clock", "--rate", "$rate"]
     assert rviz["arguments"] == ["-d", str(bag.folder / "ros2.rviz")]
+
+
+def test_each_level_has_its_map_at_its_height(tmp_path):
+    stage = garage2usd.build(SMALL_LEVELS, tmp_path / "g.usdc").stage
+    rig = rig_from_mapping({"name": "own", "sensors": [TOP | {"mount": "world", "position_m": (8.0, -8.0, 2.0)}]})
+    made = record(stage, tmp_path / "out", rig=rig, points=[CloudFormat.NPZ], sequences=[Sequence.ROS2])
+    with AnyReader([made.folder / "ros2"]) as reader:
+        messages = {
+            connection.topic: reader.deserialize(data, connection.msgtype) for connection, _, data in reader.messages()
+        }
+    assert messages.keys() == {"/tf_static", "/top/points", "/map_U1", "/map_U2"}
+    assert {name: messages[f"/map_{name}"].info.origin.position.z for name in FLOORS_M} == pytest.approx(FLOORS_M)
+    garage2usd.export(stage, [tmp_path / "g.yaml"])
+    for name in FLOORS_M:
+        expected, found = read_map(tmp_path / f"g_{name}.yaml"), messages[f"/map_{name}"]
+        assert (found.data.reshape(found.info.height, found.info.width) == expected.cells).all()
+    view = yaml.safe_load((made.folder / "ros2.rviz").read_text())["Visualization Manager"]
+    assert view["Views"]["Current"]["Target Frame"] == "map"

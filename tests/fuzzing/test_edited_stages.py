@@ -111,7 +111,7 @@ def tries(file, out):
         lambda: DrivePlanner(garage).drive(names[-1] if names else "A1-01"),
         *(
             lambda end=end: export(file, [out / f"a{end}"])
-            for end in (".xodr", ".osm", ".xosc", ".add.xml", ".yaml", ".glb")
+            for end in (".xodr", ".osm", ".xosc", ".add.xml", ".yaml", ".glb", ".sdf")
         ),
     ):
         try:
