@@ -132,7 +132,8 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
 @click.option(
     "--also",
     type=Several("KIND,...", _SEQUENCES),
-    help="With --rig: what the whole is written as too: nuscenes for its tables, ros2 for a bag, with a launch file and RViz' settings beside it.",
+    help="With --rig: what the whole is written as too: nuscenes for its tables, ros2 for a bag with a launch file "
+    "and RViz' settings beside it.",
 )
 @click.option(
     "--birds-eye",
