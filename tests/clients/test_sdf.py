@@ -16,6 +16,7 @@ from support.label_tables import labelled_objects
 from support.launch_files import launched, run
 from support.sample_files import LEVELS_SAMPLE, REPOSITORY
 from support.sdf_reader import SDFORMAT, compiled, read_world
+from support.small_garage import SETTINGS
 from support.small_levels import SMALL_LEVELS
 from support.soak import soak_but
 
@@ -271,3 +272,12 @@ def test_a_second_export_is_equal_and_takes_the_place_of_the_first(world):
     garage2usd.export(world.built.stage, [world.path])
     assert len(first) > 20
     assert {path: path.read_bytes() for path in files} == first
+
+
+def test_the_axis_of_a_stage_changes_nothing(tmp_path):
+    worlds = []
+    for axis in "YZ":
+        config = garage2usd.GarageConfig(**{**SETTINGS, "stage": {"up_axis": axis}})
+        built = garage2usd.build(config, tmp_path / axis / "g.usdc")
+        worlds.append(garage2usd.export(built.stage, [tmp_path / axis / "g.sdf"])[0].read_text())
+    assert worlds[0] == worlds[1]
