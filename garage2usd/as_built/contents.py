@@ -108,7 +108,7 @@ def read_contents(stage: Usd.Stage, objects: Iterable[PlacedObject] | None = Non
         objects = placed_objects(stage, metres_y_up(stage), with_looks=False)
     for placed in objects:
         look = look_of(placed)
-        lights += [_light(light, matrix @ placed.matrix, units) for light, matrix in look.lights]
+        lights += [placed_light(light, matrix @ placed.matrix, units) for light, matrix in look.lights]
         if look.model.bodies:
             bodies = look.model.placed(placed.matrix)
             whole = _whole(placed, things)
@@ -211,7 +211,8 @@ def _corners(extent: Vt.Vec3fArray) -> tuple[NDArray[np.float64], NDArray[np.flo
     return low, high
 
 
-def _light(prim: Usd.Prim, matrix: Array, metres_per_unit: float) -> PlacedLight:
+def placed_light(prim: Usd.Prim, matrix: Array, metres_per_unit: float) -> PlacedLight:
+    """Read a light, with the meaning that the stage gives to its intensity; as `garage2usd.reading.lights.light_of`."""
     attribute = prim.GetAttribute(_CALIBRATED)
     is_ours = attribute and attribute.HasAuthoredValue()
     scale = NITS_PER_INTENSITY / luminance_of(USUAL_LAMP_RGB) if is_ours else 1.0

@@ -37,7 +37,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--port", type=int, default=2000)
     parser.add_argument("--garage", type=Path, default=Path(__file__).with_name("garage.json"), metavar="FILE")
     parser.add_argument("--tracks", type=Path, metavar="FILE", help="a table .csv of tracks, with its .json beside it")
-    parser.add_argument("--free", nargs="*", default=[], metavar="STALL", help="stalls whose parked cars are left out")
+    parser.add_argument("--free", nargs="*", default=[], metavar="STALL", help="stalls without their parked cars")
     parser.add_argument("--no-parked", action="store_true", help="place no parked cars")
     parser.add_argument("--here", action="store_true", help="play in the map that is loaded, whatever its name")
     parser.add_argument("--clear", action="store_true", help="remove what an earlier run has placed, and end")
@@ -57,7 +57,8 @@ def main(arguments: list[str] | None = None) -> None:
     fleet = Fleet(world)
     if not given.no_parked:
         leave = {agent["prim"] for agent in tracks.agents.values()}
-        park(world, fleet, [car for car in garage["parked_cars"] if car["stall"] not in given.free], leave)
+        cars = [car for car in garage["parked_cars"] if {car["stall"], car["number"]}.isdisjoint(given.free)]
+        park(world, fleet, cars, leave)
     if tracks.agents:
         play(client, world, fleet, tracks)
 

@@ -7,12 +7,13 @@ from typing import Any
 import numpy as np
 from pxr import Usd, UsdLux
 
+from garage2usd.as_built.contents import placed_light
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.garage import LaneKind
 from garage2usd.maps.level_networks import LevelNetwork
 from garage2usd.maps.network import LEFT, Road
 from garage2usd.maps.parked_cars import parked_cars
-from garage2usd.reading.lights import DOMES, LIGHT_TYPES, light_of, unsaid_of
+from garage2usd.reading.lights import DOMES, LIGHT_TYPES, unsaid_of
 from garage2usd.scenes.prims import PlacedObject
 from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.values import metres_per_unit
@@ -27,15 +28,18 @@ _ALL_ROUND_DEG = 90.0
 def spawn_points(networks: Sequence[LevelNetwork]) -> Iterator[dict[str, Any]]:
     """Yield a place in the middle of each lane outside junctions, with the numbers of its road and lane in the map."""
     for level, network in networks:
-        entrances = {number for number in level.street_portals if level.lanes.nodes[number].kind is LaneKind.ENTRANCE}
+        portals = level.street_portals
+        entrances = {number for number in portals if level.lanes.nodes[number].kind == LaneKind.ENTRANCE}
         for road in network.roads:
             if road.junction is None and road.line.length_m >= _LEAST_M:
+                # the road of a ramp to the street has no node, and nothing leads to it
+                is_entrance = not entrances.isdisjoint(road.nodes) or not (road.nodes or road.predecessor)
                 for lane in road.lanes:
                     yield {
                         "road": road.number,
                         "lane": lane,
                         "level": level.place.name,
-                        "is_entrance": not entrances.isdisjoint(road.nodes),
+                        "is_entrance": is_entrance,
                         **_on_lane(road, lane),
                     }
 
@@ -78,12 +82,14 @@ def parking_spots(networks: Sequence[LevelNetwork]) -> Iterator[dict[str, Any]]:
 
 def parked(garage: BuiltGarage) -> Iterator[dict[str, Any]]:
     """Yield the parked cars as boxes, with the middle of their footprint on the floor."""
+    number_of = {stall.name: stall.number for stall in garage.stalls}
     for car in parked_cars(garage):
         x, z = car.middle_m
         yield {
             "name": car.name,
             "class": car.label,
             "stall": car.stall,
+            "number": number_of.get(car.stall),
             "prim": car.prim,
             "length_m": round(car.length_m, _DIGITS),
             "width_m": round(car.width_m, _DIGITS),
@@ -104,10 +110,11 @@ def lamps(stage: Usd.Stage, objects: Sequence[PlacedObject], remarks: Remarks) -
             if kind in DOMES or kind not in LIGHT_TYPES:
                 remarks.add(f"lights of the type {kind} are left out", path)
                 continue
-            light = light_of(part.prim, matrix, units)
-            brightest = max(light.colour_rgb)
-            if not (light.lux or light.candela) * brightest > 0:
+            _, light, nits_per_unit = placed_light(part.prim, matrix, units)
+            if not (light.lux or light.candela) * light.brightness > 0:
                 continue
+            brightest = max(light.colour_rgb)
+            factor = nits_per_unit / light.brightness * brightest
             for reason in unsaid_of(part.prim):
                 remarks.add(reason, path)
             is_spot = light.cone_deg < _ALL_ROUND_DEG
@@ -121,8 +128,8 @@ def lamps(stage: Usd.Stage, objects: Sequence[PlacedObject], remarks: Remarks) -
                 "up": _swapped(axes[1]),
                 "width_m": round(light.width_m, _DIGITS),
                 "height_m": round(light.height_m, _DIGITS),
-                "candela": round(light.candela * brightest, _DIGITS),
-                "lux": round(light.lux * brightest, _DIGITS),
+                "candela": round(light.candela * factor, _DIGITS),
+                "lux": round(light.lux * factor, _DIGITS),
                 "cone_deg": round(min(light.cone_deg, 180.0), _DIGITS),
                 "colour_rgb": [round(float(part) / brightest, _DIGITS) for part in light.colour_rgb],
             }
@@ -130,7 +137,7 @@ def lamps(stage: Usd.Stage, objects: Sequence[PlacedObject], remarks: Remarks) -
 
 def _swapped(vector: Any) -> list[float]:  # noqa: ANN401 - three numbers
     """Convert (x, y, z) of the stage to CARLA's left-handed (x, z, y)."""
-    x, y, z = np.round(np.asarray(vector, dtype=np.float64), _DIGITS).tolist()
+    x, y, z = (np.round(np.asarray(vector, dtype=np.float64), _DIGITS) + 0.0).tolist()
     return [x, z, y]
 
 
