@@ -38,9 +38,8 @@ _FOLDERS = {
 BY_NAME = {"Road": "Road_Road", ROAD_LINE: "Road_Marking", "SideWalk": "Road_Sidewalk", "Terrain": "Terrain"}
 """Part of a mesh's name by which `UMoveAssetsCommandlet` moves the mesh to a folder; it moves others to Terrain."""
 _BEGINNINGS = {**BY_NAME, "TrafficSign": "TrafficPlate", "TrafficLight": "TrafficLamp"}
-_REFUSED = re.compile(r"li(?=ght)|si(?=gn)|te(?=rrain)|ti(?=le)", re.IGNORECASE)
-"""Where words are parted that make CARLA leave a mesh out (light, sign), class it (terrain) or look for tiles."""
-_CLASSED = re.compile(r"(roads?)_(?=road|grass|marking|sidewalk|curb|gutter)", re.IGNORECASE)
+_REFUSED = re.compile(r"li(?=ght)|si(?=gn)|ro(?=ad)|te(?=rrain)|ti(?=le)", re.IGNORECASE)
+"""Where words are parted by which CARLA leaves a mesh out (light, sign), classes it (road, terrain) or finds a tile."""
 
 
 def folder_of(label: str) -> str:
@@ -58,9 +57,9 @@ def plain_name(name: str) -> str:
 
     Examples
     --------
-    >>> plain_name("my garage.v2"), plain_name("Signs"), plain_name("road markings")
-    ('my_garage_v2', 'Si_gns', 'roadmarkings')
+    >>> plain_name("my garage.v2"), plain_name("Signs")
+    ('my_garage_v2', 'Si_gns')
     """
     ascii_name = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
     words = "_".join(re.findall(r"[A-Za-z0-9]+", ascii_name)) or "garage"
-    return _REFUSED.sub(r"\g<0>_", _CLASSED.sub(r"\1", words))
+    return _REFUSED.sub(r"\g<0>_", words)
