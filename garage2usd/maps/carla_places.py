@@ -45,15 +45,14 @@ def spawn_points(networks: Sequence[LevelNetwork]) -> Iterator[dict[str, Any]]:
 
 
 def _on_lane(road: Road, lane: int) -> dict[str, Any]:
-    """Return the pose in the middle of a lane: the left one leads against the road."""
-    run_m, step_m = road.line.length_m / 2, min(0.5, road.line.length_m / 4)
-    x, y = road.middle_points(lane, np.array([run_m]))[0].tolist()
-    sign = -1 if lane == LEFT else 1
-    _, _, heading = road.line.at(run_m)
-    rise_m = sign * (road.height_m(run_m + step_m) - road.height_m(run_m - step_m))
-    ahead = math.degrees(heading) + (180.0 if lane == LEFT else 0.0)
-    pitch_deg = math.degrees(math.atan2(rise_m, 2 * step_m))
-    return _pose(x, -y, road.floor_m + road.height_m(run_m), yaw_deg=-ahead, pitch_deg=pitch_deg)
+    """Return the pose in the middle of a lane, along its middle line; the left lane leads against the road."""
+    run_m, step_m, sign = road.line.length_m / 2, min(0.1, road.line.length_m / 4), -1 if lane == LEFT else 1
+    runs_m = [run_m - sign * step_m, run_m, run_m + sign * step_m]
+    before, (x, y), after = road.middle_points(lane, np.array(runs_m)).tolist()
+    yaw_deg = -math.degrees(math.atan2(after[1] - before[1], after[0] - before[0]))
+    low_m, height_m, high_m = map(road.height_m, runs_m)
+    pitch_deg = math.degrees(math.atan2(high_m - low_m, 2 * step_m))
+    return _pose(x, -y, road.floor_m + height_m, yaw_deg=yaw_deg, pitch_deg=pitch_deg)
 
 
 def parking_spots(networks: Sequence[LevelNetwork]) -> Iterator[dict[str, Any]]:

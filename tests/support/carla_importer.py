@@ -121,9 +121,10 @@ class Collisions:
         self.of = {name: [] for name in names if not name.startswith("UCX_")}
         for name in names:
             if name.startswith("UCX_"):
-                owners = [own for own in self.of if re.fullmatch(rf"UCX_{re.escape(own)}(_\d+)?", name)]
+                whole = name.removeprefix("UCX_")
+                owners = {whole, re.sub(r"_\d+$", "", whole)} & self.of.keys()
                 assert len(owners) == 1, (name, owners)
-                self.of[owners[0]].append(name)
+                self.of[owners.pop()].append(name)
 
 
 def fake_unreal(assets, levels):
