@@ -220,7 +220,14 @@ def levels(tmp_path_factory):
     return Package(config.model_copy(update={"site": smaller}), tmp_path_factory.mktemp("levels"))
 
 
-@pytest.fixture(params=["default", "levels"])
+@pytest.fixture(scope="module")
+def small(tmp_path_factory):
+    return Package(
+        garage2usd.GarageConfig(site={"width_cells": 5, "height_cells": 6}), tmp_path_factory.mktemp("small")
+    )
+
+
+@pytest.fixture(params=["default", pytest.param("levels", marks=pytest.mark.soak)])
 def package(request):
     return request.getfixturevalue(request.param)
 
@@ -248,10 +255,10 @@ def test_an_archive_takes_a_minute_and_sixty_megabytes_at_most(default):
     assert default.seconds < MOST_S
 
 
-def test_the_same_stage_gives_the_same_bytes(levels, tmp_path, monkeypatch):
+def test_the_same_stage_gives_the_same_bytes(small, tmp_path, monkeypatch):
     monkeypatch.setenv("PYTHONHASHSEED", "7")  # of which Blender's ids are made
-    (again,) = garage2usd.export(levels.stage, [tmp_path / "other" / levels.archive.name])
-    assert again.read_bytes() == levels.archive.read_bytes()
+    (again,) = garage2usd.export(small.stage, [tmp_path / "other" / small.archive.name])
+    assert again.read_bytes() == small.archive.read_bytes()
 
 
 @needs_judges
@@ -277,13 +284,12 @@ def test_spawn_points_lie_on_lanes_of_carla_s_map(package, tmp_path):
 
 
 @needs_judges
-def test_the_client_parks_the_cars_of_the_stage_and_plays_tracks(tmp_path):
-    package = Package(garage2usd.GarageConfig(site={"width_cells": 5, "height_cells": 6}), tmp_path)
-    operation = Operation(read_built(package.stage).garage)
-    tracks = operation.run(TrafficConfig(minutes=2, arrivals_per_hour=300, trolleys=0.5), seed=3)
+def test_the_client_parks_the_cars_of_the_stage_and_plays_tracks(small, tmp_path):
+    operation = Operation(read_built(small.stage).garage)
+    tracks = operation.run(TrafficConfig(minutes=1, arrivals_per_hour=300, trolleys=0.5), seed=3)
     write_tracks(tmp_path / "run.csv", tracks, operation.garage)
     output = tmp_path / "played.json"
-    command = [JUDGES / "bin/python", CLIENTS / "carla_play.py", package.whole / "play_in_carla.py", output]
+    command = [JUDGES / "bin/python", CLIENTS / "carla_play.py", small.whole / "play_in_carla.py", output]
     run = subprocess.run(
         [str(word) for word in (*command, "--tracks", tmp_path / "run.csv")],
         capture_output=True,
@@ -297,7 +303,7 @@ def test_the_client_parks_the_cars_of_the_stage_and_plays_tracks(tmp_path):
     assert said["cleared"] == 0
     assert not said["is_synchronous"]
     moving = {track.agent.prim for track in tracks} - {""}
-    expected = [car for car in package.garage["parked_cars"] if car["prim"] not in moving]
+    expected = [car for car in small.garage["parked_cars"] if car["prim"] not in moving]
     assert len(said["left"]) == len(expected) > 10
     for (kind, x, y, z, yaw, _), car in zip(said["left"], expected, strict=True):
         assert np.allclose((x, y, z), (car["x"], car["y"], car["z"]), atol=NEAR_M)
