@@ -1,9 +1,9 @@
 """Packages for CARLA: the FBX as Blender and assimp read it, roads as CARLA's parser does, and the client's program."""
 
 import json
+import os
 import subprocess
 import sys
-import time
 import zipfile
 from collections import defaultdict
 from pathlib import Path
@@ -41,9 +41,9 @@ class Package:
     def __init__(self, config, folder):
         self.folder = folder
         self.stage = garage2usd.build(config, folder / "a garage.v2.usdc").stage
-        begin = time.monotonic()
+        begin = sum(os.times()[:4])  # of Blender too
         (self.archive,) = garage2usd.export(self.stage, [folder / "a garage.v2.carla.zip"])
-        self.seconds = time.monotonic() - begin
+        self.seconds = sum(os.times()[:4]) - begin
         with zipfile.ZipFile(self.archive) as packed:
             packed.extractall(folder / "out")
         self.whole = folder / "out" / "a_garage_v2"
