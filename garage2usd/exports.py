@@ -1,4 +1,4 @@
-"""Export of a stage or a report to maps, scenarios, occupancy grids and glTF."""
+"""Export of a stage or a report to maps, scenarios, occupancy grids, glTF and packages of simulators."""
 
 # Over 300 lines: a few lines for each format, and the common validation, writing and publication of outputs.
 
@@ -31,6 +31,7 @@ from garage2usd.reading.files import STAGE_SUFFIXES
 from garage2usd.reading.levels import levels_of
 from garage2usd.reading.report import read_report
 from garage2usd.reading.whole_garage import open_garage
+from garage2usd.render.blender_process import INSTALLED, find_blender, run_blender
 from garage2usd.scenes.prims import PlacedObject
 from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.values import metres_y_up
@@ -38,13 +39,14 @@ from garage2usd.scenes.walk import placed_objects
 
 _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO, _GRID = ".json", ".glb", ".osm", ".xodr", ".xosc", ".yaml"
 _GEOJSON, _DRAWING, _WORLD = ".geojson", ".dxf", ".sdf"
-_AREAS, _OPENSTREETMAP = _COMPOUND = ".add.xml", ".osm.xml"
+_AREAS, _OPENSTREETMAP, _CARLA = _COMPOUND = ".add.xml", ".osm.xml", ".carla.zip"
 _OF_EXTRA = {
     _LANELET2: ("a Lanelet2 map", "pyproj"),
     _SCENARIO: ("a scenario", "scenariogeneration"),
     _GEOJSON: ("GeoJSON", "pyproj"),
     _OPENSTREETMAP: ("an OpenStreetMap file", "pyproj"),
     _DRAWING: ("a drawing in DXF", "ezdxf"),
+    _CARLA: ("a map for CARLA", "bpy"),
 }
 """Formats that need a module of an extra, with their description and that module, by extension."""
 _MAP_OF = {_SCENARIO: _MAP, _AREAS: _MAP, _WORLD: _GRID}
@@ -67,9 +69,9 @@ class _Source:
         if len(of_lanes) > 1:
             for level in self.garage.levels:
                 _ = level.taken_stalls
-        if len({_LANELET2, _MAP, _AREAS} & {*of_lanes}) > 1:
+        if len({_LANELET2, _MAP, _AREAS, _CARLA} & {*of_lanes}) > 1:
             _ = self.networks
-        if len({_LANELET2, _MAP, _AREAS, _DRAWING, _GEOJSON, _OPENSTREETMAP} & {*of_lanes}) > 1:
+        if len({_LANELET2, _MAP, _AREAS, _DRAWING, _GEOJSON, _OPENSTREETMAP, _CARLA} & {*of_lanes}) > 1:
             for ground in self.plan.levels:
                 _ = ground.lanes
 
@@ -219,8 +221,26 @@ def _parking_areas(source: _Source, path: Path, asked: _Asked, remarks: Remarks)
     )
 
 
+def _carla(source: _Source, path: Path, asked: _Asked, remarks: Remarks) -> None:
+    from garage2usd.maps.carla import FBX_PROGRAM, write_carla  # noqa: PLC0415 - for this format only
+
+    write_carla(
+        source.stage,
+        path,
+        source.garage,
+        asked.settings,
+        name=_stem_of(path),
+        run_blender=lambda job, folder: run_blender(job, folder, lambda _: None, find_blender(), script=FBX_PROGRAM),
+        objects=source.objects,
+        networks=source.networks,
+        plan=source.plan,
+        remarks=remarks,
+    )
+
+
 _WRITERS: dict[str, _Write] = {
     _WORLD: _world,
+    _CARLA: _carla,
     _SCENE: _glb,
     _SCENARIO: _scenario,
     _LANELET2: _lanelet2,
@@ -250,8 +270,8 @@ def _write(source: _Source, folder: Path, asked: _Asked) -> tuple[tuple[Path, ..
 
 
 EXPORT_SUFFIXES = tuple(sorted(_WRITERS))
-"""Extensions of the files that `export` writes: SUMO's parking areas, DXF drawings, GeoJSON, GLB scenes, Lanelet2 maps,
-OpenStreetMap's XML, SDF worlds, OpenDRIVE maps, OpenSCENARIO scenarios, and YAML files of occupancy grids."""
+"""Extensions of the files that `export` writes: SUMO's parking areas, packages for CARLA, DXF drawings, GeoJSON, GLB
+scenes, Lanelet2 maps, OpenStreetMap's XML, SDF worlds, OpenDRIVE maps, OpenSCENARIO scenarios, YAML files of grids."""
 
 
 def export(
@@ -279,7 +299,8 @@ def export(
         ``.xosc`` an OpenSCENARIO 1.2 scenario with a ``.xodr`` map of the same stem beside it, ``.yaml`` an occupancy
         grid for robots with its image (``.pgm``) and, depending on the settings, masks, for each level of a garage of
         several levels (``a_U1.yaml``), ``.add.xml`` the stalls as parking areas of SUMO, with the map that their
-        network is made of and netconvert's configuration for it (``.netccfg``) beside it.
+        network is made of and netconvert's configuration for it (``.netccfg``) beside it, ``.carla.zip`` an archive
+        for CARLA's importer (`garage2usd.maps.carla`).
     settings
         Settings of maps, grids and drives; if left out, those of the report, else the defaults.
     scenario
@@ -311,7 +332,9 @@ def export(
     OutputError
         If the files cannot be written.
     MissingExtraError
-        If a format is requested whose extra, ``maps`` or ``cad``, is not installed.
+        If a format is requested whose extra, ``maps``, ``cad`` or ``blender``, is not installed.
+    RenderError
+        If Blender fails to write a mesh.
     """
     source, reported = Path(source), None
     if source.suffix.lower() == _REPORT:
@@ -395,8 +418,10 @@ def check_formats(suffixes: Iterable[str]) -> None:
         If one is missing.
     """
     wanted = {*suffixes}
+    if _CARLA in wanted and find_blender().program is not None:
+        wanted.remove(_CARLA)
     asked = [needed for suffix, needed in _OF_EXTRA.items() if suffix in wanted]
-    require(" and ".join(purpose for purpose, _ in asked), [module for _, module in asked])
+    require(" and ".join(purpose for purpose, _ in asked), [module for _, module in asked], without=INSTALLED)
 
 
 def without_lacking(outputs: Sequence[Path]) -> tuple[tuple[Path, ...], tuple[str, ...]]:

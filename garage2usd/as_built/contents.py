@@ -212,7 +212,10 @@ def _corners(extent: Vt.Vec3fArray) -> tuple[NDArray[np.float64], NDArray[np.flo
 
 
 def placed_light(prim: Usd.Prim, matrix: Array, metres_per_unit: float) -> PlacedLight:
-    """Read a light of `garage2usd.reading.lights.LIGHT_TYPES`; `matrix` leads from its space to metres with Y up."""
+    """Read a light of `garage2usd.reading.lights.LIGHT_TYPES`, with the meaning that the stage gives to its intensity.
+
+    `matrix` leads from its space to metres with Y up.
+    """
     attribute = prim.GetAttribute(_CALIBRATED)
     is_ours = attribute and attribute.HasAuthoredValue()
     scale = NITS_PER_INTENSITY / luminance_of(USUAL_LAMP_RGB) if is_ours else 1.0

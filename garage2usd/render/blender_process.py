@@ -25,8 +25,10 @@ _HEARTBEAT_S = 1.0
 _LOOK_S = 0.05
 _OLDEST = (5, 0)
 _OLDEST_WORDS = ".".join(map(str, _OLDEST))
-WITHOUT_MODULE = f"or a Blender {_OLDEST_WORDS} or later that is installed: --blender names its program"
-"""Hint at an alternative to the Python module."""
+INSTALLED = f"or a Blender {_OLDEST_WORDS} or later that is installed"
+"""Hint at an alternative to the Python module, where installed programs are looked for."""
+WITHOUT_MODULE = f"{INSTALLED}: --blender names its program"
+"""The same hint for commands with the option ``--blender``."""
 _REPORT = "report.txt"
 _VERSION = re.compile(r"^Blender (\d+)\.(\d+)", re.MULTILINE)
 
@@ -126,9 +128,14 @@ def _fault(program: Path) -> str | None:
 
 
 def run_blender(
-    job: Mapping[str, Any], folder: Path, done: Callable[[int], None], blender: Blender = BLENDER_MODULE
+    job: Mapping[str, Any],
+    folder: Path,
+    done: Callable[[int], None],
+    blender: Blender = BLENDER_MODULE,
+    *,
+    script: Path = _SCRIPT,
 ) -> None:
-    """Render the pictures of a job in a Blender process (see ``blender.py``).
+    """Run a job in a Blender process; by default render its pictures (see ``blender.py``).
 
     Parameters
     ----------
@@ -140,6 +147,8 @@ def run_blender(
         Called with the number of finished samples: 0 when the scene is read, then at least once a second.
     blender
         The Blender to run.
+    script
+        The program, which takes the path of the job file.
 
     Raises
     ------
@@ -151,7 +160,7 @@ def run_blender(
     report.write_bytes(b"")
     with log.open("wb") as output:
         process = subprocess.Popen(  # noqa: S603 - our own script
-            blender.command(_SCRIPT, str(path)),
+            blender.command(script, str(path)),
             stdin=subprocess.DEVNULL,
             stdout=output,
             stderr=subprocess.STDOUT,

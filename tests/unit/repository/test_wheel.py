@@ -18,6 +18,7 @@ DATA_FILES = (
     "native/*.[ch]",
     "native/loops.so",
     "look/*.toml",
+    "maps/*.md",
     "objects/*.toml",
     "survey/*.toml",
     "config/*.toml",
