@@ -55,7 +55,7 @@ _COLUMNS_NAMED = 3
     "--with",
     "formats",
     metavar="FORMAT,...",
-    help="Export the stage as well, beside it: add.xml, dxf, geojson, glb, osm, osm.xml, xodr, xosc, yaml, "
+    help="Export the stage as well, beside it: add.xml, autoware, dxf, geojson, glb, osm, osm.xml, xodr, xosc, yaml, "
     "several with commas; see `garage2usd export`.",
 )
 @click.option(

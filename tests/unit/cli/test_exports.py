@@ -174,9 +174,24 @@ def test_an_edited_stage_is_exported_as_it_stands(made, tmp_path):
     ("source", "outputs", "error", "said"),
     [
         ("g.usdc", ["a.glb", "b.foo"], ConfigError, ".glb, .osm, .osm.xml, .xodr, .xosc, .yaml"),
-        ("g.usdc", [".glb"], ConfigError, ".add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml"),
-        ("g.usdc", [".add.xml"], ConfigError, ".add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml"),
-        ("g.usdc", ["a.xml"], ConfigError, ".add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml"),
+        (
+            "g.usdc",
+            [".glb"],
+            ConfigError,
+            ".add.xml, .autoware, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml",
+        ),
+        (
+            "g.usdc",
+            [".add.xml"],
+            ConfigError,
+            ".add.xml, .autoware, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml",
+        ),
+        (
+            "g.usdc",
+            ["a.xml"],
+            ConfigError,
+            ".add.xml, .autoware, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml",
+        ),
         ("g.usdc", ["a.add.xml", "a.add.xml"], ConfigError, "each file once"),
         ("g.usdc", ["a.glb", "a.glb"], ConfigError, "each file once"),
         ("g.usdc", [], ConfigError, "one or more"),
@@ -203,7 +218,8 @@ def test_build_refuses_formats_before_it_works(tmp_path):
     run = CliRunner().invoke(main, ["build", "--with", "glb,ifc", "-o", str(tmp_path / "g.usdz")])
     assert run.exit_code == 2
     assert (
-        "allowed: a path that ends in .add.xml, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml" in run.output
+        "allowed: a path that ends in .add.xml, .autoware, .dxf, .geojson, .glb, .osm, .osm.xml, .xodr, .xosc, .yaml"
+        in run.output
     )
     assert not list(tmp_path.iterdir())
 
