@@ -14,7 +14,8 @@ from garage2usd.config.outputs import MapsConfig
 from garage2usd.driving.car import DesignCar
 from garage2usd.driving.garage import Nose
 from garage2usd.garage import Stall
-from garage2usd.maps.autoware_lanelets import DrivenLanelet, add_autoware_level, entered
+from garage2usd.maps.autoware_lanelets import add_autoware_level
+from garage2usd.maps.driven_lanelets import DrivenLanelet, entered
 from garage2usd.maps.frame import heading_rad, map_point
 from garage2usd.maps.ground_plan import LevelPlan
 from garage2usd.maps.lanelet2 import add_buildings, write_map

@@ -1,4 +1,5 @@
 """Stalls of a Lanelet2 map: parking areas, Autoware's parking spaces, access areas and parking lots."""
+# Over 300 lines: all forms of a stall share its corners and the points of the lane before it.
 
 import itertools
 from collections.abc import Iterable, Sequence
