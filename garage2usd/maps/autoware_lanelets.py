@@ -107,8 +107,10 @@ class _Writer:
         for each in self._lanelets:
             if each.main.road.junction is not None:
                 junctions.setdefault(each.main.road.junction, []).append(each)
-        areas = {number: self._add_area(own) for number, own in junctions.items()}
-        first = {each: self._add_right(each) for own in junctions.values() for each in self._with_right(own)}
+        # where no lanelet meets another, nobody has to yield: that is no intersection
+        with_right = {number: held for number, each in junctions.items() if (held := self._with_right(each))}
+        areas = {number: self._add_area(junctions[number]) for number in with_right}
+        first = {each: self._add_right(each) for held in with_right.values() for each in held}
         for each in self._lanelets:
             members = [
                 Member("way", self._osm.way(points, self._tags_of_bound(each, is_left=is_left)), side)
@@ -118,8 +120,9 @@ class _Writer:
             own |= {first[each]: None} if each in first else {}
             members += [Member("relation", rule, "regulatory_element") for rule in own]
             tags = {**lanelet_tags(each.main, self._settings), "location": "private"}
-            if each.turn is not None:
-                tags |= {"turn_direction": each.turn, "intersection_area": str(areas[each.main.road.junction or 0])}
+            tags.pop("turn_direction", None)
+            if each.turn is not None and each.main.road.junction in areas:
+                tags |= {"turn_direction": each.turn, "intersection_area": str(areas[each.main.road.junction])}
                 tags |= self._signal(each)
             self._osm.relation(members, tags, number=self._numbers[each])
 
@@ -152,22 +155,24 @@ class _Writer:
 
     def _with_right(self, lanelets: Sequence[DrivenLanelet]) -> list[DrivenLanelet]:
         """Return the lanelets of a junction that wait for no other: near-side turns, or else the one crossed least."""
-        near = [each for each in lanelets if each.turn == self._near_side]
-        return near or [min(lanelets, key=lambda each: len(self._conflicting(each)))]
+        crossed = {each: len(self._conflicting(each)) for each in lanelets}
+        met = [each for each in lanelets if crossed[each]]
+        return [each for each in met if each.turn == self._near_side] or sorted(met, key=lambda each: crossed[each])[:1]
 
     def _conflicting(self, lanelet: DrivenLanelet) -> list[DrivenLanelet]:
-        """Return the lanelets from elsewhere on the ground of one."""
+        """Return the lanelets from elsewhere on the ground of one; where lanes only part, those from the same lane."""
         ground = self._ground_of[lanelet]
-        own = {*self._before[lanelet]}
-        found = []
+        behind = {*self._before[lanelet]}
+        crossing: list[DrivenLanelet] = []
+        parting: list[DrivenLanelet] = []
         for index in sorted(self._tree.query(ground).tolist()):
             other = self._lanelets[index]
-            is_joined = other is lanelet or lanelet in self._before[other] or other in own
-            if is_joined or own & {*self._before[other]} or self._are_side_by_side(lanelet, other):
+            is_joined = other is lanelet or lanelet in self._before[other] or other in behind
+            if is_joined or self._are_side_by_side(lanelet, other):
                 continue
             if shapely.intersection(ground, self._ground_of[other]).area >= _TOUCHING * ground.area:
-                found.append(other)
-        return found
+                (parting if behind & {*self._before[other]} else crossing).append(other)
+        return crossing or parting
 
     @staticmethod
     def _are_side_by_side(one: DrivenLanelet, other: DrivenLanelet) -> bool:

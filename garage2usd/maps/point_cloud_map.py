@@ -72,7 +72,8 @@ def point_cloud(stage: Usd.Stage, eyes_m: Floats) -> NDArray[np.float32]:
     Notes
     -----
     Points are drawn by area: systematic sampling along the triangles, and within each triangle by Roberts's sequence. A
-    point is kept if a ray from one of the nearest places of the LiDAR meets nothing before it.
+    point is kept if a ray from one of the nearest places of the LiDAR meets it first, rather than something before it,
+    or something behind it through a hole in its surface's texture.
     """
     labels = read_labels(stage, None)
     whole = read_ray_scene(stage, labels)
@@ -114,7 +115,7 @@ def _is_seen(scene: RayScene, points: Floats, eyes: Floats, tree: cKDTree) -> ND
         ways = points[hidden] - begins
         far_m = np.linalg.norm(ways, axis=1)
         hits = scene.cast(begins, ways / np.maximum(far_m, _SEEN_M)[:, None])
-        is_seen[hidden] = hits.range_m > far_m - _SEEN_M
+        is_seen[hidden] = np.abs(hits.range_m - far_m) < _SEEN_M
     return is_seen
 
 

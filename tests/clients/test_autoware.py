@@ -38,16 +38,16 @@ MOST_S, MOST_MB = 60.0, 60.0
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """The stage and folder of a garage, and the seconds that its export took."""
+    """The stage and folder of a garage, and the seconds of a processor that its export took."""
 
     @cache
     def make(name):
         folder, source = tmp_path_factory.mktemp("garage"), GARAGES[name]()
         build = garage2usd.build if isinstance(source, GarageConfig) else import_layout
         stage = build(source, folder / "garage.usdc").stage
-        begun = time.perf_counter()
+        begun = time.process_time()
         garage2usd.export(stage, [folder / "garage.autoware"])
-        return stage, folder / "garage.autoware", time.perf_counter() - begun
+        return stage, folder / "garage.autoware", time.process_time() - begun
 
     return make
 
@@ -79,8 +79,8 @@ def test_lanelet2_reads_the_map_and_routes_as_the_rules_assume(name, made, tmp_p
     _, folder, _ = made(name)
     judged = AutowareFolder(folder).map
     found = lanelet2_map(folder / "lanelet2_map.osm", tmp_path, 49.0, 9.0)
-    foreign = [error for error in found["errors"][1:] if "speed_bump" not in error]
-    assert foreign == []
+    unknown = [f"get id {number} from" for number in judged.rules("speed_bump")]
+    assert [error for error in found["errors"][1:] if not any(text in error for text in ("speed_bump", *unknown))] == []
     assert found["faults"] == []
     assert found["close"] == []
     assert {one["id"]: sorted(one["following"]) for one in found["lanelets"]} == {

@@ -410,7 +410,8 @@ def _right_of_way(found):
     for number, lanelet in found.lanelets.items():
         own = [one for one in lanelet.rules if one in rules]
         if area := lanelet.tags.get("intersection_area"):
-            has_rule[area] |= bool(own)
+            # Lanelet2 reads no rule to which nobody has to yield
+            has_rule[area] |= any(role == "yield" for one in own for _, _, role in rules[one][0])
         for one in own:
             members, _ = rules[one]
             first = [ref for _, ref, role in members if role == "right_of_way"]
@@ -428,7 +429,8 @@ def _right_of_way(found):
             }
             for missing in wanted - yields:
                 yield f"{code}3", one, missing
-            for more in yields - wanted:
+            # where lanes only part, those of the same lane are all that a rule can name
+            for more in yields - (wanted or found.conflicting[number].keys()):
                 yield f"{code}4", one, more
     for area, has_any in has_rule.items():
         if not has_any:

@@ -327,7 +327,7 @@ def test_the_command_writes_a_folder_beside_what_is_there(small, files, tmp_path
 def test_a_file_in_the_place_of_the_folder_is_named(small, tmp_path):
     (tmp_path / "a.autoware").write_text("a file")
     run = CliRunner().invoke(main, ["export", str(small), "-o", str(tmp_path / "a.autoware")])
-    assert run.exit_code == 1
+    assert run.exit_code == 2
     (line,) = run.stderr.splitlines()
     assert "a.autoware" in line
     assert "a path at which no file stands, for a folder" in line
