@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 from garage2usd.as_built.garage import BuiltGarage, garage_of_stage
 from garage2usd.common.errors import ConfigError, MissingExtraError
-from garage2usd.common.output import check_file, check_name, drafting, publish_at, staging_folder
-from garage2usd.common.package import require
+from garage2usd.common.output import check_file, check_name, check_writable, drafting, publish_at, staging_folder
+from garage2usd.common.package import RAYS, require
 from garage2usd.common.processes import run_in_forks, without_collector
 from garage2usd.common.progress import Progress, silent, unheard
 from garage2usd.config.outputs import MapsConfig, ScenarioConfig
@@ -38,9 +38,12 @@ from garage2usd.scenes.values import metres_y_up
 from garage2usd.scenes.walk import placed_objects
 
 _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO, _GRID = ".json", ".glb", ".osm", ".xodr", ".xosc", ".yaml"
-_GEOJSON, _DRAWING, _WORLD = ".geojson", ".dxf", ".sdf"
+_GEOJSON, _DRAWING, _WORLD, _AUTOWARE = ".geojson", ".dxf", ".sdf", ".autoware"
+_FOLDERS = frozenset({_AUTOWARE})
+"""Formats that are folders; other files in such a folder stay."""
 _AREAS, _OPENSTREETMAP, _CARLA = _COMPOUND = ".add.xml", ".osm.xml", ".carla.zip"
 _OF_EXTRA = {
+    _AUTOWARE: ("a folder for Autoware", "pyproj", *RAYS),
     _LANELET2: ("a Lanelet2 map", "pyproj"),
     _SCENARIO: ("a scenario", "scenariogeneration"),
     _GEOJSON: ("GeoJSON", "pyproj"),
@@ -48,7 +51,7 @@ _OF_EXTRA = {
     _DRAWING: ("a drawing in DXF", "ezdxf"),
     _CARLA: ("a map for CARLA", "bpy"),
 }
-"""Formats that need a module of an extra, with their description and that module, by extension."""
+"""Formats that need modules of extras, with their description and those modules, by extension."""
 _MAP_OF = {_SCENARIO: _MAP, _AREAS: _MAP, _WORLD: _GRID}
 """Extensions of the maps that files of other formats name and bring with them."""
 Notice = Callable[[str], None]
@@ -71,7 +74,7 @@ class _Source:
                 _ = level.taken_stalls
         if len({_LANELET2, _MAP, _AREAS, _CARLA} & {*of_lanes}) > 1:
             _ = self.networks
-        if len({_LANELET2, _MAP, _AREAS, _DRAWING, _GEOJSON, _OPENSTREETMAP, _CARLA} & {*of_lanes}) > 1:
+        if len({_AUTOWARE, _LANELET2, _MAP, _AREAS, _DRAWING, _GEOJSON, _OPENSTREETMAP, _CARLA} & {*of_lanes}) > 1:
             for ground in self.plan.levels:
                 _ = ground.lanes
 
@@ -125,8 +128,10 @@ class _Asked(NamedTuple):
         return _format_of(self.place)
 
     def files(self, folder: Path) -> tuple[Path, ...]:
-        """Paths in `folder` of the file and of files that are written with it."""
+        """Paths in `folder` of the file and of files that are written with it, or of what is in the written folder."""
         path = folder / self.place.name
+        if self.format in _FOLDERS:
+            return tuple(sorted(path.iterdir()))
         if self.format == _AREAS:
             return path, path.with_name(f"{_stem_of(path)}{NETWORK_SUFFIX}")
         if self.format == _WORLD:
@@ -169,6 +174,12 @@ def _lanelet2(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> 
     from garage2usd.maps.lanelet2 import write_lanelet2  # noqa: PLC0415 - other formats do without its extra
 
     write_lanelet2(source.garage, path, asked.settings, networks=source.networks, plan=source.plan)
+
+
+def _autoware(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
+    from garage2usd.maps.autoware import write_autoware  # noqa: PLC0415 - other formats do without its extras
+
+    write_autoware(source.garage, path, asked.settings, plans=source.plan.levels)
 
 
 def _geojson(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
@@ -241,6 +252,7 @@ def _carla(source: _Source, path: Path, asked: _Asked, remarks: Remarks) -> None
 _WRITERS: dict[str, _Write] = {
     _WORLD: _world,
     _CARLA: _carla,
+    _AUTOWARE: _autoware,
     _SCENE: _glb,
     _SCENARIO: _scenario,
     _LANELET2: _lanelet2,
@@ -270,8 +282,8 @@ def _write(source: _Source, folder: Path, asked: _Asked) -> tuple[tuple[Path, ..
 
 
 EXPORT_SUFFIXES = tuple(sorted(_WRITERS))
-"""Extensions of the files that `export` writes: SUMO's parking areas, packages for CARLA, DXF drawings, GeoJSON, GLB
-scenes, Lanelet2 maps, OpenStreetMap's XML, SDF worlds, OpenDRIVE maps, OpenSCENARIO scenarios, YAML files of grids."""
+"""Extensions of what `export` writes: folders for Autoware, SUMO's parking areas, packages for CARLA, DXF drawings,
+GeoJSON, GLB scenes, Lanelet2 maps, OpenStreetMap's XML, SDF worlds, OpenDRIVE maps, OpenSCENARIO scenarios, grids."""
 
 
 def export(
@@ -293,14 +305,14 @@ def export(
         A stage, whose current content is exported even if other tools have edited it; or the report of a build
         (``.json``), whose garage is rebuilt.
     outputs
-        One or more files, whose extensions select the formats: ``.glb`` a scene as binary glTF 2.0, ``.osm`` a Lanelet2
-        map, ``.osm.xml`` OpenStreetMap's XML, ``.geojson`` GeoJSON, ``.dxf`` a drawing, ``.sdf`` a world for Gazebo
-        (SDF 1.9) with its meshes, launch file and occupancy grid beside it, ``.xodr`` an OpenDRIVE 1.8 map,
-        ``.xosc`` an OpenSCENARIO 1.2 scenario with a ``.xodr`` map of the same stem beside it, ``.yaml`` an occupancy
-        grid for robots with its image (``.pgm``) and, depending on the settings, masks, for each level of a garage of
-        several levels (``a_U1.yaml``), ``.add.xml`` the stalls as parking areas of SUMO, with the map that their
-        network is made of and netconvert's configuration for it (``.netccfg``) beside it, ``.carla.zip`` an archive
-        for CARLA's importer (`garage2usd.maps.carla`).
+        One or more files, whose extensions select the formats: ``.autoware`` a folder of maps for Autoware, ``.glb`` a
+        scene as binary glTF 2.0, ``.osm`` a Lanelet2 map, ``.osm.xml`` OpenStreetMap's XML, ``.geojson`` GeoJSON,
+        ``.dxf`` a drawing, ``.sdf`` a world for Gazebo (SDF 1.9) with its meshes, launch file and occupancy grid beside
+        it, ``.xodr`` an OpenDRIVE 1.8 map, ``.xosc`` an OpenSCENARIO 1.2 scenario with a ``.xodr`` map of the same stem
+        beside it, ``.yaml`` an occupancy grid for robots with its image (``.pgm``) and, depending on the settings,
+        masks, for each level of a garage of several levels (``a_U1.yaml``), ``.add.xml`` the stalls as parking areas of
+        SUMO, with the map that their network is made of and netconvert's configuration for it (``.netccfg``) beside it,
+        ``.carla.zip`` an archive for CARLA's importer (`garage2usd.maps.carla`).
     settings
         Settings of maps, grids and drives; if left out, those of the report, else the defaults.
     scenario
@@ -332,7 +344,7 @@ def export(
     OutputError
         If the files cannot be written.
     MissingExtraError
-        If a format is requested whose extra, ``maps``, ``cad`` or ``blender``, is not installed.
+        If a format is requested whose extra, ``maps``, ``sensors``, ``cad`` or ``blender``, is not installed.
     RenderError
         If Blender fails to write a mesh.
     """
@@ -371,9 +383,12 @@ def export(
                 for line in lines:
                     notice(f"{files[number].place.name}: {line}")
                 progress("export", len(drafts), len(files))
-        parents = [asked.place.parent for asked in files]
         return publish_at(
-            {draft: parent / draft.name for number, parent in enumerate(parents) for draft in drafts[number]}
+            {
+                draft: asked.place.parent / draft.relative_to(staging / str(number))
+                for number, asked in enumerate(files)
+                for draft in drafts[number]
+            }
         )
 
 
@@ -397,7 +412,13 @@ def check_exports(
 
 def _check_files(asked: Sequence[_Asked]) -> None:
     """Check that no two outputs write the same file, and that all can be written."""
-    brought = [file for each in asked for file in each.files(each.place.parent)]
+    for each in asked:
+        if each.format in _FOLDERS:
+            check_name(each.place)
+            if each.place.exists() and not each.place.is_dir():
+                raise ConfigError("output", str(each.place), "a path at which no file stands, for a folder")
+            check_writable(each.place)
+    brought = [file for each in asked if each.format not in _FOLDERS for file in each.files(each.place.parent)]
     meshes = {each.files(each.place.parent)[-1] for each in asked if each.format == _WORLD}
     for number, file in enumerate(brought):
         if file in brought[:number]:
@@ -421,7 +442,8 @@ def check_formats(suffixes: Iterable[str]) -> None:
     if _CARLA in wanted and find_blender().program is not None:
         wanted.remove(_CARLA)
     asked = [needed for suffix, needed in _OF_EXTRA.items() if suffix in wanted]
-    require(" and ".join(purpose for purpose, _ in asked), [module for _, module in asked], without=INSTALLED)
+    modules = dict.fromkeys(module for _, *needed in asked for module in needed)
+    require(" and ".join(purpose for purpose, *_ in asked), modules, without=INSTALLED)
 
 
 def without_lacking(outputs: Sequence[Path]) -> tuple[tuple[Path, ...], tuple[str, ...]]:

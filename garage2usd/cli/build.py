@@ -58,7 +58,7 @@ _COLUMNS_NAMED = 3
     "--with",
     "formats",
     metavar="FORMAT,...",
-    help="Export the stage as well, beside it: add.xml, carla.zip, dxf, geojson, glb, osm, "
+    help="Export the stage as well, beside it: add.xml, autoware, carla.zip, dxf, geojson, glb, osm, "
     "osm.xml, sdf, xodr, xosc, yaml, "
     "several with commas; see `garage2usd export`.",
 )

@@ -12,11 +12,12 @@ from garage2usd.cli.options import INPUT_FILE, drive_options, echo_notices, echo
 @click.command(short_help="Export a stage as a map, a scene or a grid.")
 @click.argument("path", type=INPUT_FILE)
 @output_option(
-    "A file: .add.xml for the stalls as parking areas of SUMO with the map of their network beside it, .carla.zip for "
-    "a package of CARLA's importer, .dxf for a drawing, .geojson for GeoJSON, .glb for a scene, .osm for a Lanelet2 "
-    "map, .osm.xml for OpenStreetMap, .sdf for a world of Gazebo with its meshes, launch file and occupancy grid "
-    "beside it, .xodr for an OpenDRIVE map, .xosc for an OpenSCENARIO scenario with the map it names beside it, .yaml "
-    "for a robot's occupancy grid with its picture beside it, and the masks that maps.grid asks for; may be repeated.",
+    "A file: .add.xml for the stalls as parking areas of SUMO with the map of their network beside it, .autoware for a "
+    "folder of maps for Autoware, .carla.zip for a package of CARLA's importer, .dxf for a drawing, .geojson for "
+    "GeoJSON, .glb for a scene, .osm for a Lanelet2 map, .osm.xml for OpenStreetMap, .sdf for a world of Gazebo with "
+    "its meshes, launch file and occupancy grid beside it, .xodr for an OpenDRIVE map, .xosc for an OpenSCENARIO "
+    "scenario with the map it names beside it, .yaml for a robot's occupancy grid with its picture beside it, and the "
+    "masks that maps.grid asks for; may be repeated.",
     several=True,
     required=True,
 )
@@ -50,7 +51,7 @@ def export(
     whose garage is rebuilt. A garage that was moved, turned or partly hidden is exported whole, in its own frame.
 
     Parts of a stage that a format cannot represent, such as area lights, are reported on standard error and left out.
-    If the extra `maps`, `cad` or `blender` is missing, the files that do without it are written and the others named;
+    If the extra `maps`, `sensors`, `cad` or `blender` is missing, the files that do without it are written and the others named;
     the exit code is 3.
 
     The car of a scenario drives from an entrance to a stall, parks, and drives to an exit, as with `garage2usd drive
@@ -63,6 +64,7 @@ def export(
       garage2usd export garage.usdz -o garage.carla.zip
       garage2usd export garage.usdz -o garage.xosc --stall A1-08 --leg in
       garage2usd export garage.usdz -o garage.sdf
+      garage2usd export garage.usdz -o garage.autoware/
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.common.system import cores  # noqa: PLC0415
     from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant

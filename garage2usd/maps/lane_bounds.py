@@ -1,9 +1,11 @@
 """Lane bounds as polylines, shared by adjacent lanes, in the points of a Lanelet2 map."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import chain
+
+import numpy as np
 
 from garage2usd.maps.network import LEFT, RIGHT, Network, Road
 from garage2usd.maps.osm_file import APART_M, OsmFile, Place
@@ -11,10 +13,12 @@ from garage2usd.maps.osm_file import APART_M, OsmFile, Place
 _SAG_M = 1e-3
 """Greatest deviation of a polyline from its lane bound, where its points are `APART_M` from one another."""
 _LEAST_M = 1e-6
-_SAME_M = 1e-3
+SAME_M = 1e-3
 """Distance between the middles of two bounds of the same ends up to which they are one."""
 _CHORD = 1.02
 """Ratio of arc to chord that is allowed for in the least distance between points."""
+_LEAST_TURN, _CORNER_M, _CORNERS = 0.3, 0.075, 5
+"""Sine of the least turn of a bend tighter than its lane is wide; its ends lie one to four steps from their corner."""
 _ASIDE_M = 0.01
 """Step along a bound in which points are moved away from others."""
 _MOST_STEPS = 2.0
@@ -78,7 +82,20 @@ class LaneBounds:
     @property
     def outer(self) -> tuple[Bound, ...]:
         """The bounds on the edge of the road."""
-        return (self.right,) if self.road.lanes == (LEFT, RIGHT) else (self.left, self.right)
+        if self.road.lanes == (LEFT, RIGHT):
+            return (self.left if self.road.keeps_left else self.right,)
+        return (self.left, self.right)
+
+    @property
+    def is_against(self) -> bool:
+        """True if traffic runs against the road's direction."""
+        return self.road.is_against(self.lane)
+
+    def driven(self, points: Mapping[Bound, Sequence[int]]) -> tuple[list[int], list[int]]:
+        """Return the points of both bounds, left and right, in the direction of traffic."""
+        step = -1 if self.is_against else 1
+        left, right = (list(points[bound])[::step] for bound in (self.left, self.right))
+        return left, right
 
     @property
     def is_level(self) -> bool:
@@ -94,23 +111,26 @@ class LaneBounds:
     def turned_rad(self) -> float:
         """Angle by which the lane turns to the left in its driving direction."""
         turned = sum(arc.length_m * arc.curvature_per_m for arc in self.road.line.arcs)
-        return turned if self.lane == RIGHT else -turned
+        return -turned if self.is_against else turned
 
 
-def lane_bounds(network: Network, osm: OsmFile) -> tuple[LaneBounds, ...]:
+def lane_bounds(network: Network, osm: OsmFile, *, same_m: float = SAME_M) -> tuple[LaneBounds, ...]:
     """Compute all lanes of a garage with their bounds, ordered by road and from left to right.
 
     The points of bounds are added to the map: all ends, then those between, which keep clear of all other points.
+    Bounds of the same ends are one if their middles are less than `same_m` apart.
     """
     lanes = tuple(lane for road in network.roads for lane in _lanes(road))
     bounds = list(dict.fromkeys(chain.from_iterable((lane.left, lane.right) for lane in lanes)))
     for bound in bounds:
         start = osm.point(bound.at(0.0))
         bound.points = [start, osm.point(bound.at(bound.road.line.length_m), other_than=start)]
+    for bound in bounds:
+        _turn_forwards(bound, osm)
     drawn: dict[frozenset[int], list[Bound]] = {}
     for bound in bounds:
         alike = drawn.setdefault(frozenset(bound.points), [])
-        same = next((other for other in alike if math.dist(_middle(bound), _middle(other)) < _SAME_M), None)
+        same = next((other for other in alike if math.dist(_middle(bound), _middle(other)) < same_m), None)
         if same is None:
             alike.append(bound)
             bound.points[1:1] = _inner_points(bound, osm)
@@ -123,17 +143,45 @@ def lane_bounds(network: Network, osm: OsmFile) -> tuple[LaneBounds, ...]:
 def _lanes(road: Road) -> Iterator[LaneBounds]:
     left, middle, right = (Bound(road, side) for side in range(3))
     for lane in road.lanes:
-        yield LaneBounds(road, lane, middle, left if lane == LEFT else right)
+        outer = left if lane == LEFT else right
+        yield LaneBounds(road, lane, *((outer, middle) if road.keeps_left else (middle, outer)))
 
 
 def _middle(bound: Bound) -> Place:
     return bound.at(bound.road.line.length_m / 2)
 
 
+def _turn_forwards(bound: Bound, osm: OsmFile) -> None:
+    """Move the ends of a bound on the inner side of a tight bend, if it runs backwards, before and behind its corner.
+
+    Lanelet2 would take it for a bound in the other direction. Both ends stay on the bounds of the neighbouring roads.
+    """
+    line = bound.road.line
+    start, end = (np.array(osm.place(point)) for point in bound.points)
+    headings = (line.at(run_m)[2] for run_m in (0.0, line.length_m))
+    into, out = (np.array([math.cos(heading), math.sin(heading)]) for heading in headings)
+    over = into[0] * out[1] - into[1] * out[0]
+    if (end - start)[:2] @ (into + out) > 0 or abs(over) < _LEAST_TURN or not _is_too_tight(bound):
+        return
+    away = (end - start)[:2]
+    corner = start[:2] + into * (away[0] * out[1] - away[1] * out[0]) / over
+    for point, place, along in ((bound.points[0], start, -into), (bound.points[1], end, out)):
+        for away_m in np.arange(1, _CORNERS) * _CORNER_M:
+            x, y = corner + along * away_m
+            moved = float(x), float(y), float(place[2])
+            if osm.near(moved) in {None, point}:
+                osm.move(point, moved)
+                break
+
+
+def _is_too_tight(bound: Bound) -> bool:
+    return any(speed < -_LEAST_M for _, _, speed in _pieces(bound))
+
+
 def _inner_points(bound: Bound, osm: OsmFile) -> list[int]:
     """Add the points between the ends of a bound, including changes of slope."""
     pieces = list(_pieces(bound))
-    if any(speed < -_LEAST_M for _, _, speed in pieces):
+    if _is_too_tight(bound):
         return []  # the inner bound of a bend tighter than its lane is wide
     found: list[int] = []
     at_m = 0.0

@@ -2,7 +2,7 @@
 
 import math
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -28,19 +28,28 @@ _STEP_M = 0.02
 """Step along a lane at which obstacles across it are searched."""
 _SIGNS = {"barrier": ("lift_gate", "stop_sign"), "speed_bump": ("bump", "de112")}
 """Lanelet2 type and equivalent traffic sign of gates and speed bumps, by semantic class."""
+_STOP_LINE = {"type": "stop_line"}
 _FORMAT = "1"
 _STRAIGHT_RAD = 0.1
 
 
-class _Thing(NamedTuple):
-    """A gate or speed bump: its class, its path in the stage, and its outline in the map."""
+class Crossed(NamedTuple):
+    """A gate or speed bump: its class, its path in the stage, its outline in the map, and its height."""
 
     label: str
     name: str
     outline: shapely.Geometry
+    height_m: float
 
 
-def add_stops(osm: OsmFile, level: BuiltLevel, lanes: Sequence[LaneBounds]) -> dict[LaneBounds, list[int]]:
+def add_stops(
+    osm: OsmFile,
+    level: BuiltLevel,
+    lanes: Sequence[LaneBounds],
+    *,
+    signs: Mapping[str, tuple[str, str]] = _SIGNS,
+    line: Mapping[str, str] = _STOP_LINE,
+) -> dict[LaneBounds, list[int]]:
     """Write a stop line and a regulatory element for each gate and each speed bump.
 
     Parameters
@@ -51,6 +60,10 @@ def add_stops(osm: OsmFile, level: BuiltLevel, lanes: Sequence[LaneBounds]) -> d
         The level.
     lanes
         All lanes.
+    signs
+        Type and subtype of the line of each class of things before which there is a stop line.
+    line
+        Tags of the stop lines.
 
     Returns
     -------
@@ -67,10 +80,10 @@ def add_stops(osm: OsmFile, level: BuiltLevel, lanes: Sequence[LaneBounds]) -> d
     ]
     before: dict[tuple[int, ...], list[LaneBounds]] = defaultdict(list)
     for lane, (start, end) in zip(lanes, ends, strict=True):
-        before[start if lane.lane == LEFT else end].append(lane)
+        before[start if lane.is_against else end].append(lane)
     rules: dict[tuple[LaneBounds, str], int] = {}
     by_place = shapely.STRtree([shapely.Polygon(lane.ground) for lane in lanes])
-    for thing in _things(level):
+    for thing in crossed_things(level, signs):
         touched = sorted(by_place.query(thing.outline, predicate="intersects").tolist())
         crossed = [(index, across) for index in touched if (across := _across(lanes[index], thing)) is not None]
         if touched and not crossed:  # a raised and folded arm does not reach the middle of the lane
@@ -79,28 +92,31 @@ def add_stops(osm: OsmFile, level: BuiltLevel, lanes: Sequence[LaneBounds]) -> d
         for index, across in crossed:
             lane, (start, end) = lanes[index], ends[index]
             left_m = _BEFORE_M - across[0]
-            leading = before[end if lane.lane == LEFT else start] if left_m > 0 else []
+            leading = before[end if lane.is_against else start] if left_m > 0 else []
             stops = [(other, other.road.line.length_m - left_m) for other in leading] or [(lane, -left_m)]
             for other, stop_m in stops:
                 if (other, thing.name) not in rules:
-                    stop = osm.new_way(_line_across(osm, other, max(stop_m, 0.0)), {"type": "stop_line"})
-                    rules[other, thing.name] = _add_rule(osm, lane, thing, sum(across) / 2, stop)
+                    stop = osm.new_way(_line_across(osm, other, max(stop_m, 0.0)), line)
+                    symbol = dict(zip(("type", "subtype"), signs[thing.label], strict=True))
+                    rules[other, thing.name] = _add_rule(osm, lane, thing, sum(across) / 2, stop, symbol)
     found = defaultdict(list)
     for (lane, _), rule in rules.items():
         found[lane].append(rule)
     return found
 
 
-def _things(level: BuiltLevel) -> Iterator[_Thing]:
+def crossed_things(level: BuiltLevel, labels: Container[str]) -> Iterator[Crossed]:
+    """Yield the gates and speed bumps of a level, as far as their classes are among some."""
     for thing in level.things:
-        if thing.label in _SIGNS:
+        if thing.label in labels:
             pieces = [map_points(outline) for body in thing.bodies for outline, _, _ in body.pieces()]
             outline = shapely.union_all(hulls_of(pieces)).buffer(_STEP_M)
             shapely.prepare(outline)
-            yield _Thing(thing.label, thing.name, outline)
+            height_m = max(high for body in thing.bodies for _, _, high in body.pieces())
+            yield Crossed(thing.label, thing.name, outline, height_m)
 
 
-def _across(lane: LaneBounds, thing: _Thing) -> tuple[float, float] | None:
+def _across(lane: LaneBounds, thing: Crossed) -> tuple[float, float] | None:
     """Find the interval along a lane in which a gate or bump covers its middle line; None if it does not."""
     road, length_m = lane.road, lane.road.line.length_m
     runs = np.linspace(0.0, length_m, math.ceil(length_m / _STEP_M) + 1)
@@ -108,7 +124,7 @@ def _across(lane: LaneBounds, thing: _Thing) -> tuple[float, float] | None:
     return _driven(lane, float(over[0]), float(over[-1])) if len(over) else None
 
 
-def _beside(lane: LaneBounds, thing: _Thing) -> tuple[float, float]:
+def _beside(lane: LaneBounds, thing: Crossed) -> tuple[float, float]:
     """Find the place along a lane beside which the part of a gate over the lane lies."""
     part = thing.outline.intersection(shapely.Polygon(lane.ground)).centroid
     runs = np.linspace(0.0, lane.road.line.length_m, math.ceil(lane.road.line.length_m / _STEP_M) + 1)
@@ -120,12 +136,11 @@ def _beside(lane: LaneBounds, thing: _Thing) -> tuple[float, float]:
 def _driven(lane: LaneBounds, start_m: float, end_m: float) -> tuple[float, float]:
     """Turn an interval along a road into one along a lane, in the direction of its traffic."""
     length_m = lane.road.line.length_m
-    return (length_m - end_m, length_m - start_m) if lane.lane == LEFT else (start_m, end_m)
+    return (length_m - end_m, length_m - start_m) if lane.is_against else (start_m, end_m)
 
 
-def _add_rule(osm: OsmFile, lane: LaneBounds, thing: _Thing, run_m: float, stop: int) -> int:
-    kind, sign = _SIGNS[thing.label]
-    symbol = osm.new_way(_line_across(osm, lane, run_m), {"type": kind, "subtype": sign, "name": thing.name})
+def _add_rule(osm: OsmFile, lane: LaneBounds, thing: Crossed, run_m: float, stop: int, tags: Mapping[str, str]) -> int:
+    symbol = osm.new_way(_line_across(osm, lane, run_m), {**tags, "name": thing.name})
     members = [Member("way", symbol, "refers"), Member("way", stop, "ref_line")]
     return osm.relation(members, {"type": "regulatory_element", "subtype": "traffic_sign"})
 
@@ -133,10 +148,11 @@ def _add_rule(osm: OsmFile, lane: LaneBounds, thing: _Thing, run_m: float, stop:
 def _line_across(osm: OsmFile, lane: LaneBounds, run_m: float) -> tuple[int, ...]:
     """Create the points across a lane at a distance along it, from the driver's left to right."""
     road, is_left = lane.road, lane.lane == LEFT
-    run_m = road.line.length_m - run_m if is_left else run_m
+    run_m = road.line.length_m - run_m if lane.is_against else run_m
     lanes, height = road.lanes_at(run_m), road.height_m(run_m)
     outer_m = lanes.middle_m + (lanes.left_m if is_left else -lanes.right_m)
-    return osm.points((*road.line.beside(run_m, side_m), height) for side_m in (lanes.middle_m, outer_m))
+    sides_m = (outer_m, lanes.middle_m) if road.keeps_left else (lanes.middle_m, outer_m)
+    return osm.points((*road.line.beside(run_m, side_m), height) for side_m in sides_m)
 
 
 def write_lanelet2(
@@ -188,12 +204,17 @@ def write_lanelet2(
     for (level, network), ground in zip(networks or level_networks(garage), levels, strict=True):
         osm.floor_m = level.place.floor_m
         lanes += _add_level(osm, level, network, settings)
-        _add_buildings(osm, ground)
+        add_buildings(osm, ground)
+    write_map(osm, garage, path)
+    return tuple(lanes)
+
+
+def write_map(osm: OsmFile, garage: BuiltGarage, path: Path) -> None:
+    """Write a map with the name and the provenance of its garage."""
     facts = {name: str(value) for name, value in stage_facts(garage.stage).items()}
     version = facts.pop("version", "")
     header = {"format_version": _FORMAT, "map_version": version, "name": Path(garage.source).stem, **facts}
     osm.write(path, generator=f"garage2usd {version}".strip(), facts=header)
-    return tuple(lanes)
 
 
 def _add_level(osm: OsmFile, level: BuiltLevel, network: Network, settings: MapsConfig) -> tuple[LaneBounds, ...]:
@@ -207,16 +228,16 @@ def _add_level(osm: OsmFile, level: BuiltLevel, network: Network, settings: Maps
         for bound, is_left in ((lane.left, True), (lane.right, False)):
             if bound not in ways:
                 points = feet.along(bound)
-                is_turned = lane.lane == LEFT and not is_left
-                ways[bound] = osm.way(points[::-1] if is_turned else points, _bound_tags(bound))
+                is_turned = lane.is_against and is_left is lane.road.keeps_left
+                ways[bound] = osm.way(points[::-1] if is_turned else points, bound_tags(bound))
         members = [Member("way", ways[lane.left], "left"), Member("way", ways[lane.right], "right")]
         members += [Member("relation", rule, "regulatory_element") for rule in stops.get(lane, ())]
-        osm.relation(members, _lanelet_tags(lane, settings))
+        osm.relation(members, lanelet_tags(lane, settings))
     add_lots(osm, lanes, feet)
     return lanes
 
 
-def _add_buildings(osm: OsmFile, plan: LevelPlan) -> None:
+def add_buildings(osm: OsmFile, plan: LevelPlan) -> None:
     """Write the outline of a level, its columns and blocks, and a line across each door to the street."""
     outline = [] if plan.outline is None else [plan.outline]
     for tags, grounds in (
@@ -233,16 +254,19 @@ def _add_buildings(osm: OsmFile, plan: LevelPlan) -> None:
         osm.new_way(jambs, {"type": "gate", "subtype": door.kind})
 
 
-def _bound_tags(bound: Bound) -> dict[str, str]:
+def bound_tags(bound: Bound) -> dict[str, str]:
     """Return the tags of a lane bound: no lane change over the middle line; other bounds may be crossed into stalls."""
     return {"type": "line_thin", "subtype": "dashed", "lane_change": "no"} if bound.is_middle else {"type": "virtual"}
 
 
-def _lanelet_tags(lane: LaneBounds, settings: MapsConfig) -> Mapping[str, str]:
-    turn = {}
-    if lane.road.junction is not None:
-        is_straight = abs(lane.turned_rad) < _STRAIGHT_RAD
-        turn = {"turn_direction": "straight" if is_straight else "left" if lane.turned_rad > 0 else "right"}
+def turn_direction(turned_rad: float) -> str:
+    """Return Autoware's word for the angle by which a lane turns to the left."""
+    return "straight" if abs(turned_rad) < _STRAIGHT_RAD else "left" if turned_rad > 0 else "right"
+
+
+def lanelet_tags(lane: LaneBounds, settings: MapsConfig) -> dict[str, str]:
+    """Return the tags of a lane's lanelet."""
+    turn = {} if lane.road.junction is None else {"turn_direction": turn_direction(lane.turned_rad)}
     return {
         "type": "lanelet",
         "subtype": "road",

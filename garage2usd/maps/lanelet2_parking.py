@@ -1,4 +1,5 @@
 """Stalls of a Lanelet2 map: parking areas, Autoware's parking spaces, access areas and parking lots."""
+# Over 300 lines: all forms of a stall share its corners and the points of the lane before it.
 
 import itertools
 from collections.abc import Iterable, Sequence
@@ -196,14 +197,20 @@ def stall_points(osm: OsmFile, level: BuiltLevel) -> list[_StallPoints]:
 
 
 def add_stalls(
-    osm: OsmFile, level: BuiltLevel, lanes: Sequence[LaneBounds], stall_points: Sequence[_StallPoints]
+    osm: OsmFile,
+    level: BuiltLevel,
+    lanes: Sequence[LaneBounds],
+    stall_points: Sequence[_StallPoints],
+    *,
+    only_spaces: bool = False,
 ) -> Feet:
     """Write all stalls to a Lanelet2 map.
 
     A stall for cars is an area of the subtype `parking` around its corners, and Autoware's parking space: a way from
     the middle of its entry to the middle of its rear, and in a parallel stall from end to end, with its width. The
     ground between entry and lane is an area of the subtype `parking_access`, whose corners are points of the lane bound
-    and of the stall. Hatched ground is a polygon of Autoware's type for it.
+    and of the stall. Hatched ground is a polygon of Autoware's type for it. With `only_spaces` the map has parking
+    spaces alone, with the stall's orientation as subtype: Autoware reads no areas, and drives over hatched ground.
     """
     taken = level.taken_stalls
     points_of = dict(zip(level.stalls, stall_points, strict=True))
@@ -216,13 +223,19 @@ def add_stalls(
     for stall, (corners, ends) in points_of.items():
         tags = _stall_tags(stall, level, is_taken=stall in taken)
         if not stall.is_parked_in:
-            osm.polygon(corners, {"type": "hatched_road_markings", **tags})
+            if not only_spaces:
+                osm.polygon(corners, {"type": "hatched_road_markings", **tags})
+            continue
+        grounds.append(feet.flat(corners))
+        if only_spaces:
+            osm.new_way(ends, _space_tags(stall, {"subtype": str(stall.kind), **tags}))
+            if len({*corners[:2], *before_of[stall]}) > 3:  # noqa: PLR2004 - else the mouth lies on the lane
+                grounds.append(feet.flat([*corners[:2], *before_of[stall]]))
             continue
         sides = [_side(osm, corners[index], corners[(index + 1) % 4], is_open=index == 0) for index in range(4)]
         participant = _PARTICIPANTS.get(stall.use, _VEHICLES)
         _area(osm, sides, {"subtype": "parking", **tags}, participant)
-        osm.new_way(ends, {"type": "parking_space", "width": number_text(stall.width_m), **tags})
-        grounds.append(feet.flat(corners))
+        osm.new_way(ends, _space_tags(stall, tags))
         lane = before_of[stall]
         around = [corners[:2], (corners[1], lane[0]), lane, (lane[-1], corners[0])] if lane else []
         ways = [_side(osm, *line, is_open=True) for line in around if len(set(line)) > 1]
@@ -288,6 +301,10 @@ def _stall_tags(stall: Stall, level: BuiltLevel, *, is_taken: bool) -> dict[str,
     numbered = {} if stall.number is None else {"ref": level.place.own_name(str(stall.number))}
     sized = {} if stall.size == "standard" else {"size": stall.size}
     return {"name": stall.name, **numbered, **sized, "use": str(stall.use), "occupied": "yes" if is_taken else "no"}
+
+
+def _space_tags(stall: Stall, tags: dict[str, str]) -> dict[str, str]:
+    return {"type": "parking_space", "width": number_text(stall.width_m), **tags}
 
 
 def _side(osm: OsmFile, *points: int, is_open: bool) -> int:

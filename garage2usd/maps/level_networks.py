@@ -51,8 +51,8 @@ class _End(NamedTuple):
         return self.road.height_m(0.0 if self.at_start else self.road.line.length_m)
 
 
-def level_networks(garage: BuiltGarage) -> tuple[LevelNetwork, ...]:
-    """Build the road networks of all levels and join them over the ramps.
+def level_networks(garage: BuiltGarage, *, on_its_side: bool = False) -> tuple[LevelNetwork, ...]:
+    """Build the road networks of all levels and join them over the ramps; `on_its_side` as for `network_of`.
 
     Raises
     ------
@@ -63,7 +63,7 @@ def level_networks(garage: BuiltGarage) -> tuple[LevelNetwork, ...]:
     first = 0
     for number, level in enumerate(garage.levels):
         here = _with_names_in_whole(level, [stall for stall in garage.stalls if stall.level == number])
-        network = _numbered(network_of(here), first, level.place.floor_m)
+        network = _numbered(network_of(here, on_its_side=on_its_side), first, level.place.floor_m)
         first += len(network.roads) + len(network.junctions)
         found.append(LevelNetwork(here, network))
     nodes = garage.lanes.nodes

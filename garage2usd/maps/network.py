@@ -104,6 +104,8 @@ class Road:
         Lane of the predecessor and of the successor for each lane that has one.
     floor_m
         Height of the floor of its level in the map.
+    keeps_left
+        True if the left lane is the one along the road, and the right one against it.
     """
 
     number: int
@@ -118,6 +120,20 @@ class Road:
     lane_before: dict[int, int] = field(default_factory=dict)
     lane_after: dict[int, int] = field(default_factory=dict)
     floor_m: float = 0.0
+    keeps_left: bool = False
+
+    def is_against(self, lane: int) -> bool:
+        """Return True if a lane's traffic runs against the road's direction."""
+        return (lane == LEFT) is not self.keeps_left
+
+    def mirror(self) -> None:
+        """Reverse x: traffic then keeps to the other side."""
+        self.line = ReferenceLine(tuple(arc.mirrored for arc in self.line.arcs))
+        self.start, self.end = (Lanes(-lanes.middle_m, lanes.right_m, lanes.left_m) for lanes in (self.start, self.end))
+        self.lane_before, self.lane_after = (
+            {-lane: -other for lane, other in links.items()} for links in (self.lane_before, self.lane_after)
+        )
+        self.keeps_left = not self.keeps_left
 
     @property
     def lanes(self) -> tuple[int, ...]:

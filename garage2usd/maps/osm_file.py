@@ -85,6 +85,13 @@ class OsmFile:
         ]
         return min(found)[1] if found else None
 
+    def move(self, point: int, place: Place) -> None:
+        """Move a point to another position."""
+        x, y, z = self._places[point]
+        self._cells[_cell(x, y, z)].remove(point)
+        x, y, z = self._places[point] = place[0], place[1], place[2] + self.floor_m
+        self._cells.setdefault(_cell(x, y, z), []).append(point)
+
     def points(self, places: Iterable[Place]) -> tuple[int, ...]:
         """Return the ids of OSM points near a sequence of positions, without repeats."""
         numbers = [self.point(place) for place in places]
@@ -112,9 +119,13 @@ class OsmFile:
         """Create a closed OSM way, whose first point is not repeated at its end, and return its id."""
         return self.new_way(points, {**tags, "area": "yes"})
 
-    def relation(self, members: Iterable[Member], tags: Mapping[str, str]) -> int:
-        """Create an OSM relation and return its id."""
-        number = next(self._numbers)
+    def number(self) -> int:
+        """Reserve the id of a relation to which others refer before it is created."""
+        return next(self._numbers)
+
+    def relation(self, members: Iterable[Member], tags: Mapping[str, str], *, number: int | None = None) -> int:
+        """Create an OSM relation, with a reserved id if there is one, and return its id."""
+        number = self.number() if number is None else number
         self._relations[number] = tuple(members), dict(tags)
         return number
 

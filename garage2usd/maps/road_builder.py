@@ -2,6 +2,7 @@
 # Over 300 lines: roads of aisles, portals and junctions share which nodes are taken and which ends meet.
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import shapely
@@ -19,13 +20,14 @@ _PROFILE_M = 5e-4
 _LEAST_M = 1e-6
 
 
-def network_of(level: BuiltLevel) -> Network:
+def network_of(level: BuiltLevel, *, on_its_side: bool = False) -> Network:
     """Build the road network of a garage's lane graph.
 
     A straight run of squares is one road, from one bend, junction, portal or dead end to the next. A bend is a road,
     and so is the section from a portal's door to the top of its ramp. A node in which three or more roads meet is a
     junction. Roads reach slightly into junction nodes, so that adjacent junctions have a road between them. Traffic
-    keeps to the right. The single lane of a portal is centred in its door.
+    keeps to the right, or with `on_its_side` to the left in a garage where it does: its roads are then those of the
+    mirrored garage, mirrored again. The single lane of a portal is centred in its door.
 
     Raises
     ------
@@ -34,7 +36,20 @@ def network_of(level: BuiltLevel) -> Network:
     """
     if not level.has_whole_graph or not level.lanes.edges:
         raise StageError(level.source, "it has no whole lane graph, so that nothing says where its roads are")
-    return _Builder(road_nodes(level)).network()
+    nodes = road_nodes(level)
+    if not (on_its_side and level.keeps_left):
+        return _Builder(nodes).network()
+    network = _Builder(tuple(node.mirrored for node in nodes)).network()
+    for road in network.roads:
+        road.mirror()
+    links = (
+        replace(
+            junction,
+            links=tuple(link._replace(from_lane=-link.from_lane, to_lane=-link.to_lane) for link in junction.links),
+        )
+        for junction in network.junctions
+    )
+    return Network(network.roads, tuple(links), nodes)
 
 
 class _Meeting(NamedTuple):

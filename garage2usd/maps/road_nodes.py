@@ -3,7 +3,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -64,6 +64,12 @@ class Arc(NamedTuple):
             turned,
         )
 
+    @property
+    def mirrored(self) -> "Arc":
+        """The arc with x reversed."""
+        x, y = self.start
+        return Arc((-x, y), math.pi - self.heading_rad, self.length_m, -self.curvature_per_m)
+
     def beside_each(self, run_m: Floats, t_m: Floats) -> Floats:
         """Evaluate points (x, y) at distances along the arc and offsets to its left; shape (n, 2)."""
         (x, y), heading, curvature = self.start, self.heading_rad, self.curvature_per_m
@@ -120,6 +126,17 @@ class ReferenceLine:
             here = number == index
             points[here] = arc.beside_each(s_m[here] - (ends[index - 1] if index else 0.0), t_m[here])
         return points
+
+    def part(self, start_m: float, end_m: float) -> "ReferenceLine":
+        """Return the reference line between two distances along it."""
+        arcs, before_m = [], 0.0
+        for arc in self.arcs:
+            low_m, high_m = max(start_m - before_m, 0.0), min(end_m - before_m, arc.length_m)
+            if high_m - low_m > _LEAST_M:
+                x, y, heading = arc.at(low_m)
+                arcs.append(Arc((x, y), heading, high_m - low_m, arc.curvature_per_m))
+            before_m += arc.length_m
+        return ReferenceLine(tuple(arcs))
 
     def foot(self, point: Point) -> tuple[float, float]:
         """Project a point onto a straight reference line as (s, t); s may lie beyond its ends.
@@ -238,6 +255,15 @@ class RoadNode:
     def is_portal(self) -> bool:
         """True if the node opens to the outside."""
         return any(opening.towards == OUTSIDE for opening in self.openings)
+
+    @property
+    def mirrored(self) -> "RoadNode":
+        """The node with x reversed."""
+        openings = (
+            replace(each, place=(-each.place[0], each.place[1]), outwards=(-each.outwards[0], each.outwards[1]))
+            for each in self.openings
+        )
+        return replace(self, middle=(-self.middle[0], self.middle[1]), openings=tuple(openings))
 
     def opening(self, towards: int) -> Opening:
         """Return the opening of the node to a neighbour."""

@@ -104,8 +104,12 @@ def point_rows(cloud: PointCloud) -> NDArray[np.void]:
 
 
 def _write_pcd(cloud: PointCloud, path: Path) -> None:
-    rows = point_rows(cloud)
-    fields = [(name, *_pcd_type(POINT_ROW[name])) for name in POINT_ROW.names or ()]
+    write_pcd(point_rows(cloud), path)
+
+
+def write_pcd(rows: NDArray[np.void], path: Path) -> None:
+    """Write records of points as a binary PCD file of the Point Cloud Library, with their fields."""
+    fields = [(name, *_pcd_type(rows.dtype[name])) for name in rows.dtype.names or ()]
     names, sizes, types = (" ".join(column) for column in zip(*fields, strict=True))
     header = (
         f"# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS {names}\nSIZE {sizes}\nTYPE {types}\n"

@@ -134,7 +134,10 @@ class RayScene:
 
     def of_objects(self, ids: Collection[int]) -> "RayScene":
         """Select the surfaces of some objects."""
-        kept = np.isin(self.instance, list(ids))
+        return self.of_triangles(np.isin(self.instance, list(ids)))
+
+    def of_triangles(self, kept: NDArray[np.bool_]) -> "RayScene":
+        """Select some triangles, by an array of shape (t,)."""
         used, corners = np.unique(self.triangles[kept], return_inverse=True)
         return replace(
             self,

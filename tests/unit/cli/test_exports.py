@@ -22,7 +22,7 @@ from garage2usd.common import package
 from garage2usd.common.errors import ConfigError, MissingExtraError, ReportError, StageError
 from garage2usd.config.outputs import MapsConfig
 
-SUFFIXES = ".add.xml, .carla.zip, .dxf, .geojson, .glb, .osm, .osm.xml, .sdf, .xodr, .xosc, .yaml"
+SUFFIXES = ".add.xml, .autoware, .carla.zip, .dxf, .geojson, .glb, .osm, .osm.xml, .sdf, .xodr, .xosc, .yaml"
 needs_blender = pytest.mark.skipif(find_spec("bpy") is None, reason="Blender's bpy is made for Python 3.11 only")
 QUICK = "[plan]\nepisodes = 200\n"
 GRID_FILES = tuple(f"g{mask}.{suffix}" for mask in ("", "_keepout", "_speed") for suffix in ("yaml", "pgm"))

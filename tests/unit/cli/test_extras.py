@@ -26,6 +26,7 @@ CASES = {
     "maps of a build": (["scenariogeneration", "pyproj"], ["build", "--with", "xosc,osm", "-o", "g.usdz"], "maps"),
     "a drawing": (["ezdxf"], ["import", "none.dxf", "-o", "g.usdz"], "cad"),
     "a building model": (["ifcopenshell"], ["import", "none.ifc", "-o", "g.usdz"], "cad"),
+    "a folder for Autoware": (["embreex", "pyproj"], ["export", "none.usdz", "-o", "out.autoware/"], "maps,sensors"),
     "an export": (["pyproj"], ["export", "none.usdz", "-o", "out.osm"], "maps"),
     "pictures": (["bpy"], RENDER, "blender"),
     "pictures that are read": (["OpenEXR"], RENDER, "blender"),
