@@ -51,8 +51,8 @@ def export(
     whose garage is rebuilt. A garage that was moved, turned or partly hidden is exported whole, in its own frame.
 
     Parts of a stage that a format cannot represent, such as area lights, are reported on standard error and left out.
-    If the extra `maps`, `sensors`, `cad` or `blender` is missing, the files that do without it are written and the others named;
-    the exit code is 3.
+    If the extra `maps`, `sensors`, `cad` or `blender` is missing, the files that do without it are written and the
+    others named; the exit code is 3.
 
     The car of a scenario drives from an entrance to a stall, parks, and drives to an exit, as with `garage2usd drive
     --stall`. Any option on the drive replaces the whole section maps.scenario of the configuration.
