@@ -61,8 +61,8 @@ FAULTS = [
     Fault(
         "left lanes in the direction of their roads",
         "lane_bounds",
-        "LaneBounds(road, lane, middle, left if lane == LEFT else right)",
-        "LaneBounds(road, lane, *((left, middle) if lane == LEFT else (middle, right)))",
+        "(outer, middle) if road.keeps_left",
+        "(outer, middle) if lane == LEFT",
     ),
     Fault("points of ways not shared", "osm_file", "min(found)[1] if found else None", "None"),
     Fault(
@@ -77,7 +77,7 @@ FAULTS = [
     Fault("heights left out", "osm_file", 'k="ele" v="{number_text(z)}"', 'k="ele" v="0"'),
     Fault("bends cut", "lane_bounds", "_SAG_M = 1e-3", "_SAG_M = 1e-2"),
     Fault("tapers cut", "lane_bounds", "+ 2 * bend * slope + eased", "* (bend > 0)"),
-    Fault("turns to the other side", "lanelet2", "lane.turned_rad > 0", "lane.turned_rad < 0"),
+    Fault("turns to the other side", "lanelet2", '"left" if turned_rad > 0', '"left" if turned_rad < 0'),
     Fault("lanes of aisles that may be changed", "lanelet2", '"lane_change": "no"', '"lane_change": "yes"'),
     Fault("speed limit in another unit", "lanelet2", "number_text(settings.speed_limit_km_h)", '"10 mph"'),
     Fault("lanelets driven both ways", "lanelet2", '"one_way": "yes"', '"one_way": "no"'),
