@@ -113,11 +113,11 @@ def build(
     from garage2usd.config import GarageConfig, load_config, profile_setting  # noqa: PLC0415 - keeps --help instant
     from garage2usd.pipeline import build as build_garage  # noqa: PLC0415
 
-    if config and like:
+    if config and like is not None:
         raise click.UsageError("Give either a CONFIG or --like NAME.")
     if config:
         settings = load_config(config, profile=profile)
-    elif like:
+    elif like is not None:
         from garage2usd.config.starting_points import starting_point  # noqa: PLC0415 - most builds have a configuration
 
         settings = starting_point(like, profile=profile)

@@ -91,6 +91,7 @@ def test_a_data_set_is_like_one(tmp_path):
     [
         (("build", "--like", "hotel-fr"), "like: got 'hotel-fr'; allowed: one of airport-us, mall-cn"),
         (("dataset", "--like", "hotel-fr", "-o", "set"), "like: got 'hotel-fr'; allowed: one of airport-us, mall-cn"),
+        (("build", "--like", ""), "like: got ''; allowed: one of airport-us, mall-cn"),
         (("build", __file__, "--like", "mall-cn"), "either a CONFIG or --like"),
         (("dataset", __file__, "--like", "mall-cn", "-o", "set"), "a RECIPE or --like"),
         (("dataset", "--like", "mall-cn"), "and --output FOLDER"),
