@@ -7,15 +7,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import UsdPhysics
 from scipy.spatial import ConvexHull, QhullError
 
 from garage2usd.maps.carla_materials import Materials, first_texture
 from garage2usd.maps.carla_names import folder_of, mesh_name
 from garage2usd.objects import CAR_LABELS, number_plate
+from garage2usd.reading.colliders import BOXES, HULLS, collider_of
 from garage2usd.reading.labels import Labels
 from garage2usd.scenes.looks import MeshLooks
-from garage2usd.scenes.meshes import DRAWN_TYPES, Triangles, triangles_of
+from garage2usd.scenes.meshes import DRAWN_TYPES, Triangles, box_corners, triangles_of
 from garage2usd.scenes.prims import PlacedObject, once_for_each_look
 from garage2usd.scenes.remarks import Remarks
 
@@ -23,8 +23,6 @@ ACTORS = CAR_LABELS | {number_plate.KIND.label}
 """Semantic classes of objects that are actors in CARLA, not meshes of the map."""
 TO_MAP_CM = np.array([[100.0, 0, 0, 0], [0, 0, 100.0, 0], [0, -100.0, 0, 0], [0, 0, 0, 1.0]])
 """From metres with Y up to centimetres with Z up, for row vectors: the frame of maps (`garage2usd.maps.frame`)."""
-_APPROXIMATION, _BOX, _HULL = "physics:approximation", "boundingCube", "convexHull"
-_BOX_CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
 _FLAT_M = 1e-5
 Corners = NDArray[np.float64]
 
@@ -167,16 +165,15 @@ def _colliders(placed: PlacedObject) -> list[Corners]:
     """Return the corners of the convex colliders of an object in its space, shape (n, 3) each."""
     found = []
     for part in placed.parts:
-        if not part.prim.HasAPI(UsdPhysics.CollisionAPI) or part.prim.GetTypeName() not in DRAWN_TYPES:
+        approximation = collider_of(part.prim)
+        if approximation not in BOXES | HULLS or part.prim.GetTypeName() not in DRAWN_TYPES:
             continue
-        given = part.prim.GetAttribute(_APPROXIMATION)
         triangles = triangles_of(placed.twin_of(part))
-        if triangles is None or (form := str(given.Get() if given else "")) not in {_BOX, _HULL}:
+        if triangles is None:
             continue
         corners = triangles.positions_m.astype(np.float64)
-        if form == _BOX:
-            low, high = corners.min(axis=0), corners.max(axis=0)
-            corners = low + _BOX_CORNERS * (high - low)
+        if approximation in BOXES:
+            corners = box_corners(corners)
         if np.linalg.svd(corners - corners.mean(axis=0), compute_uv=False)[-1] > _FLAT_M:
             found.append(corners @ part.matrix[:3, :3] + part.matrix[3, :3])
     return found

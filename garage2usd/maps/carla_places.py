@@ -5,18 +5,16 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
-from pxr import Usd, UsdLux
+from pxr import Usd
 
-from garage2usd.as_built.contents import placed_light
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.garage import LaneKind
 from garage2usd.maps.level_networks import LevelNetwork
 from garage2usd.maps.network import LEFT, Road
 from garage2usd.maps.parked_cars import parked_cars
-from garage2usd.reading.lights import DOMES, LIGHT_TYPES, unsaid_of
+from garage2usd.maps.placed_lights import placed_lights
 from garage2usd.scenes.prims import PlacedObject
 from garage2usd.scenes.remarks import Remarks
-from garage2usd.scenes.values import metres_per_unit
 
 FRAME = "metres and degrees; x is the stage's X, y its Z, z its Y; yaw from x to y, pitch with the nose up"
 _DIGITS = 4
@@ -99,39 +97,25 @@ def parked(garage: BuiltGarage) -> Iterator[dict[str, Any]]:
 
 def lamps(stage: Usd.Stage, objects: Sequence[PlacedObject], remarks: Remarks) -> Iterator[dict[str, Any]]:
     """Yield the lights as lamps of Unreal: ``rect``, ``point``, ``spot`` or ``sun``, which shine along `forward`."""
-    units = metres_per_unit(stage)
-    for placed in objects:
-        for part in placed.parts:
-            if not part.prim.HasAPI(UsdLux.LightAPI):
-                continue
-            path, matrix = placed.path + part.path, part.matrix @ placed.matrix
-            kind = part.prim.GetTypeName()
-            if kind in DOMES or kind not in LIGHT_TYPES:
-                remarks.add(f"lights of the type {kind} are left out", path)
-                continue
-            _, light, nits_per_unit = placed_light(part.prim, matrix, units)
-            if not (light.lux or light.candela) * light.brightness > 0:
-                continue
-            brightest = max(light.colour_rgb)
-            factor = nits_per_unit / light.brightness * brightest
-            for reason in unsaid_of(part.prim):
-                remarks.add(reason, path)
-            is_spot = light.cone_deg < _ALL_ROUND_DEG
-            form = "spot" if is_spot else "rect" if light.kind in {"RectLight", "DiskLight"} else "point"
-            axes = matrix[:3, :3] / np.maximum(np.linalg.norm(matrix[:3, :3], axis=1, keepdims=True), 1e-12)
-            yield {
-                "prim": path,
-                "kind": "sun" if light.kind == "DistantLight" else form,
-                **dict(zip("xyz", _swapped(matrix[3, :3]), strict=True)),
-                "forward": _swapped(-axes[2]),
-                "up": _swapped(axes[1]),
-                "width_m": round(light.width_m, _DIGITS),
-                "height_m": round(light.height_m, _DIGITS),
-                "candela": round(light.candela * factor, _DIGITS),
-                "lux": round(light.lux * factor, _DIGITS),
-                "cone_deg": round(min(light.cone_deg, 180.0), _DIGITS),
-                "colour_rgb": [round(float(part) / brightest, _DIGITS) for part in light.colour_rgb],
-            }
+    for path, (matrix, light, nits_per_unit) in placed_lights(stage, objects, remarks):
+        brightest = max(light.colour_rgb)
+        factor = nits_per_unit / light.brightness * brightest
+        is_spot = light.cone_deg < _ALL_ROUND_DEG
+        form = "spot" if is_spot else "rect" if light.kind in {"RectLight", "DiskLight"} else "point"
+        axes = matrix[:3, :3] / np.maximum(np.linalg.norm(matrix[:3, :3], axis=1, keepdims=True), 1e-12)
+        yield {
+            "prim": path,
+            "kind": "sun" if light.kind == "DistantLight" else form,
+            **dict(zip("xyz", _swapped(matrix[3, :3]), strict=True)),
+            "forward": _swapped(-axes[2]),
+            "up": _swapped(axes[1]),
+            "width_m": round(light.width_m, _DIGITS),
+            "height_m": round(light.height_m, _DIGITS),
+            "candela": round(light.candela * factor, _DIGITS),
+            "lux": round(light.lux * factor, _DIGITS),
+            "cone_deg": round(min(light.cone_deg, 180.0), _DIGITS),
+            "colour_rgb": [round(float(part) / brightest, _DIGITS) for part in light.colour_rgb],
+        }
 
 
 def _swapped(vector: Any) -> list[float]:  # noqa: ANN401 - three numbers

@@ -9,33 +9,15 @@ from numpy.typing import NDArray
 from pxr import Usd
 from scipy.spatial import cKDTree
 
-from garage2usd.objects import CAR_LABELS
-from garage2usd.objects.bag import KIND as BAG
-from garage2usd.objects.barrier import KIND as BARRIER
-from garage2usd.objects.bicycle import KIND as BICYCLE
-from garage2usd.objects.cardboard_box import KIND as CARDBOARD_BOX
-from garage2usd.objects.cone import KIND as CONE
-from garage2usd.objects.motorbike import KIND as MOTORBIKE
-from garage2usd.objects.number_plate import KIND as NUMBER_PLATE
-from garage2usd.objects.pallet import KIND as PALLET
-from garage2usd.objects.person import KIND as PERSON
-from garage2usd.objects.pram import KIND as PRAM
-from garage2usd.objects.trolley import KIND as TROLLEY
-from garage2usd.objects.waste_bin import KIND as WASTE_BIN
+from garage2usd.objects import MOVABLE_LABELS, barrier, number_plate
 from garage2usd.reading.labels import read_labels
 from garage2usd.sensors.rays.point_cloud import write_pcd
 from garage2usd.sensors.rays.ray_scene import RayScene, read_ray_scene
-from garage2usd.sensors.rig.poses import y_up_to_stage
+from garage2usd.sensors.rig.poses import MAP_TO_Y_UP, y_up_to_stage
 
 Floats = NDArray[np.float64]
 
-_MOVABLE = CAR_LABELS | {
-    kind.label
-    for kind in (
-        *(BAG, BARRIER, BICYCLE, CARDBOARD_BOX, CONE, MOTORBIKE, NUMBER_PLATE),
-        *(PALLET, PERSON, PRAM, TROLLEY, WASTE_BIN),
-    )
-}
+_MOVABLE = MOVABLE_LABELS | {barrier.KIND.label, number_plate.KIND.label}
 """Classes of things that move: points on them would mislead localization, and hide the things from perception."""
 _SPACING_M = 0.2
 """Distance between points, as of maps that are downsampled for NDT; a cell of NDT of 2 m then holds a hundred."""
@@ -79,7 +61,7 @@ def point_cloud(stage: Usd.Stage, eyes_m: Floats) -> NDArray[np.float32]:
     whole = read_ray_scene(stage, labels)
     moving = [number for number, kind in labels.classes.items() if kind.name in _MOVABLE]
     scene = whole.of_triangles(~np.isin(whole.class_id, moving))
-    to_stage = y_up_to_stage(stage)[:3, :3] @ np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # from the map's axes
+    to_stage = (y_up_to_stage(stage) @ MAP_TO_Y_UP)[:3, :3]
     eyes_m = eyes_m + np.array([0.0, 0.0, _EYES_M])
     _, first = np.unique(np.floor(eyes_m / _EYES_APART_M), axis=0, return_index=True)
     eyes = eyes_m[np.sort(first)] @ to_stage.T

@@ -14,9 +14,10 @@ from garage2usd.garage.levels import GARAGE_NAME
 from garage2usd.maps.facts import stage_facts
 from garage2usd.maps.frame import heading_rad, map_point
 from garage2usd.maps.gazebo_launch import launch_text
+from garage2usd.maps.placed_lights import placed_lights
 from garage2usd.maps.sdf_collisions import Collision, Collisions
 from garage2usd.maps.sdf_files import VISUALS, mesh_file, sdf_files
-from garage2usd.maps.sdf_lights import add_light, lights_of
+from garage2usd.maps.sdf_lights import add_light
 from garage2usd.maps.sdf_models import Model, Visual, Visuals, models_of
 from garage2usd.maps.sdf_text import add_pose, add_text, numbers_text, sdf_name
 from garage2usd.maps.xml_text import child, number_text, write_xml
@@ -88,7 +89,7 @@ def write_sdf(
         _add_model(world, model, visuals, collisions, uri)
     if not visuals.count:
         raise StageError(garage.source, "nothing in it can be drawn")
-    for name, light in lights_of(garage.stage, objects, remarks):
+    for name, light in placed_lights(garage.stage, objects, remarks):
         add_light(world, name, light)
     frames = dict(_frames(garage))
     for name, place in frames.items():

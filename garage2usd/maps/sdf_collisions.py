@@ -14,12 +14,13 @@ from garage2usd.maps.glb_meshes import are_rigid
 from garage2usd.maps.sdf_files import mesh_file
 from garage2usd.maps.sdf_ground import Slab, slabs
 from garage2usd.reading.colliders import BOXES, HULLS, collider_of
-from garage2usd.scenes.meshes import DRAWN_TYPES, Triangles, triangles_of
+from garage2usd.scenes.meshes import DRAWN_TYPES, Triangles, box_corners, triangles_of
 from garage2usd.scenes.prims import Matrix, PlacedObject
 from garage2usd.scenes.values import opinions_of
+from garage2usd.sensors.rig.poses import MAP_TO_Y_UP
 
 Floats = NDArray[np.float64]
-Z_UP = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
+Z_UP = MAP_TO_Y_UP.T
 """From axes with Y up to those of all maps, with Z up, for column vectors."""
 _FLAT_M = 1e-3
 _NEAR_M, _NEAR_SHARE = 0.025, 0.1
@@ -122,7 +123,7 @@ class Collisions:
         """Return the shape of a collider, and the rotation and move of its frame."""
         points = _z_up(mesh)
         if approximation in BOXES:
-            corners = _box_corners(points)
+            corners = box_corners(points)
             if not are_rigid(place.T[None])[0]:  # a sheared box is no box
                 return self._hull(_moved(corners, place)), np.eye(4)
         elif not are_rigid(place.T[None])[0]:
@@ -180,11 +181,6 @@ def _z_up(mesh: Triangles) -> Floats:
 def _moved(points: Floats, place: Matrix) -> Floats:
     moved: Floats = points @ place[:3, :3].T + place[:3, 3]
     return moved
-
-
-def _box_corners(points: Floats) -> Floats:
-    low, high = points.min(axis=0), points.max(axis=0)
-    return np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
 
 
 def _box(points: Floats) -> Shape:

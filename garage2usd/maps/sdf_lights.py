@@ -2,19 +2,13 @@
 
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable, Iterator
 
 import numpy as np
-from pxr import Usd, UsdLux
 
-from garage2usd.as_built.contents import PlacedLight, placed_light
+from garage2usd.as_built.contents import PlacedLight
 from garage2usd.maps.sdf_collisions import Z_UP
 from garage2usd.maps.sdf_text import add_pose, add_text, numbers_text, sdf_name
 from garage2usd.maps.xml_text import child
-from garage2usd.reading.lights import DOMES, LIGHT_TYPES, unsaid_of
-from garage2usd.scenes.prims import PlacedObject
-from garage2usd.scenes.remarks import Remarks
-from garage2usd.scenes.values import metres_per_unit
 
 _WHITE_LX = 150.0
 """Illuminance by lamps alone at which a white surface is as bright as a picture can be; Gazebo has no exposure."""
@@ -24,35 +18,6 @@ _WIDEST_RAD = 3.1
 """Widest spot light. Gazebo's falls off by the cosine from the middle to its edge, as a flat lamp of 180 degrees."""
 _HALF_ROUND_DEG = 90.0
 _DIGITS = 6
-
-
-def lights_of(stage: Usd.Stage, objects: Iterable[PlacedObject], remarks: Remarks) -> Iterator[tuple[str, PlacedLight]]:
-    """Yield the path and the photometric data of each light that shines.
-
-    Parameters
-    ----------
-    stage
-        The stage.
-    objects
-        Its objects in metres with Y up.
-    remarks
-        Receives remarks on lights and properties that are left out.
-    """
-    units = metres_per_unit(stage)
-    for placed in objects:
-        for part in placed.parts:
-            path, kind = placed.path + part.path, part.prim.GetTypeName()
-            if not part.prim.HasAPI(UsdLux.LightAPI):
-                continue
-            if kind in DOMES or kind not in LIGHT_TYPES:
-                remarks.add(f"lights of the type {kind} are left out", path)
-                continue
-            light = placed_light(part.prim, part.matrix @ placed.matrix, units)
-            source = light.source
-            if max(source.candela, source.lux) * light.nits_per_unit > 0 and source.cone_deg > 0:
-                for reason in unsaid_of(part.prim):
-                    remarks.add(reason, path)
-                yield path, light
 
 
 def add_light(world: ET.Element, path: str, light: PlacedLight) -> None:

@@ -16,6 +16,7 @@ __all__ = [
     "CLASSES_VERSION",
     "KINDS",
     "MOUNTED",
+    "MOVABLE_LABELS",
     "PIECE_LABELS",
     "Kind",
     "Mounted",
@@ -58,6 +59,12 @@ CLASSES_VERSION = 8
 """Version of the table of semantic classes, raised when a class is added or covers something else."""
 PIECE_LABELS = frozenset(piece.label for piece in PIECES)
 """Semantic classes of pieces; a piece belongs to the object that it is a part of."""
+
+_SPECS = [each for module in _MODULES for each in vars(module).values() if isinstance(each, type)]
+MOVABLE_LABELS = CAR_LABELS | {
+    each.kind.label for each in _SPECS if issubclass(each, Spec) and each.mass_kg is not Spec.mass_kg
+}
+"""Semantic classes of objects with a mass, which are no parts of the building."""
 
 MOUNTED: tuple[Mounted, ...] = tuple(
     sorted((module.MOUNTED for module in _MODULES if hasattr(module, "MOUNTED")), key=lambda each: each.kind.number)

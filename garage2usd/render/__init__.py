@@ -20,7 +20,7 @@ from garage2usd.render.drawing import Drawing
 from garage2usd.render.free_views import OVERHEAD, free_view
 from garage2usd.render.pictures import Picture, with_needed
 from garage2usd.render.tables import NEEDED, SlotFormat, SlotLabels, check_slots, write_frames
-from garage2usd.scenes.values import metres_per_unit
+from garage2usd.scenes.values import metres_per_unit, up_axis
 from garage2usd.sensors.rays.birds_eye import Orthographic
 from garage2usd.sensors.slots import read_slots
 from garage2usd.stage.labels import OBJECT_LABELS
@@ -185,7 +185,7 @@ def _views(
 def _hidden(stage: Usd.Stage, labels: Labels, views: Sequence[View]) -> list[list[int]]:
     """Return for each view the ids of overhead objects, if its camera is above the ceiling; otherwise none."""
     boxes = UsdGeom.BBoxCache(Usd.TimeCode.EarliestTime(), [UsdGeom.Tokens.default_])
-    up = 1 if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y else 2
+    up = up_axis(stage)
     ceilings = [stage.GetPrimAtPath(path) for path in labels.paths_of(_CEILING)]
     tops = [boxes.ComputeWorldBound(prim).ComputeAlignedRange().GetMax()[up] for prim in ceilings if prim]
     top_m = max(tops, default=np.inf) * metres_per_unit(stage)

@@ -229,6 +229,12 @@ def _at_corners(values: object, interpolation: str, width: int, corners: _Corner
     return None
 
 
+def box_corners(points: NDArray[Any]) -> NDArray[Any]:
+    """Return the eight corners of the bounding box of points, X changing fastest; shape (8, 3)."""
+    pair = points.min(axis=0), points.max(axis=0)
+    return np.array([[pair[corner >> axis & 1][axis] for axis in range(3)] for corner in range(8)])
+
+
 def unit(vectors: NDArray[Any]) -> NDArray[np.float32]:
     """Scale vectors, shape (..., 3), to unit length; the Y axis for those without a length."""
     lengths = np.sqrt(np.einsum("...i,...i", vectors, vectors))[..., None]

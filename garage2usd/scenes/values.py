@@ -25,6 +25,11 @@ def metres_y_up(stage: Usd.Stage) -> NDArray[np.float64]:
     return matrix
 
 
+def up_axis(stage: Usd.Stage) -> int:
+    """Return the index of the axis of a stage that points up: 1 for Y, 2 for Z."""
+    return 2 if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z else 1
+
+
 def metres_per_unit(stage: Usd.Stage) -> float:
     """Return the metres per unit of a stage; reads single-precision values too, unlike UsdGeom's function."""
     return float(stage.GetMetadata(UsdGeom.Tokens.metersPerUnit))

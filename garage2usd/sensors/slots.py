@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from pxr import Usd, UsdGeom
+from pxr import Usd
 
 from garage2usd.common.errors import StageError
 from garage2usd.garage import LaneNode, Stall
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.levels import levels_of
-from garage2usd.scenes.values import metres_y_up
+from garage2usd.scenes.values import metres_y_up, up_axis
 from garage2usd.sensors.rays.sight import outline_in_picture, polygons_of
 
 CORNERS = ("entry_left", "entry_right", "rear_right", "rear_left")
@@ -28,8 +28,6 @@ _ON_FLOOR_M = 0.02
 """Height difference up to which a surface counts as the floor; lines are painted a few millimetres over it."""
 _LEAST_AREA_PX = 1e-6
 _DEGREES = 3
-_GROUND_AXES = {UsdGeom.Tokens.y: (0, 2), UsdGeom.Tokens.z: (0, 1)}
-_UP_AXES = {UsdGeom.Tokens.y: 1, UsdGeom.Tokens.z: 2}
 
 Points = NDArray[np.float64]
 _Floats = NDArray[np.floating[Any]]
@@ -215,13 +213,13 @@ def read_slots(stage: Usd.Stage) -> Slots:
         raise StageError(stage.GetRootLayer().realPath, f"no slots in it: {said}")
     to_metres = metres_y_up(stage)
     turn = to_metres[:3, :3] / np.linalg.norm(to_metres[0, :3])  # for row vectors: from the stage's axes to Y up
-    up = UsdGeom.GetStageUpAxis(stage)
+    up = up_axis(stage)
     levels = levels_of(stage)
     slots = tuple(
         replace(_slot(stall, lanes.nodes[stall.access], turn), level=levels[stall.level].name or None)
         for stall in lanes.stalls
     )
-    return Slots(slots, _GROUND_AXES[up], _UP_AXES[up])
+    return Slots(slots, (0, 3 - up), up)
 
 
 def _slot(stall: Stall, access: LaneNode, turn: Points) -> Slot:

@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Usd, UsdGeom
+from pxr import Usd
 
 from garage2usd.common.randomness import Step, generator
 from garage2usd.driving.tracks import AgentState
 from garage2usd.reading.labels import Labels
+from garage2usd.scenes.values import up_axis
 from garage2usd.sensors.formats.nuscenes_scenes import GlobalFrame, Stretch
 from garage2usd.sensors.formats.nuscenes_tables import BOXED, Record, Tables, place_fields, token_of
 from garage2usd.sensors.rays.moved_scene import MovedScene
@@ -93,7 +94,7 @@ def object_boxes(
     -----
     Objects look to -Z of their own axes where their Y is up, as those of garage2usd do, and to Y where their Z is up.
     """
-    up_axis = "XYZ".index(UsdGeom.GetStageUpAxis(stage))
+    up = up_axis(stage)
     wanted = np.isin(scene.class_id, list(class_ids))
     numbers = np.flatnonzero(wanted & (scene.instance > 0))
     order = numbers[np.argsort(scene.instance[numbers], kind="stable")]
@@ -101,7 +102,7 @@ def object_boxes(
     boxes = []
     for instance, own in zip(ids.tolist(), np.split(order, first)[1:], strict=True):
         matrix = scene.placed[instance].matrix[:3, :3]
-        is_y_up = abs(matrix[1, up_axis]) >= abs(matrix[2, up_axis])
+        is_y_up = abs(matrix[1, up]) >= abs(matrix[2, up])
         axes = _axes(-matrix[2], matrix[1]) if is_y_up else _axes(matrix[1], matrix[2])
         corners = scene.vertices_m[scene.triangles[own]]
         turned = corners.reshape(-1, 3) @ axes

@@ -18,7 +18,7 @@ from garage2usd.reading.levels import levels_of
 from garage2usd.reading.lights import DOMES, LIGHT_TYPES, light_of
 from garage2usd.reading.whole_garage import garage_root
 from garage2usd.scenes.looks import MeshLooks, Numbered
-from garage2usd.scenes.meshes import DRAWN_TYPES, Triangles
+from garage2usd.scenes.meshes import DRAWN_TYPES, Triangles, box_corners
 from garage2usd.scenes.prims import Matrix, PlacedObject, once_for_each_look
 from garage2usd.scenes.remarks import Remarks
 from garage2usd.scenes.values import metres_per_unit, metres_y_up
@@ -32,7 +32,6 @@ from garage2usd.view.viewer.scene import (
     Shape,
     ShownSurface,
     ShownSurfaces,
-    box_corners,
     moved,
 )
 

@@ -139,12 +139,6 @@ def moved(points_m: NDArray[Any], place: NDArray[np.float64]) -> NDArray[np.floa
     return found
 
 
-def box_corners(points: NDArray[Any]) -> NDArray[Any]:
-    """Eight corners of the bounding box of points, X changing fastest; shape (8, 3)."""
-    pair = points.min(axis=0), points.max(axis=0)
-    return np.array([[pair[corner >> axis & 1][axis] for axis in range(3)] for corner in range(8)])
-
-
 @dataclass(frozen=True, eq=False)
 class Piece:
     """A mesh of a shape in the object's space, with one surface.
