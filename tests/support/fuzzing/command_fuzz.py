@@ -188,8 +188,8 @@ def load_commands() -> None:
     prove_stalls(garage.layout)
     show = viewer.ViewerServer.show
 
-    def show_and_end(server: viewer.ViewerServer, scene: viewer.Scene) -> None:
-        show(server, scene)
+    def show_and_end(server: viewer.ViewerServer, *shown: object) -> None:
+        show(server, *shown)
         raise KeyboardInterrupt
 
     def run_blender(*_arguments: object) -> None:
