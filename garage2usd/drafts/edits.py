@@ -355,22 +355,30 @@ class SetRun(Edit):
     """The keys of an entry of `stalls.runs` beside these three."""
 
     def apply(self, change: _Change) -> None:
-        """Replace the runs on these squares, and cut those that reach beyond them."""
+        """Replace the runs on these squares that are free beside a lane, and cut those that reach beyond them."""
         place = {"first": list(self.first), "last": list(self.last), "edge": self.edge}
         squares = set(_squares_of(place))
-        runs = []
-        for run in change.runs():
-            for is_left, part in itertools.groupby(_squares_of(run), key=lambda square: square not in squares):
-                if is_left:
-                    first, *others = map(list, part)
-                    runs.append({**run, "first": first, "last": others[-1] if others else first})
+        runs = [part for run in change.runs() for part in _parts(run, lambda square: square not in squares)]
         if self.run is not None:
             try:
                 GivenRun(**{**self.run, **place})
             except ValidationError as error:
                 raise config_error(error, GivenRun, within="stalls.runs") from None
-            runs.append({**place, **self.run})
+            grid = change.grid()
+            stand = [*_parts({**place, **self.run}, lambda at: _stands(grid, {**place, "first": at, "last": at}))]
+            if not stand:
+                wanted = "free squares with a lane beyond that edge"
+                raise ConfigError("stalls.runs", f"{[*self.first]}, {self.edge}", wanted)
+            runs += stand
         change.put_runs(runs)
+
+
+def _parts(run: Mapping[str, Any], keeps: Callable[[tuple[int, int]], bool]) -> Iterator[dict[str, Any]]:
+    """Yield the parts of a run on consecutive squares that are kept."""
+    for is_kept, part in itertools.groupby(_squares_of(run), key=keeps):
+        if is_kept:
+            first, *others = map(list, part)
+            yield {**run, "first": first, "last": others[-1] if others else first}
 
 
 class Adopt(Edit):

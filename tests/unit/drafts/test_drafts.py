@@ -146,6 +146,7 @@ def test_a_site_that_the_seed_draws_becomes_a_structure_when_one_paints():
         ({"kind": "levels", "count": 9}, "count: got 9"),
         ({"kind": "delete", "axis": "rows", "at": 7}, "at: got 7"),
         ({"kind": "adopt", "rows": ["..."]}, "rows: got 1; allowed: a plan of 4 x 4"),
+        ({"kind": "run", "first": [2, 3], "last": [2, 3], "edge": "right", "run": {}}, "stalls.runs: got"),
         ({"kind": "dig"}, "edit: got"),
         (paint("~", [0, 0]), "symbol"),
     ],
