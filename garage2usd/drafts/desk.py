@@ -89,6 +89,7 @@ class Desk:
                 "drawn_look": bool(config.look.axes),
                 "has_lanes": has_lanes(config),
                 "is_working": self._is_working,
+                "view": self._view_name(),
             }
         began = time.perf_counter()
         return {**told, "sketch": sketch_of(config, planned), "seconds": round(time.perf_counter() - began, 4)}
@@ -203,32 +204,44 @@ class Desk:
     def build(self, _: Told) -> Told:
         """Build the garage and open it for the 3D view; tells the name of the view, and the time that it took."""
         with self._lock:
-            config, planned = self.draft.config, self._garage()
+            config, planned, name = self.draft.config, self._garage(), self._view_name()
         if planned is None and not has_lanes(config):
             raise ConfigError("site.structure", "no lanes", "lanes, drawn or planned; plan them first")
         began = time.perf_counter()
+        shown = self.view(name)
         plans = None if planned is None else [level.plan for level in planned.levels]
-        garage = generate(config, plan=plans)
-        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-            place = Path(folder, f"{self._file.path.stem}.usdc")
-            written = write_stage(garage, place).stage
-            scene = read_scene(open_stage(written), written, Looks())
-        shown = ShownScene()
-        shown.show(scene)
-        with self._lock:
-            name = str(self.draft.number)
-            self._views = {name: shown}
+        try:
+            garage = generate(config, plan=plans)
+            if shown is not None and not shown.is_ready:
+                with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+                    place = Path(folder, f"{self._file.path.stem}.usdc")
+                    written = write_stage(garage, place).stage
+                    shown.show(read_scene(open_stage(written), written, Looks()))
+        except Garage2UsdError:
+            self._drop_views()
+            raise
         return {"view": name, "seconds": round(time.perf_counter() - began, 3), "stalls": garage.parking_stalls}
 
     def view(self, name: str) -> ShownScene | None:
-        """Return the latest 3D view by its name."""
-        return self._views.get(name)
+        """Return a 3D view by its name; that of the present drawing also before it is built, and waits for that."""
+        with self._lock:
+            if name not in self._views and name == self._view_name():
+                self._drop_views()
+                self._views[name] = ShownScene()
+            return self._views.get(name)
+
+    def _view_name(self) -> str:
+        return f"{self.draft.number}{'' if self._garage() is None else '-planned'}"
+
+    def _drop_views(self) -> None:
+        for view in self._views.values():
+            view.release()
+        self._views = {}
 
     def close(self) -> None:
         """Stop all work; unsaved work stays beside the file."""
         self._is_stopped = True
-        for view in self._views.values():
-            view.release()
+        self._drop_views()
 
     # how
 

@@ -141,6 +141,11 @@ class ShownScene:
         self._scene = scene
         self.release()
 
+    @property
+    def is_ready(self) -> bool:
+        """True once a scene is published."""
+        return self._scene is not None
+
     def release(self) -> None:
         """Let requests go that wait for a scene."""
         self._ready.set()

@@ -227,6 +227,8 @@ def test_lanes_are_planned_kept_and_built(tmp_path):
     built = desk.build({})
     assert built["stalls"] > 10
     assert desk.view(built["view"]).answer("/scene.bin")[1][:4] == b"G2UV"
+    assert desk.view("0") is None
+    assert built["view"] == desk.state()["view"]
     rows = state["sketch"]["levels"][0]["rows"]
     assert desk.adopt({})["sketch"]["levels"][0]["rows"] == rows
     assert desk.state()["sketch"]["state"] == "drawn"

@@ -37,6 +37,8 @@ export class Board {
   /** What is seen: the corner in metres, and metres per pixel. */
   private view = { x: 0, z: 0, scale: 0.1 };
   private fitted = false;
+  /** True once the user has zoomed or moved the plan, which then stays as it is when the window changes. */
+  private isMoved = false;
   private stroke: { id: string; sent: number; squares: Square[]; all: Square[]; start: Square; point: [number, number] } | null = null;
   private sizing: { axis: Axis; line: number; start: number; side: number; sides: number[]; id: string } | null = null;
   private readonly fingers = new Map<number, [number, number]>();
@@ -58,7 +60,7 @@ export class Board {
     svg.addEventListener("pointercancel", (event) => this.release(event));
     svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     svg.addEventListener("contextmenu", (event) => event.preventDefault());
-    new ResizeObserver(() => this.sketch.levels.length && (this.fitted ? this.draw() : this.fit())).observe(svg);
+    new ResizeObserver(() => this.sketch.levels.length && (this.isMoved ? this.draw() : this.fit())).observe(svg);
   }
 
   get isPainting(): boolean {
@@ -110,6 +112,7 @@ export class Board {
     this.view.x = (width - box.width * this.view.scale) / 2 - (RULER_PX / 2) * this.view.scale;
     this.view.z = (depth - box.height * this.view.scale) / 2 - (RULER_PX / 2) * this.view.scale;
     this.fitted = true;
+    this.isMoved = false;
     this.draw();
   }
 
@@ -120,6 +123,7 @@ export class Board {
     this.view.x += px * (this.view.scale - scale);
     this.view.z += pz * (this.view.scale - scale);
     this.view.scale = scale;
+    this.isMoved = true;
     this.draw();
   }
 
@@ -127,6 +131,7 @@ export class Board {
     const box = this.svg.getBoundingClientRect();
     this.view.x = x - (box.width / 2) * this.view.scale;
     this.view.z = z - (box.height / 2) * this.view.scale;
+    this.isMoved = true;
     this.draw();
   }
 
@@ -228,6 +233,7 @@ export class Board {
     else if (this.panned === event.pointerId) {
       this.view.x -= (pixel[0] - before[0]) * this.view.scale;
       this.view.z -= (pixel[1] - before[1]) * this.view.scale;
+      this.isMoved = true;
       this.draw();
     } else if (this.stroke) {
       for (const place of between(this.metres(before), this.metres(pixel), this.view.scale * 4)) {

@@ -11,7 +11,7 @@ export interface Run { first: Square; last: Square; edge: string; kind: string; 
 export interface State {
   number: number; name: string; folder: string; is_new: boolean; is_saved: boolean; can_undo: boolean; can_redo: boolean; kept: boolean;
   levels: number; place: { square: Square; way: string; aside: string | null } | null; given_sides: [boolean, boolean]; runs: Run[];
-  values: Record<string, string | number | boolean>; given: string[]; drawn_look: boolean; has_lanes: boolean; is_working: boolean; sketch: Sketch;
+  values: Record<string, string | number | boolean>; given: string[]; drawn_look: boolean; has_lanes: boolean; is_working: boolean; view: string; sketch: Sketch;
   seconds: number; warning?: string;
 }
 export interface Control {

@@ -125,9 +125,15 @@ class DrawPage {
 
   /** Check with all objects, when the drawing rests. */
   private async checkAll(): Promise<void> {
-    if (this.desk.isBusy || this.board.isPainting) return;
-    const told = await ask<{ number: number; findings: Finding[]; levels: Level[] }>("findings");
-    if (told.number !== this.desk.state.number) return;
+    const again = () => (this.check = window.setTimeout(() => void this.checkAll(), CHECK_AFTER_MS));
+    if (this.desk.isBusy || this.board.isPainting) return void again();
+    let told: { number: number; findings: Finding[]; levels: Level[] };
+    try {
+      told = await ask("findings");
+    } catch (error) {
+      return this.refuse(error as Error);
+    }
+    if (told.number !== this.desk.state.number) return; // the answer to the change asks again
     const { sketch } = this.desk.state;
     this.findings = sketch.findings = told.findings;
     // stair cores and turning bays take stalls, which the squares alone do not tell
@@ -323,19 +329,18 @@ class DrawPage {
   }
 
   private async build(): Promise<void> {
-    const button = byId<HTMLButtonElement>("build");
-    button.disabled = true;
-    button.textContent = "Building\u2026";
+    const dialog = byId<HTMLDialogElement>("view-dialog");
+    byId("view-facts").textContent = "Building\u2026";
+    // the viewer starts while the garage is built, and waits for its scene
+    byId<HTMLIFrameElement>("view-frame").src = byId<HTMLAnchorElement>("view-link").href = `3d/${this.desk.state.view}/`;
+    dialog.showModal();
     try {
-      const told = await tell<{ view: string; seconds: number; stalls: number }>("build");
+      const told = await tell<{ seconds: number; stalls: number }>("build");
       byId("view-facts").textContent = `${plural(told.stalls, "stall")}, built in ${told.seconds.toFixed(1)} s`;
-      byId<HTMLIFrameElement>("view-frame").src = byId<HTMLAnchorElement>("view-link").href = `3d/${told.view}/`;
-      byId<HTMLDialogElement>("view-dialog").showModal();
     } catch (error) {
+      dialog.close();
       this.refuse(error as Error);
     }
-    button.textContent = "Show in 3D";
-    button.disabled = false;
   }
 
   private async showPicture(): Promise<void> {
