@@ -101,8 +101,9 @@ if [ ! -e "$stamp" ]; then
         }
         three=$(sed -n 's/^THREE_VERSION = "\(.*\)"$/\1/p' tests/support/browser.py)
         validator=$(sed -n 's/^VALIDATOR_VERSION = "\(.*\)"$/\1/p' tests/support/gltf_validator.py)
+        axe=$(sed -n 's/^AXE_VERSION = "\(.*\)"$/\1/p' tests/support/browser.py)
         "$npm" install --silent --no-save --no-package-lock --no-audit --no-fund --prefix .venv/node "three@$three" \
-            "gltf-validator@$validator"
+            "gltf-validator@$validator" "axe-core@$axe"
         # what the viewer's page is built with
         "$npm" install --silent --no-package-lock --no-audit --no-fund --prefix garage2usd/view/web
         wait "$judges"

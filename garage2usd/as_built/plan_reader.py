@@ -57,17 +57,17 @@ def garage_of_plan(
     suffix = path.suffix.lower()
     if suffix == ".toml":
         config = load_config(path)
-        return _of_config(config, path, kind="plan"), config
+        return garage_of_config(config, path, kind="plan"), config
     if is_array_file(path):
         config = config_from_mapping(_given(profile) | matrices_of(path, field=_FIELD))
-        return _of_config(config, path, kind="plan"), config
+        return garage_of_config(config, path, kind="plan"), config
     if suffix != ".json":
         text = read_text(path, field=_FIELD)
         config = config_from_mapping(_given(profile) | {"site": {"structure": text}})
-        return _of_config(config, path, kind="plan"), config
+        return garage_of_config(config, path, kind="plan"), config
     document = read_json(path, field=_FIELD, max_bytes=MAX_REPORT_BYTES)
     config = config_from_mapping(_given(profile) | _settings_of(document, path))
-    return _of_config(config, path, kind="plan"), config
+    return garage_of_config(config, path, kind="plan"), config
 
 
 def _given(profile: Profile | None) -> dict[str, Any]:
@@ -92,13 +92,20 @@ def _drawing(rows: Any, path: Path) -> str:  # noqa: ANN401
     raise ConfigError(_FIELD, str(path), "a report, or S as rows of symbols or numbers")
 
 
-def _of_config(config: GarageConfig, path: Path, *, kind: str) -> BuiltGarage:
+def garage_of_config(config: GarageConfig, path: Path, *, kind: str = "plan", with_objects: bool = True) -> BuiltGarage:
+    """Read a garage from a configuration with lanes; without objects, only what its squares tell, which is quick.
+
+    Raises
+    ------
+    ConfigError
+        If the configuration has no lanes, or a setting is invalid.
+    """
     check_one_level(config.building)
     if config.site.structure is None:
         raise ConfigError(_FIELD, str(path), "a plan with lanes; build this configuration first and check what is made")
     structure = with_sides(cells_from_text(config.site.structure, field="site.structure"), config.bay)
     plan = with_directions(given_plan(structure, bay=config.bay), config)
-    return _read(with_stall_kinds(plan, config), config, path, kind=kind)
+    return _read(with_stall_kinds(plan, config), config, path, kind=kind, with_objects=with_objects)
 
 
 def _of_report(report: Report, path: Path) -> BuiltGarage:
@@ -126,12 +133,13 @@ def _read(
     kind: str,
     listed: Sequence[Any] | None = None,
     unreachable: Sequence[str] | None = None,
+    with_objects: bool = True,
 ) -> BuiltGarage:
     structure = plan.structure
     if not (structure.cells == Cell.LANE).any():
         raise ConfigError(_FIELD, str(path), "a plan with lanes; build it first and check what is made")
     graph = unproven_lane_graph(structure, config.bay, plan.runs, plan.directions)
-    layout, refusal = _laid_out(plan, config, unreachable)
+    layout, refusal = _laid_out(plan, config, unreachable) if with_objects else (None, None)
     if layout is None:
         faults = () if refusal is None else (Fault("plan-refused", "", None, refusal),)
         stalls = planned_stalls(graph, config.bay)

@@ -11,6 +11,7 @@ from garage2usd.cli.build import build
 from garage2usd.cli.check import check
 from garage2usd.cli.dataset import compare, dataset
 from garage2usd.cli.doctor import doctor
+from garage2usd.cli.draw import draw
 from garage2usd.cli.drive import drive
 from garage2usd.cli.export import export
 from garage2usd.cli.import_layout import import_layout
@@ -67,6 +68,7 @@ for _command in (
     compare,
     dataset,
     doctor,
+    draw,
     drive,
     export,
     import_layout,

@@ -14,12 +14,16 @@ from garage2usd.cli.options import INPUT_FILE
 _MOST_PORT = 65535
 
 
-@click.command(short_help="Show a stage in the browser.")
-@click.argument("path", type=INPUT_FILE)
-@click.option(
+port_option = click.option(
     "--port", metavar="N", type=click.IntRange(0, _MOST_PORT), default=0, help="TCP port.  [default: any that is free]"
 )
-@click.option("--no-browser", is_flag=True, help="Say the address only; open no browser.")
+no_browser_option = click.option("--no-browser", is_flag=True, help="Say the address only; open no browser.")
+
+
+@click.command(short_help="Show a stage in the browser.")
+@click.argument("path", type=INPUT_FILE)
+@port_option
+@no_browser_option
 @click.option("--tracks", metavar="FILE", type=INPUT_FILE, help="Play tracks of cars and people: .parquet or .csv.")
 @click.option(
     "--video",

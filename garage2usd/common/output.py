@@ -188,20 +188,20 @@ def unfinished_folder(folder: Path, key: str) -> Iterator[Path]:
 
 
 @contextmanager
-def only_run(folder: Path) -> Iterator[None]:
-    """Ensure that no other run uses an existing folder.
+def only_run(folder: Path, *, of_file: str = "", otherwise: str = _AT_WORK) -> Iterator[None]:
+    """Ensure that no other run uses an existing folder, or one file in it.
 
     Raises
     ------
     OutputError
-        If another run uses it, or the folder is not writable.
+        If another run uses it, with the reason `otherwise`, or the folder is not writable.
     """
-    locked = folder / f"{HIDDEN_PREFIX}{_LOCK}"
+    locked = folder / f"{HIDDEN_PREFIX}{of_file and f'{of_file}-'}{_LOCK}"
     with writing(folder):
         file = locked.open("a+b")
     with file:
         if not _takes(file, locked):
-            raise OutputError(folder, _AT_WORK)
+            raise OutputError(folder / of_file, otherwise)
         try:
             yield
         finally:

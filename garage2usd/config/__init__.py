@@ -40,6 +40,7 @@ __all__ = [
     "TrafficConfig",
     "VehiclesConfig",
     "config_from_mapping",
+    "config_in",
     "config_schema",
     "load_config",
     "profile_setting",
@@ -211,16 +212,21 @@ def load_config(path: str | Path, *, profile: str | Path | None = None) -> Garag
         If the file cannot be read, is not TOML, or holds an unknown key or a value that is not allowed.
     """
     path = Path(path)
-    settings = with_textures(read_toml(path, field="CONFIG"), path.parent)
+    return config_in(read_toml(path, field="CONFIG"), path.parent, profile=profile)
+
+
+def config_in(settings: Mapping[str, Any], folder: Path, *, profile: str | Path | None = None) -> GarageConfig:
+    """Validate settings as TOML reads them, whose relative paths start at a folder; the rest as for `load_config`."""
+    settings = with_textures(settings, folder)
     if profile is not None:
         settings["profile"] = profile_setting(profile)
     elif isinstance(settings.get("profile"), str):
-        settings["profile"] = profile_setting(settings["profile"], folder=path.parent)
+        settings["profile"] = profile_setting(settings["profile"], folder=folder)
     config = config_from_mapping(settings)
     if not config.names_files:
         return config
     try:
-        return config_from_mapping(with_files(settings, path.parent))
+        return config_from_mapping(with_files(settings, folder))
     except ConfigError as error:
         raise without_files(error, settings) from None
 

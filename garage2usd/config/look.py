@@ -22,7 +22,7 @@ NO_DADO = "none"
 AISLE = "aisle"
 """The stalls' floor has the finish of the aisle."""
 _HEX = re.compile(r"#[0-9a-f]{6}")
-_COLOURS = {
+COLOURS = {
     "white": "#dedede",
     "light grey": "#b4b4b2",
     "grey": "#8c8c8a",
@@ -35,6 +35,7 @@ _COLOURS = {
     "blue": "#2b5fa8",
     "beige": "#c9b896",
 }
+"""Named colours, as #rrggbb in sRGB."""
 _TOLD = (
     ("floor", ("finish", "colour", "gloss")),
     ("markings", ("pattern", "colour", "wear")),
@@ -47,9 +48,9 @@ _TOLD = (
 
 def _colour(value: str) -> str:
     """Validate a colour, a name or ``#rrggbb``."""
-    colour = _COLOURS.get(value.lower(), value.lower())
+    colour = COLOURS.get(value.lower(), value.lower())
     if not _HEX.fullmatch(colour):
-        raise ValueError(f"#rrggbb in sRGB, or one of {', '.join(_COLOURS)}")
+        raise ValueError(f"#rrggbb in sRGB, or one of {', '.join(COLOURS)}")
     return colour
 
 

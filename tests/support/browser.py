@@ -13,6 +13,7 @@ from urllib.parse import quote
 
 PAGE_FOLDER = Path(__file__).parents[1] / "clients" / "threejs"
 THREE_VERSION = "0.187.0"
+AXE_VERSION = "4.10.3"
 _BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 _ARGUMENTS = (
     "--headless",
@@ -41,6 +42,12 @@ def find_three():
     default = Path(__file__).parents[2] / ".venv" / "node" / "node_modules" / "three"
     folder = Path(os.environ.get("THREEJS_FOLDER", default))
     return folder if (folder / "package.json").is_file() else None
+
+
+def find_axe():
+    """axe-core's script, which judges how accessible a page is, where environment.sh installs it; else None."""
+    script = Path(__file__).parents[2] / ".venv" / "node" / "node_modules" / "axe-core" / "axe.min.js"
+    return script if script.is_file() else None
 
 
 def load_in_three(stage, profile, *, pictures=False, page="page.html", camera="", timeout_s=300):

@@ -165,7 +165,7 @@ class Reader:
         for line, code in block.commands():
             words = shlex.split(line, comments=True)
             assert not _CHANGES_THE_MACHINE & set(words), f"{block}: {line} needs a mark why it is not run"
-            if words[:2] == ["garage2usd", "view"]:
+            if words[0] == "garage2usd" and words[1] in {"view", "draw"}:
                 self._view(words[1:])
             elif words[0] == "garage2usd" and not _SHELL & set(words):
                 self._command(words[1:], code, f"{block}: {line}")
@@ -195,8 +195,8 @@ class Reader:
         with subprocess.Popen(
             command, cwd=self.folder, stdout=subprocess.PIPE, text=True, start_new_session=True
         ) as server:
-            address = re.search(r"http://127\.0\.0\.1:\d+/", server.stdout.readline())[0]
-            assert "objects" in server.stdout.readline()
+            address = re.search(r"http://127\.0\.0\.1:\d+/\S*", server.stdout.readline())[0]
+            assert re.search("objects|Ctrl-C ends", server.stdout.readline())
             with urllib.request.urlopen(address, timeout=30) as page:  # noqa: S310 - http by the pattern above
                 assert b"<script" in page.read()
             os.killpg(server.pid, signal.SIGINT)

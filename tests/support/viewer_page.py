@@ -10,7 +10,7 @@ from playwright.sync_api import sync_playwright
 
 from support.browser import find_browser
 
-_ARGUMENTS = [
+BROWSER_ARGUMENTS = [
     "--no-sandbox",
     "--use-gl=angle",
     "--use-angle=swiftshader",
@@ -83,7 +83,7 @@ def viewed(stage, *, size=(1024, 640), options=()):
         try:
             url = re.search(r"http://\S+", server.stdout.readline())[0]
             with sync_playwright() as playwright:
-                browser = playwright.chromium.launch(executable_path=find_browser(), args=_ARGUMENTS)
+                browser = playwright.chromium.launch(executable_path=find_browser(), args=BROWSER_ARGUMENTS)
                 try:
                     yield Page(browser.new_page(viewport={"width": size[0], "height": size[1]}), url)
                 finally:

@@ -3,6 +3,15 @@
 from garage2usd.view.viewer.agents import ShownTraffic, read_agents
 from garage2usd.view.viewer.reading import Looks, read_scene
 from garage2usd.view.viewer.scene import Scene
-from garage2usd.view.viewer.server import ViewerServer
+from garage2usd.view.viewer.server import LoopbackServer, ShownScene, ViewerServer
 
-__all__ = ["Looks", "Scene", "ShownTraffic", "ViewerServer", "read_agents", "read_scene"]
+__all__ = [
+    "Looks",
+    "LoopbackServer",
+    "Scene",
+    "ShownScene",
+    "ShownTraffic",
+    "ViewerServer",
+    "read_agents",
+    "read_scene",
+]

@@ -29,7 +29,12 @@ export default defineConfig({
     chunkSizeWarningLimit: 900,
     // names without hashes, so that a rebuild changes the bytes that the sources changed and no names
     rollupOptions: {
-      output: { entryFileNames: "viewer.js", chunkFileNames: "[name].js", assetFileNames: "[name][extname]" },
+      input: { index: "index.html", draw: "draw.html" },
+      output: {
+        entryFileNames: ({ name }) => (name === "index" ? "viewer.js" : "[name].js"),
+        chunkFileNames: "[name].js",
+        assetFileNames: "[name][extname]",
+      },
     },
   },
 });
