@@ -1,7 +1,7 @@
 # Two commands for a fresh Debian or Ubuntu with Python 3.11 to 3.14: `make demo` and `make test`. While one works, `make check`
 # runs what a change can affect, `make check BASE=commit` what differs from a commit. `make soak` runs the wide tests, which
 # take hours, and `make soak PART=3` an eighth of them.
-.PHONY: demo test check soak digests lint wheels
+.PHONY: demo test check soak digests pictures lint wheels
 
 demo:
 	@./environment.sh demo
@@ -24,6 +24,12 @@ soak:
 digests:
 	@./environment.sh test
 	@.venv/bin/python benchmarks/digests.py $(if $(WRITE),--write)
+
+# draws the pictures of README and documentation that are out of date; `make pictures CHECK=1` only names them, and fails if
+# there are any, `make pictures NAMES="above.jpg cars.jpg"` draws these
+pictures:
+	@./environment.sh test
+	@.venv/bin/python docs/pictures/draw.py $(if $(CHECK),--check) $(NAMES)
 
 # the wheels of all systems and the source distribution into dist/, checked; `release/release.sh` does it on a clean clone
 wheels:

@@ -3,7 +3,7 @@
 #
 #   release/release.sh [--without-tests] [--without-download]
 #
-# --without-tests     leaves out `make test` and `make soak` (three hours), for a trial of all the rest
+# --without-tests     leaves out `make test`, `make soak` (three hours) and the check of pictures, for a trial of all the rest
 # --without-download  leaves out fetching each wheel's dependencies (half a gigabyte); they are still resolved
 #
 # Afterwards release/upload.py uploads dist/, and goes on after a failure.
@@ -25,6 +25,8 @@ clone=$(mktemp -d)
 trap 'rm -rf "$clone"' EXIT
 git clone --quiet . "$clone"
 [ -z "$tests" ] || make -C "$clone" test soak
+# pictures that are older than what they show are named, and end it
+[ -z "$tests" ] || make -C "$clone" pictures CHECK=1
 make -C "$clone" wheels
 if [ -n "$download" ]; then
     (cd "$clone" && build/release/bin/python release/wheels.py dist --check-only --no-index $download)

@@ -69,6 +69,9 @@ def pytest_terminal_summary(terminalreporter):
     reports = [
         part for part in chain.from_iterable(terminalreporter.stats.values()) if isinstance(part, pytest.TestReport)
     ]
+    for key, lines in chain.from_iterable(report.user_properties for report in reports if report.when == "call"):
+        for line in lines if key == "older" else ():
+            terminalreporter.line(line)
     if config.getoption("--write-durations"):
         write_durations(reports, soak=soak)
     elif soak:

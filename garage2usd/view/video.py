@@ -124,7 +124,7 @@ def write_film(film: Film, url: str, scene: Scene, progress: Progress = silent) 
     if film.level and film.level not in names:
         raise ConfigError("level", film.level, f"one of {', '.join(names)}" if names else "none, as there is one level")
     level = names.index(film.level) if film.level else 0
-    with staging_folder(film.path) as staging, _page(film, url) as page:
+    with staging_folder(film.path) as staging, open_page(film, url) as page:
         page.evaluate("([camera, level, scale]) => viewer.film(camera, level, scale)", [film.camera, level, _FINER])
         draft = staging / film.path.name
         _encode(draft, film, _pictures(page, film, progress))
@@ -132,8 +132,16 @@ def write_film(film: Film, url: str, scene: Scene, progress: Progress = silent) 
 
 
 @contextmanager
-def _page(film: Film, url: str) -> Iterator[Any]:
-    """Open the page in a browser without a window."""
+def open_page(film: Film, url: str) -> Iterator[Any]:
+    """Open a page of `ViewerServer` in a browser without a window, of the size of a film.
+
+    Raises
+    ------
+    ConfigError
+        If the size is not possible.
+    OutputError
+        If there is no Chromium, or it cannot show the page.
+    """
     with of_extra("a video"):
         from playwright.sync_api import Error, sync_playwright  # noqa: PLC0415 - optional
     width, height = film.pixels()

@@ -103,9 +103,9 @@ LARGEST_DIFFERENCE = 4.0
 def test_blender_draws_the_stored_picture(builds, tmp_path, write_pictures):
     build = builds(REPOSITORY / "samples" / "paper_7x9.toml", "usdc")
     output = tmp_path / "inside.png"
-    script = REPOSITORY / "docs" / "pictures" / "render.py"
+    script = Path(__file__).with_name("blender_render.py")
     subprocess.run(
-        [sys.executable, str(script), str(build.stage), "inside", str(output), "--width", "320", "--samples", "8"],
+        [sys.executable, str(script), str(build.stage), str(output), "--width", "320", "--samples", "8"],
         check=True,
         capture_output=True,
         timeout=600,
