@@ -7,6 +7,7 @@ from typing import Any
 from table import REPOSITORY, Picture, read_records, read_table
 
 PAGE = "docs/gallery.md"
+_A_ROW = 4
 _STARTING_POINTS = "garage2usd/config/starting_points"
 _VARY = "\n# What differs among"
 """Begins what a starting point says of data sets."""
@@ -16,8 +17,6 @@ _HEAD = """# Gallery
 build it; all were built from just what stands here. Stalls are those for cars, and square metres are all ground
 inside the outline, of all levels.
 
-| | |
-|---|---|
 {index}
 """
 _ENTRY = """
@@ -46,9 +45,13 @@ def page(repository: Path = REPOSITORY) -> str:
     records = read_records(repository)
     table = {name: entry for name, entry in read_table(repository).items() if entry.title}
     entries = [_entry(Path(name).stem, entry, records.get(name, {}), repository) for name, entry in table.items()]
-    links = [f"[{entry.title}](#{_anchor(entry.title)})" for entry in table.values()]
-    rows = [f"| {' | '.join(links[first : first + 2])} |" for first in range(0, len(links), 2)]
-    return _HEAD.format(count=len(table), index="\n".join(rows)) + "".join(entries)
+    links = [
+        f"[![{entry.title}](gallery/{Path(name).stem}.jpg)<br>{entry.title}](#{_anchor(entry.title)})"
+        for name, entry in table.items()
+    ]
+    rows = [f"| {' | '.join(links[first : first + _A_ROW])} |" for first in range(0, len(links), _A_ROW)]
+    index = "\n".join(["|" + " |" * _A_ROW, "|" + "---|" * _A_ROW, *rows])
+    return _HEAD.format(count=len(table), index=index) + "".join(entries)
 
 
 def write_page() -> None:
