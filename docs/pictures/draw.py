@@ -42,6 +42,10 @@ _DRAWN_BY = {
     "--device rays": ("embreex", "trimesh"),
     "--device cpu": ("bpy",),
     "viewer_picture.py": ("playwright",),
+    "page_picture.py": ("playwright",),
+    "car_sheets.py": ("bpy",),
+    "parking_picture.py": ("gymnasium",),
+    "point_cloud.py": ("embreex", "trimesh"),
     "--video": ("playwright", "av"),
 }
 """Packages that draw, by words of the commands."""
@@ -64,7 +68,7 @@ def main() -> int:
     if options.check:
         found = check(stages=garage_digests({table[name].of for name in chosen}, options.jobs))
         lines = [line for line in found.lines() if not options.names or line.startswith(tuple(f"{n}:" for n in chosen))]
-        print("\n".join([*lines, f"{len(lines)} of {len(table)} pictures are out of date"]))
+        print("\n".join([*lines, f"{len(lines)} of {len(chosen)} pictures are out of date"]))
         return min(len(lines), 1)
     if not (options.names or options.all):
         surely = check()  # garages are made only where nothing else tells
@@ -186,10 +190,15 @@ def _prepared(picture: Image.Image, entry: Picture) -> Image.Image:
 
 
 def _versions(entry: Picture) -> dict[str, str]:
-    """Return the versions of garage2usd and of the packages that draw."""
+    """Return the versions of garage2usd and of the packages and the browser that draw."""
     said = " ".join(entry.commands)
     packages = chain.from_iterable(names for words, names in _DRAWN_BY.items() if words in said)
-    return {"garage2usd": VERSION} | {name: importlib.metadata.version(name) for name in sorted({*packages})}
+    versions = {"garage2usd": VERSION} | {name: importlib.metadata.version(name) for name in sorted({*packages})}
+    browser = shutil.which("chromium") if "playwright" in versions else None
+    if browser:
+        told = subprocess.run([browser, "--version"], capture_output=True, text=True, check=False).stdout  # noqa: S603
+        versions["chromium"] = told.removeprefix("Chromium ").split()[0]
+    return versions
 
 
 def _figures(folder: Path) -> dict[str, Any]:
