@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.survey.lanelets import line_between
 from garage2usd.survey.opendrive_lanes import RoadLane
 
 Floats = NDArray[np.float64]
@@ -36,7 +37,8 @@ def with_joined_lanes(
     -----
     The lanes of a connecting road continue single lanes of the roads that it connects, beside the middle of these if
     they are driven in both directions. A survey has one centre line for such a road, so the ends of connecting lanes
-    are moved onto it. Lanes that are the same then are one, and one of both directions where they lead both ways.
+    are moved onto it. Lanes that are the same then are one, and one of both directions, in the middle of both, where
+    they lead both ways.
     """
     joined: dict[tuple[tuple[float, ...], tuple[float, ...]], tuple[str, int, RoadLane]] = {}
     for road, found in lanes.items():
@@ -50,7 +52,8 @@ def with_joined_lanes(
             if (end, start) in joined:
                 other_road, other_number, other = joined[end, start]
                 width_m = other.width_m + lane.width_m
-                joined[end, start] = other_road, other_number, other._replace(one_way=False, width_m=width_m)
+                middle, _ = line_between(other.points, moved.points[::-1])
+                joined[end, start] = other_road, other_number, RoadLane(np.array(middle), width_m, one_way=False)
             else:
                 joined.setdefault((start, end), (road, number, moved))
     yield from joined.values()
