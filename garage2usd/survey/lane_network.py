@@ -253,12 +253,14 @@ def _approach(
 ) -> _Approach:
     """Find the line from a door's node to the lane ahead, else the nearest one; reversed for an exit.
 
+    A lane that ends before the door is ahead of it, though it bends and ends beside the middle of the door.
     A way over stalls or through walls is taken only where there is no other.
     """
     foot, (out_x, out_z) = shapely.Point(gate.foot), gate.outwards
     reach_m = 2 * min(each.line.distance(foot) for each in lines) + SAME_M
     ray = shapely.LineString([gate.foot, (foot.x - out_x * reach_m, foot.y - out_z * reach_m)])
     ways = []
+    tree = shapely.STRtree([each.line for each in lines])
     asked = lines if gate.lane is None else [min(lines, key=lambda each: each.line.distance(shapely.Point(gate.lane)))]
     for number, each in enumerate(asked):
         ends = [shapely.Point(each.line.coords[place]) for place in (0, -1)]
@@ -266,7 +268,9 @@ def _approach(
             ends.append(shapely.Point(shapely.shortest_line(foot, each.line.intersection(ray)).coords[-1]))
         ends.append(each.line.interpolate(each.line.project(foot)))
         for end in ends:
-            is_ahead = each.line.intersects(ray) and ray.distance(end) < _TOUCH_M
+            is_end = len(tree.query(end, predicate="dwithin", distance=SAME_M)) == 1
+            aside_m = each.width_m / 2 if is_end else _TOUCH_M
+            is_ahead = ray.distance(end) < aside_m and (is_end or each.line.intersects(ray))
             way = shapely.LineString([foot, end]).difference(foot.buffer(_TOUCH_M))
             shut = 0 if walls is None else int(walls.intersects(way))
             shut += len(stalls.query(way, predicate="crosses"))

@@ -101,6 +101,14 @@ def test_one_way_lanes_are_driven_along_their_points_alone():
     assert not nx.has_path(graph.graph, exit_, entrance)
 
 
+def test_a_lane_that_bends_before_a_door_leads_to_the_door():
+    way_out = ((26.0, 7.5), (31.0, 7.8), (36.0, 9.0), (40.0, 10.0))
+    lanes = (SurveyedLane(((4.0, 10.0), (26.0, 10.0)), 6.0), SurveyedLane(((26.0, -5.0), (26.0, 25.0)), 6.0))
+    graph = lane_network((*lanes, SurveyedLane(way_out, 3.7, one_way=True)), GATES)
+    (before,) = graph.graph.predecessors(graph.portals("exit")[0])
+    assert shapely.LineString(way_out).distance(shapely.Point(graph.nodes[before].position)) < 0.1
+
+
 def test_lanes_are_as_wide_as_the_ground_between_stalls():
     stalls = [box(f"{n}", 10 + 2.5 * n, 1.4, 2.5, 5) for n in range(8)]
     standing = shapely.union_all([shapely.Polygon(stall.corners) for stall in stalls])
