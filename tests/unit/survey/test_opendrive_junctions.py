@@ -25,9 +25,10 @@ def road(number, start, hdg, length, *, lanes=TWO_WAY, junction=-1, links=(), ob
     )
 
 
-def written(tmp_path, *roads):
+def written(tmp_path, *roads, told=()):
     path = tmp_path / "lot.xodr"
-    path.write_text(f"<OpenDRIVE>{''.join(roads)}</OpenDRIVE>")
+    data = "".join(f'<userData code="{code}" value="{value}"/>' for code, value in told)
+    path.write_text(f"<OpenDRIVE><header>{data}</header>{''.join(roads)}</OpenDRIVE>")
     return path
 
 
@@ -59,6 +60,16 @@ def test_a_level_has_the_connecting_roads_that_lie_above_those_of_another(tmp_pa
         (between,) = [lane for lane in level.survey.lanes if shapely.LineString(lane.points).length < 11]
         assert not between.one_way
         assert between.width_m == 6.0
+
+
+def test_levels_have_the_outlines_and_doors_that_the_header_tells_of_them(tmp_path):
+    told = (("outline U1", "-9 -9 99 -9 99 9 -9 9"), ("entrance U1", "0 0"), ("outline U2", "-8 -8 98 -8 98 8 -8 8"))
+    path = written(tmp_path, *crossing(), *crossing(first=11, height=-3.2), told=told)
+    first, second = (level.survey for level in read_building(path).in_order)
+    assert shapely.Polygon(first.outline).bounds == (-9, -9, 99, 9)
+    assert [portal.position for portal in first.portals] == [(0, 0)]
+    assert shapely.Polygon(second.outline).bounds == (-8, -8, 98, 8)
+    assert not second.portals
 
 
 def test_stalls_on_both_sides_of_a_junction_are_placed(tmp_path):
