@@ -264,6 +264,8 @@ _WRITERS: dict[str, _Write] = {
     _OPENSTREETMAP: _openstreetmap,
 }
 """Writers by extension, the slowest first, so that parallel tasks finish together."""
+_ON_THE_RIGHT = {_LANELET2, _MAP, _AREAS, _CARLA}
+"""Formats whose lanes keep to the right in any garage, since netconvert does not read the rule of OpenDRIVE's roads."""
 
 
 def _write(source: _Source, folder: Path, asked: _Asked) -> tuple[tuple[Path, ...], list[str]]:
@@ -275,6 +277,8 @@ def _write(source: _Source, folder: Path, asked: _Asked) -> tuple[tuple[Path, ..
         The files, and lines on data that the format cannot represent.
     """
     remarks = Remarks()
+    if asked.format in _ON_THE_RIGHT and any(level.keeps_left for level in source.garage.levels):
+        remarks.add("lanes keep to the right, while cars in this garage keep to the left", source.name)
     with drafting(asked.place):
         folder.mkdir()
         _WRITERS[asked.format](source, folder / asked.place.name, asked, remarks)
