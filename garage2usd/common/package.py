@@ -20,7 +20,7 @@ RAYS = ("embreex", "trimesh") if HAS_EMBREE else ("trimesh",)
 """Modules for ray casting; without embreex, the much slower `garage2usd.sensors.rays.ray_caster` is used."""
 _BROUGHT = {
     "bpy": ("blender", "Blender's Python module"),
-    "OpenEXR": ("blender", "OpenEXR"),
+    "OpenEXR": ("sensors", "OpenEXR"),
     "distributed": ("dataset", "Dask's distributed"),
     "jinja2": ("dataset", "Jinja"),
     "matplotlib": ("dataset", "Matplotlib"),
@@ -56,7 +56,7 @@ def require(purpose: str, modules: Iterable[str], *, without: str = "", extra: s
     modules
         Import names of the modules.
     without
-        Alternative without the modules, in words; appended to the message if parts of Blender are missing.
+        Alternative without the modules, in words; appended to the message if Blender's module is missing.
     extra
         An extra that brings them, if several do.
 
@@ -94,14 +94,16 @@ def of_extra(purpose: str, extra: str = "") -> Iterator[None]:
 
 
 def _missing(purpose: str, modules: list[str], without: str = "", extra: str = "") -> MissingExtraError:
-    extras = [extra] if extra else sorted({_BROUGHT[module][0] for module in modules})
+    with_blender = {*BLENDER} if "bpy" in modules else set()
+    of_each = ("blender" if module in with_blender else _BROUGHT[module][0] for module in modules)
+    extras = [extra] if extra else sorted({*of_each})
     *others, last = (_BROUGHT[module][1] for module in modules)
     brings = f"{', '.join(others)} and {last}" if others else last
     here = sys.version_info[:2]
     if "bpy" in modules and here != _PYTHON_OF_BLENDER:
         needed, found = (".".join(map(str, version)) for version in (_PYTHON_OF_BLENDER, here))
         brings = f"Python {needed} instead of {found}, and in it {brings}"
-    if without and set(BLENDER).intersection(modules):
+    if without and with_blender:
         brings = f"{brings} ({without})"
     return MissingExtraError(purpose, ",".join(extras), brings, installation_of(",".join(extras)))
 
