@@ -80,6 +80,7 @@ def plan(
         garage = generated_of(path, seed, progress=progress)
         # before the check of a stage, which limits the processor time of all later work
         told = _beside_optimum(garage, progress) if with_optimum else []
+        marks = _marks(path, garage, progress) if with_findings else {}
     driven = None
     if tracks is not None:
         from garage2usd.maps.track_tables import read_tracks  # noqa: PLC0415 - needs an extra
@@ -88,7 +89,7 @@ def plan(
     drawings = draw_levels(
         garage,
         stall=find_stall(garage.stalls, number) if number else None,
-        marks=_marks(path, garage) if with_findings else {},
+        marks=marks,
         tracks=driven,
     )
     sheets = [
@@ -110,13 +111,13 @@ def plan(
     echo_table([*(("picture", str(place)) for place, _ in sheets), *told])
 
 
-def _marks(path: Path, garage: "Garage") -> "dict[str, list[Mark]]":
+def _marks(path: Path, garage: "Garage", progress: "Progress") -> "dict[str, list[Mark]]":
     """Findings of a check that have places, by the name of their level."""
     from garage2usd.garage_sources import read_built  # noqa: PLC0415 - keeps --help instant
     from garage2usd.view.plan_sheet import Mark  # noqa: PLC0415
 
     marks: dict[str, list[Mark]] = {}
-    for finding in read_built(path).findings():
+    for finding in read_built(path, progress=progress).findings(progress=progress):
         if finding.position_m is not None:
             words = f"{finding.rule}: {finding.message}"
             level = _level_of(finding.place, garage.levels)
