@@ -85,12 +85,10 @@ def bake_meshes(shapes: Sequence[Spec], path: Path, *, progress: Progress = sile
 
     Notes
     -----
-    The file holds the names of the groups, their end offsets, and the groups. Each group is compressed separately, so
-    that a build decompresses only the groups that it needs.
+    The file holds names and end offsets of the groups, then each compressed on its own: builds read what they need.
     """
     groups: dict[str, list[tuple[str, Asset]]] = {}
-    keyed = sorted((_key(shape), shape) for shape in shapes)
-    for key, shape in counted("shapes", keyed, len(keyed), progress):
+    for key, shape in counted("shapes", sorted((_key(each), each) for each in shapes), len(shapes), progress):
         asset, name = shape.asset(), type(shape).__name__
         numbers = sum(getattr(part, array).size for part in asset.parts for array in _STEPS)
         groups.setdefault(_own_group(name, key) if numbers > _OWN_GROUP_NUMBERS else name, []).append((key, asset))
