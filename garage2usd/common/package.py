@@ -1,4 +1,4 @@
-"""The package itself: its version, its public names loaded on first use, and the modules of its optional extras."""
+"""The package itself: its version, names of it that are loaded on first use, and the modules of its optional extras."""
 
 import json
 import sys
@@ -123,6 +123,20 @@ def installation_of(extras: str) -> str:
         return f"pip install 'garage2usd[{extras}] @ {origin['url']}'"
     option = "-e " if origin["dir_info"].get("editable") else ""
     return f"pip install {option}'{'.' if place == Path.cwd() else place}[{extras}]'"
+
+
+def drawn_by(module: str, function: str) -> Callable[[object], str]:
+    """Make a method that a function of a room above draws, imported on first use: the form that notebooks display.
+
+    Values know nothing of the rooms above them that draw them, so the function is given by name:
+    ``_repr_svg_ = drawn_by("garage2usd.view.notebook", "plan_svg")``.
+    """
+
+    def drawn(value: object) -> str:
+        return str(getattr(import_module(module), function)(value))
+
+    drawn.__doc__ = f"Draw it for a notebook, by `{module}.{function}`."
+    return drawn
 
 
 def on_first_use(package: str, modules: Mapping[str, Iterable[str]]) -> Callable[[str], object]:
