@@ -63,6 +63,8 @@ class Desk:
         self._worker: threading.Thread | None = None
         self._is_stopped = False
         self._views: dict[str, ShownScene] = {}
+        self._stalls: dict[str, int] = {}
+        self._at_build = threading.Lock()
 
     # what the page is told
 
@@ -202,46 +204,46 @@ class Desk:
         return self._changed(change)
 
     def build(self, _: Told) -> Told:
-        """Build the garage and open it for the 3D view; tells the name of the view, and the time that it took."""
-        with self._lock:
-            config, planned, name = self.draft.config, self._garage(), self._view_name()
-        if planned is None and not has_lanes(config):
-            raise ConfigError("site.structure", "no lanes", "lanes, drawn or planned; plan them first")
-        began = time.perf_counter()
-        shown = self.view(name)
-        plans = None if planned is None else [level.plan for level in planned.levels]
-        try:
-            garage = generate(config, plan=plans)
-            if shown is not None and not shown.is_ready:
-                with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-                    place = Path(folder, f"{self._file.path.stem}.usdc")
-                    written = write_stage(garage, place).stage
-                    shown.show(read_scene(open_stage(written), written, Looks()))
-        except Garage2UsdError:
-            self._drop_views()
-            raise
-        return {"view": name, "seconds": round(time.perf_counter() - began, 3), "stalls": garage.parking_stalls}
+        """Build the garage for the 3D view, once; tells the name of the view, and its number of stalls."""
+        with self._at_build:
+            with self._lock:
+                config, planned, name = self.draft.config, self._garage(), self._view_name()
+                if planned is None and not has_lanes(config):
+                    raise ConfigError("site.structure", "no lanes", "lanes, drawn or planned; plan them first")
+                shown = self.view(name)
+            plans = None if planned is None else [level.plan for level in planned.levels]
+            try:
+                if shown is not None and not shown.is_ready:
+                    garage = generate(config, plan=plans)
+                    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+                        place = Path(folder, f"{self._file.path.stem}.usdc")
+                        written = write_stage(garage, place).stage
+                        shown.show(read_scene(open_stage(written), written, Looks()))
+                    self._stalls[name] = garage.parking_stalls
+            except Garage2UsdError:
+                self._drop_views(but=0)
+                raise
+            return {"view": name, "stalls": self._stalls[name]}
 
     def view(self, name: str) -> ShownScene | None:
         """Return a 3D view by its name; that of the present drawing also before it is built, and waits for that."""
         with self._lock:
             if name not in self._views and name == self._view_name():
-                self._drop_views()
+                self._drop_views(but=1)  # the one before may stand open
                 self._views[name] = ShownScene()
             return self._views.get(name)
 
     def _view_name(self) -> str:
         return f"{self.draft.number}{'' if self._garage() is None else '-planned'}"
 
-    def _drop_views(self) -> None:
-        for view in self._views.values():
-            view.release()
-        self._views = {}
+    def _drop_views(self, *, but: int) -> None:
+        for name in list(self._views)[: len(self._views) - but]:
+            self._views.pop(name).release()
 
     def close(self) -> None:
         """Stop all work; unsaved work stays beside the file."""
         self._is_stopped = True
-        self._drop_views()
+        self._drop_views(but=0)
 
     # how
 

@@ -142,6 +142,8 @@ class DrawPage {
     this.showBar(this.desk.state);
     this.showFindings();
     document.documentElement.dataset["checked"] = String(told.number);
+    // so that the 3D view is there when its button is pressed, which also says why where it cannot be
+    if (!byId<HTMLButtonElement>("build").disabled) void tell("build").catch(() => undefined);
   }
 
   private tellCursor(speaks = true): void {
@@ -335,8 +337,8 @@ class DrawPage {
     byId<HTMLIFrameElement>("view-frame").src = byId<HTMLAnchorElement>("view-link").href = `3d/${this.desk.state.view}/`;
     dialog.showModal();
     try {
-      const told = await tell<{ seconds: number; stalls: number }>("build");
-      byId("view-facts").textContent = `${plural(told.stalls, "stall")}, built in ${told.seconds.toFixed(1)} s`;
+      const told = await tell<{ stalls: number }>("build");
+      byId("view-facts").textContent = plural(told.stalls, "stall");
     } catch (error) {
       dialog.close();
       this.refuse(error as Error);
