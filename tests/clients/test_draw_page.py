@@ -182,7 +182,7 @@ def test_a_change_of_the_file_by_others_is_told_and_taken(opened):
     page.choose("#", "squares")
     page.drag((0, 0))
     path.write_text(LANES.replace("seed = 3", "seed = 21"))
-    page.eval("page.look()")
+    page.eval("page.bar.look()")
     assert "was changed by another program" in page.page.inner_text("#notice")
     page.page.click("#notice button:text('Go on')")
     page.click("#save")

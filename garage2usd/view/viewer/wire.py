@@ -205,9 +205,9 @@ def _shapes(shapes: Sequence[Shape], skins: Mapping[int, ShownSkin], buffers: _B
 
 
 def _turns(matrices: NDArray[np.float64]) -> list[tuple[NDArray[np.float64], bool]]:
-    """Return for each matrix, shape (matrices, 3, 3), the one that turns normals up to a factor, and if it mirrors.
+    """Return for each matrix, shape (matrices, 3, 3), what turns normals up to a factor; True where it mirrors.
 
-    The cofactors are the transposed inverse times the determinant. Inverses one by one wait for the threads of BLAS, for
+    The cofactors are the transposed inverse times the determinant. Inverses one by one wait for threads of BLAS, for
     seconds on a busy machine.
     """
     if not len(matrices):
