@@ -131,6 +131,7 @@ def _changed_within(item: Any, old: Any, new: Any) -> bool:  # noqa: ANN401
 
 def _table(values: Mapping[str, Any]) -> Table:
     table = tomlkit.table()
+    table.trivia.indent = "\n"  # an empty line before its header
     for key, value in values.items():
         table[key] = _item(value)
     return table

@@ -283,3 +283,10 @@ def test_an_old_sample_opens(browser, tmp_path):
     with drawn(browser, path) as page:
         assert [level["name"] for level in page.state["sketch"]["levels"]] == ["U1", "U2"]
         assert page.page.is_visible("#ramps")
+        # lanes of several levels are planned; the page says so in place of the choice
+        assert page.page.is_visible("#lane-note:has-text('lanes are planned')")
+        assert page.page.is_disabled("input[name=symbol][value='=']")
+        page.keys("3", "Space")
+        assert not any("=" in row for row in page.rows)
+        page.fill("#level-count", 1)
+        assert page.page.is_enabled("input[name=symbol][value='=']")

@@ -38,7 +38,7 @@ def test_parts_are_added_after_the_others_and_the_outline_before_all_tables():
     edit(survey, kind="outline", points=[[0, 0], [30, 0], [30, 16]])
     assert survey.text == NEW + (
         "outline = [[0.0, 0.0], [30.0, 0.0], [30.0, 16.0]]\n"
-        '[[runs]]\nfirst = [4, 5]\nlast = [24, 5]\nside = "left"\ncount = 8\n'
+        '\n[[runs]]\nfirst = [4, 5]\nlast = [24, 5]\nside = "left"\ncount = 8\n'
         '\n[[runs]]\nfirst = [4, 5]\nlast = [24, 5]\nside = "right"\ncount = 8\n'
         "\n[[lanes]]\npoints = [[0, 8], [30, 8]]\none_way = true\n"
     )

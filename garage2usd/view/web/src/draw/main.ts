@@ -6,6 +6,9 @@ import { SettingsPanel } from "./settings";
 const SHAPES: [Shape, string, string][] = [
   ["squares", "Pencil", "P"], ["rectangle", "Rectangle", "R"], ["flood", "Flood", "F"], ["run", "Stalls", "T"], ["move", "Move plan", "M"],
 ];
+const USES: Record<string, string> = {
+  standard: "stall", ev: "charging", accessible: "accessible", access_aisle: "access aisle", turning: "turning bay", unreachable: "not reachable", motorcycle: "motorcycles",
+};
 const NOT_TO_PARK_IN = ["access_aisle", "turning", "unreachable"];
 const CHECK_AFTER_MS = 700;
 
@@ -67,9 +70,22 @@ class DrawPage {
     byId("figures").dataset["number"] = String(state.number);
     for (const [id, value] of [["rows", rows_m.length], ["cols", cols_m.length], ["level-count", state.levels]] as const)
       if (document.activeElement !== byId(id)) input(id).value = String(value);
+    const uses = new Set(levels.flatMap((level) => level.stalls.map(({ use }) => use)));
+    byId("legend").replaceChildren(
+      ...Object.entries(USES).flatMap(([use, name]) => (uses.has(use) ? [made("li", {}, made("i", { class: `chip ${use}` }), name)] : [])),
+    );
+    this.allowLanes(state.levels === 1);
     byId("ramps").hidden = state.levels === 1;
     byId<HTMLButtonElement>("draw-ramp").disabled = !state.place;
     byId<HTMLButtonElement>("free-sides").disabled = !state.given_sides.some(Boolean);
+  }
+
+  /** Lanes of several levels are planned, and cannot be painted. */
+  private allowLanes(are: boolean): void {
+    const choice = document.querySelector<HTMLInputElement>('input[name=symbol][value="="]')!;
+    choice.disabled = !are;
+    byId("lane-note").hidden = are;
+    if (!are && this.board.symbol === "=") this.choose("symbol", ".");
   }
 
   private showFindings(): void {
@@ -85,7 +101,7 @@ class DrawPage {
       });
       return made("li", { id: `finding-${number}`, value: number + 1 }, button);
     });
-    if (!rows.length) rows.push(made("li", { class: "none" }, "Nothing to complain of"));
+    if (!rows.length) rows.push(made("li", { class: "none" }, "No findings"));
     byId("findings").replaceChildren(...rows);
   }
 
@@ -160,7 +176,7 @@ class DrawPage {
 
   private choose(name: "symbol" | "shape", value: string): void {
     const choice = document.querySelector<HTMLInputElement>(`input[name=${name}][value="${value}"]`);
-    if (!choice) return;
+    if (!choice || choice.disabled) return;
     choice.checked = true;
     choice.dispatchEvent(new Event("change"));
     byId("spoken").textContent = choice.parentElement!.textContent;

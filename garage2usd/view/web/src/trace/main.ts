@@ -13,7 +13,6 @@ class TracePage {
   private readonly bar = new FileBar(this.desk, () => this.tracer.isPainting);
   readonly tracer: Tracer;
   private readonly next = structuredClone(BEGINNING);
-  private readonly stretch: Point[] = [];
   private check = 0;
 
   constructor() {
@@ -81,14 +80,14 @@ class TracePage {
       button.addEventListener("click", () => finding.at && this.tracer.sheet.reveal(finding.at));
       return made("li", { value: number + 1 }, button);
     });
-    const none = this.desk.state.stalls.length ? "Nothing to complain of" : "Trace stalls first";
+    const none = this.desk.state.stalls.length ? "No findings" : "Trace stalls first";
     byId("findings").replaceChildren(...(rows.length ? rows : [made("li", { class: "none" }, none)]));
   }
 
   private async trace(tool: Tool, points: Point[]): Promise<void> {
+    byId("scale-form").hidden = tool.id !== "scale";
     if (tool.id === "scale") {
-      this.stretch.splice(0, 2, ...points);
-      byId("scale-form").hidden = false;
+      this.tracer.stretch = points;
       input("length").focus();
       return;
     }
@@ -106,10 +105,9 @@ class TracePage {
     const metres = input("length").valueAsNumber;
     const { picture } = this.tracer;
     if (!picture) return this.bar.ask("Choose a picture first; then click the two ends of a length in it.", []);
-    if (!(metres > 0) || this.stretch.length < 2) return void input("length").reportValidity();
+    if (!(metres > 0) || this.tracer.stretch.length < 2) return void input("length").reportValidity();
     const before = picture.scale;
-    picture.scale *= metres / lengthOf(this.stretch);
-    this.stretch.splice(0);
+    picture.scale *= metres / lengthOf(this.tracer.stretch);
     byId("scale-form").hidden = true;
     byId("scale-now").textContent = `1 pixel = ${(100 * picture.scale).toFixed(2)} cm`;
     // the picture stays where it is on the screen, and the parts stay as many metres long
@@ -128,7 +126,7 @@ class TracePage {
         input("picture").dataset["url"] = URL.createObjectURL(file);
         const scale = picture?.scale ?? 60 / width;
         this.tracer.picture = { url: input("picture").dataset["url"]!, width, height, scale, share };
-        byId("scale-now").textContent = "Scale not set yet: choose its tool";
+        byId("scale-now").textContent = "Next: click both ends of a length in it that you know.";
         this.tracer.fit();
         this.takeTool("scale");
       } catch {
@@ -146,7 +144,10 @@ class TracePage {
 
   private hint(): void {
     const { tool, pending, cross } = this.tracer;
-    const said = `${tool.name}: ${tool.hints[Math.min(pending.length, tool.hints.length - 1)]}`;
+    const isNew = tool.id === "select" && !this.tracer.parts.length && !this.tracer.picture;
+    const begin = "Choose a picture of the plan at the left, set its scale, then trace the outline, the runs of stalls, lanes and portals";
+    const isAsked = this.tracer.stretch.length > 0;
+    const said = isNew ? begin : isAsked ? "Scale of picture: type the metres between the two points, at the left" : `${tool.name}: ${tool.hints[Math.min(pending.length, tool.hints.length - 1)]}`;
     if (byId("hint").textContent !== said) byId("hint").textContent = said;
     byId("place").textContent = `Cross at ${cross[0].toFixed(1)}, ${cross[1].toFixed(1)} m`;
   }
@@ -170,7 +171,7 @@ class TracePage {
     if (editor.contains(document.activeElement) && editor.dataset["of"] === `${chosen?.part} ${chosen?.at}`) return;
     editor.dataset["of"] = `${chosen?.part} ${chosen?.at}`;
     editor.replaceChildren();
-    if (!chosen) return;
+    if (!chosen) return editor.append(made("p", { class: "quiet" }, "Select a part, in the plan or in the list, to change or remove it."));
     const value = this.tracer.valueOf(chosen)!;
     editor.append(made("h3", {}, nameOf(chosen, value, state.stalls)));
     for (const field of FIELDS[chosen.part]) if (!field.for || field.for(value as Value)) editor.append(this.field(chosen as Chosen & { part: PartName }, field, value as Value));

@@ -26,6 +26,8 @@ export class Tracer {
   cross: Point = [5, 5];
   /** Address and size in pixels of the picture, and metres of a pixel. */
   picture: { url: string; width: number; height: number; scale: number; share: number } | null = null;
+  /** The length in the picture whose metres are asked for. */
+  stretch: Point[] = [];
   readonly sheet: Sheet;
   private drawing: Drawing = {};
   private stalls: Traced["stalls"] = [];
@@ -87,7 +89,7 @@ export class Tracer {
 
   take(tool: Tool): void {
     this.tool = tool;
-    this.pending = [];
+    this.pending = this.stretch = [];
     this.listener.waits();
     this.draw();
   }
@@ -260,8 +262,9 @@ export class Tracer {
   }
 
   private drawPending(scale: number): void {
-    const points = this.hover && this.pending.length ? [...this.pending, this.hover] : this.pending;
-    const dots = this.pending.map(([x, z]) => element("circle", { cx: x, cy: z, r: 4 * scale }));
+    const fixed = this.pending.length ? this.pending : this.stretch;
+    const points = this.hover && this.pending.length ? [...this.pending, this.hover] : fixed;
+    const dots = fixed.map(([x, z]) => element("circle", { cx: x, cy: z, r: 4 * scale }));
     const text = element("text", { "font-size": 12 * scale });
     const [a, b] = points.slice(-2) as [Point, Point | undefined];
     if (b && this.tool.id !== "scale") {
