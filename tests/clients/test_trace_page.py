@@ -137,6 +137,26 @@ def test_parts_are_chosen_changed_moved_and_removed_with_the_comments_kept(brows
     assert path.read_text() == LOT.replace("[30, 8]]\n", "[30, 8]]\none_way = true\n")
 
 
+def test_a_finger_traces_and_two_fingers_move_the_plan(browser, tmp_path):
+    path = tmp_path / "lot.toml"
+    path.write_text(LOT)
+    with drawn(browser, path, size=(420, 800), has_touch=True) as page:
+        page.page.locator("label:has(input[name=tool][value=columns])").tap()
+        page.page.locator("#board").scroll_into_view_if_needed()
+        page.page.touchscreen.tap(*page.point(27, 12))
+        (column,) = page.state["drawing"]["columns"]
+        assert near(column["at"], (27, 12))
+        scale, session = page.eval("page.tracer.sheet.view.scale"), page.page.context.new_cdp_session(page.page)
+        x, y = page.point(15, 8)
+        for kind, *aparts in (("touchStart", -20, 20), ("touchMove", -40, 40), ("touchEnd",)):
+            points = [{"x": x + apart, "y": y, "id": number} for number, apart in enumerate(aparts)]
+            session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+        assert len(page.state["drawing"]["columns"]) == 1
+        assert page.eval("page.tracer.sheet.view.scale") < 0.8 * scale
+        assert page.eval("document.documentElement.scrollWidth") <= 420
+        assert page.complaints == []
+
+
 def test_another_file_is_opened_and_no_work_is_lost(browser, tmp_path):
     (tmp_path / "lot.toml").write_text(LOT)
     (tmp_path / "garage.toml").write_text((REPOSITORY / "samples" / "hand_drawn.toml").read_text())
