@@ -19,7 +19,7 @@ def desk_of(file: DraftFile, *, is_new_survey: bool = False) -> Desk[Any]:
     Raises
     ------
     ConfigError
-        If the file is neither a configuration nor a survey.
+        If the file is neither a configuration nor a survey, or a configuration where a survey was asked for.
     """
     text = file.kept() if file.saved is None else file.saved
     if text is None:
@@ -28,7 +28,11 @@ def desk_of(file: DraftFile, *, is_new_survey: bool = False) -> Desk[Any]:
         settings = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise ConfigError(file.path.name, "text", f"TOML ({error})") from None
-    return SurveyDesk(file) if is_survey(text, settings) else GarageDesk(file)
+    if is_survey(text, settings):
+        return SurveyDesk(file)
+    if is_new_survey:
+        raise ConfigError("CONFIG", file.path.name, "a survey or a new file, to trace a picture")
+    return GarageDesk(file)
 
 
 def files_beside(file: DraftFile) -> list[str]:

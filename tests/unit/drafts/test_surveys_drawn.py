@@ -160,6 +160,9 @@ def test_each_kind_of_file_is_opened_by_its_own_page(folder):
     kinds = {"lot.toml": SurveyDesk, "empty.toml": SurveyDesk, "garage.toml": GarageDesk, "new.toml": GarageDesk}
     for name, kind in kinds.items():
         assert type(desk_of(DraftFile(folder / name))) is kind
+    assert type(desk_of(DraftFile(folder / "new.toml"), is_new_survey=True)) is SurveyDesk
+    with pytest.raises(ConfigError, match="a survey or a new file"):
+        desk_of(DraftFile(folder / "garage.toml"), is_new_survey=True)
     for sample in (REPOSITORY / "samples").glob("*.toml"):
         assert type(desk_of(DraftFile(sample))) is GarageDesk
 
