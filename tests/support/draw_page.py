@@ -23,6 +23,7 @@ class DrawPage:
 
     def __init__(self, page, url):
         self.page, self.complaints = page, []
+        page.set_default_timeout(120_000)  # ten of such pages may share two cores
         page.on("console", self._hear)
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
         page.goto(url)
