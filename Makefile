@@ -6,7 +6,8 @@
 demo:
 	@./environment.sh demo
 	@.venv/bin/garage2usd build samples/irregular.toml --output out/garage.usdz
-	@echo "Open out/garage.usdz in Blender (File > Import > Universal Scene Description); out/garage_plan.png is its plan."
+	@echo "Walk through it: .venv/bin/garage2usd view out/garage.usdz (its plan is out/garage_plan.png), or open out/garage.usdz"
+	@echo "in Blender: File > Import > Universal Scene Description. For the command alone: . .venv/bin/activate"
 
 # where Python is told to keep no compiled files, each command that a test starts would compile all it imports
 test check soak: export PYTHONDONTWRITEBYTECODE =

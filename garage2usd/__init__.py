@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from garage2usd.planning.optimum import Optimum, find_optimum
     from garage2usd.recordings import record
     from garage2usd.structure.grid import Structure
+    from garage2usd.view.viewer.notebook import show
 
 __all__ = [
     "Build",
@@ -40,6 +41,7 @@ __all__ = [
     "import_layout",
     "load_config",
     "record",
+    "show",
 ]
 
 _MODULES = {
@@ -53,6 +55,7 @@ _MODULES = {
     "planning.optimum": ("Optimum", "find_optimum"),
     "recordings": ("record",),
     "structure.grid": ("Structure",),
+    "view.viewer.notebook": ("show",),
 }
 __getattr__ = on_first_use(__name__, _MODULES)
 

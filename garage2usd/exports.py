@@ -12,7 +12,7 @@ from garage2usd.common.errors import ConfigError, MissingExtraError
 from garage2usd.common.output import check_file, check_name, check_writable, drafting, publish_at, staging_folder
 from garage2usd.common.package import RAYS, require
 from garage2usd.common.processes import run_in_forks, without_collector
-from garage2usd.common.progress import Progress, silent, unheard
+from garage2usd.common.progress import Progress, counted, silent, unheard
 from garage2usd.config.outputs import MapsConfig, ScenarioConfig
 from garage2usd.garage.levels import ONLY_LEVEL, LevelPlace
 from garage2usd.garage_sources import settings_and_tape
@@ -264,6 +264,8 @@ _WRITERS: dict[str, _Write] = {
     _OPENSTREETMAP: _openstreetmap,
 }
 """Writers by extension, the slowest first, so that parallel tasks finish together."""
+_ON_THE_RIGHT = {_LANELET2, _MAP, _AREAS, _CARLA}
+"""Formats whose lanes keep to the right in any garage, since netconvert does not read the rule of OpenDRIVE's roads."""
 
 
 def _write(source: _Source, folder: Path, asked: _Asked) -> tuple[tuple[Path, ...], list[str]]:
@@ -275,6 +277,8 @@ def _write(source: _Source, folder: Path, asked: _Asked) -> tuple[tuple[Path, ..
         The files, and lines on data that the format cannot represent.
     """
     remarks = Remarks()
+    if asked.format in _ON_THE_RIGHT and any(level.keeps_left for level in source.garage.levels):
+        remarks.add("lanes keep to the right, while cars in this garage keep to the left", source.name)
     with drafting(asked.place):
         folder.mkdir()
         _WRITERS[asked.format](source, folder / asked.place.name, asked, remarks)
@@ -370,6 +374,7 @@ def export(
         order = sorted(range(len(files)), key=lambda number: [*_WRITERS].index(files[number].format))
         drafts: dict[int, tuple[Path, ...]] = {}  # by index of the output
         with without_collector():
+            progress("reading", 0, 1)
             opened = _Source(stage, str(source))
             opened.read_for([asked.format for asked in files])
             levels = tuple(levels_of(opened.stage))
@@ -377,12 +382,11 @@ def export(
                 files = [asked._replace(levels=levels) for asked in files]
                 _check_files(files)
             tasks = [partial(_write, opened, staging / str(number), files[number]) for number in order]
-            progress("export", 0, len(files))
-            for number, (written, lines) in zip(order, run_in_forks(tasks, workers), strict=True):
+            made = counted("export", run_in_forks(tasks, workers), len(files), progress)
+            for number, (written, lines) in zip(order, made, strict=True):
                 drafts[number] = written
                 for line in lines:
                     notice(f"{files[number].place.name}: {line}")
-                progress("export", len(drafts), len(files))
         return publish_at(
             {
                 draft: asked.place.parent / draft.relative_to(staging / str(number))

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from garage2usd.common.errors import Garage2UsdError
-from garage2usd.common.package import VERSION
+from garage2usd.common.package import VERSION, drawn_by
 from garage2usd.config import GarageConfig
 from garage2usd.garage import LaneGraph, Stall
 from garage2usd.garage.levels import JoinedLevels, LevelLanes, LevelPlace, RampLane, join_levels, level_name
@@ -69,10 +69,16 @@ class GarageLevel:
     planned: PlannedParts | None
     source_name: str = ""
 
+    _repr_svg_ = drawn_by("garage2usd.view.notebook", "level_svg")
+
     @property
     def name(self) -> str:
         """Its name: ``U1`` is the top level, also where it is the only one."""
         return self.place.name or level_name(0)
+
+    def __repr__(self) -> str:
+        """Return the name and the number of stalls."""
+        return f"<GarageLevel {self.name} with {self.layout.parking_stalls} stalls>"
 
     @property
     def floor_m(self) -> float:
@@ -131,6 +137,12 @@ class Garage:
     building: Building
     levels: tuple[GarageLevel, ...]
     origin: Mapping[str, str] = field(default_factory=dict)
+
+    _repr_html_ = drawn_by("garage2usd.view.notebook", "garage_html")
+
+    def __repr__(self) -> str:
+        """Return the levels with their stalls."""
+        return f"<Garage of {list(self.levels)}>"
 
     @property
     def site(self) -> Structure:

@@ -37,9 +37,9 @@ class BuiltSource(NamedTuple):
     drive: DriveConfig
     traffic: TrafficConfig = TrafficConfig()
 
-    def findings(self) -> list[Finding]:
+    def findings(self, *, progress: Progress = silent) -> list[Finding]:
         """Return the findings under the profile and by the rules that need none, errors first."""
-        return checks.findings_of(self.garage, self.profile)
+        return checks.findings_of(self.garage, self.profile, progress=progress)
 
     def not_checked(self) -> dict[str, str]:
         """Return the profile clauses that no rule can check on the garage, each with the reason."""
@@ -122,7 +122,7 @@ def read_built(path: str | Path, *, profile: Profile | None = None, progress: Pr
     profile
         Profile to check against. The default is the one that the file names, or else ``cn-jgj100``.
     progress
-        Told how far the levels of a report are, which are made again from its tape.
+        Told how many levels of a stage are read, or how far those of a report are, which are made again from its tape.
 
     Raises
     ------
@@ -133,7 +133,7 @@ def read_built(path: str | Path, *, profile: Profile | None = None, progress: Pr
     if not is_file(path):
         raise ConfigError("PATH", str(path), "an existing file")
     if path.suffix.lower() in STAGE_SUFFIXES:
-        garage = garage_of_file(path)
+        garage = garage_of_file(path, progress=progress)
         name = profile_name(garage.stage)
         against = profile or load_profile(name if name in PROFILE_NAMES else DEFAULT_PROFILE)
         return BuiltSource(garage, against, DriveConfig())

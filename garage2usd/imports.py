@@ -89,6 +89,7 @@ def import_layout(
     config = config or GarageConfig()
     checked_output(output, config)
     start = time.perf_counter()
+    progress("reading", 0, 1)
     building = read_building(Path(source)) if isinstance(source, str | Path) else SurveyedBuilding.of(source)
     if level is not None:
         building = building.only(level)

@@ -14,7 +14,7 @@ import numpy as np
 
 from garage2usd.common.errors import ConfigError, GenerationError
 from garage2usd.common.processes import run_in_forks
-from garage2usd.common.progress import Progress, silent
+from garage2usd.common.progress import Progress, counted, silent
 from garage2usd.common.randomness import Step, derived_seed
 from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.config.site import BuildingConfig
@@ -145,7 +145,8 @@ def plan_levels(
         return [top]
     bay, told = _fixed(config.bay, top.plan.structure), silent if jobs > 1 else progress
     lower = [partial(level, number, top.plan.structure, bay, told) for number in range(1, sites.count)]
-    found = [top, *run_in_forks(lower, jobs)]
+    made = run_in_forks(lower, jobs)
+    found = [top, *(counted("levels", made, len(lower), progress) if jobs > 1 else made)]
     sides = with_ramps_room(
         _with_aisles([planned.plan.structure for planned in found], config.bay), sites.ramps, config
     )

@@ -18,7 +18,7 @@ from garage2usd.common.documents import json_text
 from garage2usd.common.errors import ConfigError, Garage2UsdError, GenerationError, OutputError
 from garage2usd.common.output import check_file, check_name, check_writable, publish_at, staging_folder
 from garage2usd.common.processes import run_in_forks, without_collector
-from garage2usd.common.progress import Progress, silent
+from garage2usd.common.progress import Progress, counted, silent, time_in_words
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import UnreachableStalls
 from garage2usd.config.site import BayConfig
@@ -43,6 +43,7 @@ from garage2usd.structure.building import Building
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneSquares
 from garage2usd.view.drawing import write_png
+from garage2usd.view.notebook import garage_html
 from garage2usd.view.thumbnails import draw_pictures, draw_structures
 
 _LOG = logging.getLogger(__name__)
@@ -106,6 +107,12 @@ class Build:
     judged: tuple[Judged, ...] | None = None
     proofs: tuple[StallProof, ...] = ()
     remarks: tuple[str, ...] = ()
+
+    def _repr_html_(self) -> str:
+        """Draw the garage for a notebook, with the files, the duration and the findings."""
+        found = "too many stalls to check" if self.findings is None else f"{len(self.findings)} findings"
+        made = f"{self.stage} in {time_in_words(sum(self.seconds.values()))}, {found}"
+        return garage_html(self.garage, lines=[made])
 
     @property
     def findings(self) -> tuple[Finding, ...] | None:
@@ -441,12 +448,15 @@ def _laid_out(
     graphs = [lane_squares_of(each.plan, each.config) for each in planned]
     plans = [LevelPlan(each.plan.structure, graph, each.config) for each, graph in zip(planned, graphs, strict=True)]
     egresses = plan_egress(plans, building.ramp_squares)
-    told = silent if jobs > 1 and len(planned) > 1 else progress
+    in_forks = jobs > 1 and len(planned) > 1
+    told = silent if in_forks else progress
     parts = zip(planned, graphs, egresses, strict=True)
     tasks = [
         partial(_layout, each, graph, egress, sites, config, number, told)
         for number, (each, graph, egress) in enumerate(parts)
     ]
+    made = run_in_forks(tasks, jobs)
+    layouts = counted("layout", made, len(tasks), progress) if in_forks else made
     levels = tuple(
         GarageLevel(
             place=place,
@@ -454,7 +464,7 @@ def _laid_out(
             layout=layout,
             planned=PlannedParts(each.site, each.plan, graph),
         )
-        for place, each, graph, layout in zip(building.places, planned, graphs, run_in_forks(tasks, jobs), strict=True)
+        for place, each, graph, layout in zip(building.places, planned, graphs, layouts, strict=True)
     )
     return Garage(config, building, levels)
 

@@ -19,6 +19,8 @@ _MOVED_M = 0.05
 _UPWARD = 0.5
 _ALONG, _ASIDE = (0.1, 0.5, 0.9), (-0.45, 0.0, 0.45)
 """Shares of the length and of the width of a lane on a ramp at which the ramp has its floor."""
+_ON_EDGE = 1e-5
+"""Share of a triangle's area by which a place on its edge may lie beside it, as lanes lie on seams of the mesh."""
 
 
 class FoundLevel(NamedTuple):
@@ -206,8 +208,10 @@ def _is_on(floors: NDArray[np.float64], place: NDArray[np.float64]) -> bool:
     first, second, third = (floors[:, corner][:, [0, 2]] - place[[0, 2]] for corner in range(3))
     areas = np.stack([_crossed(second, third), _crossed(third, first), _crossed(first, second)], axis=1)
     whole = areas.sum(axis=1)
-    is_over = ((areas >= 0).all(axis=1) | (areas <= 0).all(axis=1)) & (whole != 0)
-    heights = (areas[is_over] * floors[is_over][:, :, 1]).sum(axis=1) / whole[is_over]
+    is_flat = whole != 0
+    shares = areas[is_flat] / whole[is_flat, None]
+    is_over = (shares >= -_ON_EDGE).all(axis=1)
+    heights = (shares[is_over] * floors[is_flat][is_over][:, :, 1]).sum(axis=1)
     return bool((np.abs(heights - place[1]) < _MOVED_M).any())
 
 

@@ -17,6 +17,7 @@ from garage2usd.as_built.ramp_line import RampLine
 from garage2usd.as_built.shapes import Thing
 from garage2usd.as_built.stage_reader import level_of_stage
 from garage2usd.common.errors import StageError
+from garage2usd.common.progress import Progress, counted, silent
 from garage2usd.garage import Fault, LaneGraph, Point, Stall
 from garage2usd.garage.levels import LevelPlace
 from garage2usd.garage_model import Garage
@@ -99,9 +100,10 @@ class BuiltGarage:
         )
 
 
-def garage_of_file(path: str | Path) -> BuiltGarage:
+def garage_of_file(path: str | Path, *, progress: Progress = silent) -> BuiltGarage:
     """Read a garage from a stage's file; raises as `garage_of_stage`, and if the stage cannot be opened."""
-    return garage_of_stage(open_garage(Path(path)), source=str(path))
+    progress("opening", 0, 1)
+    return garage_of_stage(open_garage(Path(path)), source=str(path), progress=progress)
 
 
 def garage_of_stage(
@@ -110,6 +112,7 @@ def garage_of_stage(
     source: str,
     objects: Callable[[], Iterable[PlacedObject]] | None = None,
     is_judged: bool = True,
+    progress: Progress = silent,
 ) -> BuiltGarage:
     """Read a garage from an open stage in its current composition.
 
@@ -124,6 +127,8 @@ def garage_of_stage(
         garage without levels in its stage; levels are read one by one.
     is_judged
         True to read also the data that only rules need: illuminance, and stalls moved without their outlines.
+    progress
+        Told how many levels are read.
 
     Raises
     ------
@@ -137,7 +142,7 @@ def garage_of_stage(
             return BuiltGarage.of_level(
                 level_of_stage(stage, source=source, place=places[0], objects=known, is_judged=is_judged)
             )
-        return _of_levels(stage, places, source=source, is_judged=is_judged)
+        return _of_levels(stage, places, source=source, is_judged=is_judged, progress=progress)
     except RecursionError:
         raise StageError(source, "its prims are nested too deeply to be read") from None
 
@@ -163,14 +168,16 @@ def garage_as_made(garage: Garage, *, source: str, kind: str, faults: tuple[Faul
     return _with_ramps(BuiltGarage(source, joined.lane_graph, joined.quads, levels, faults))
 
 
-def _of_levels(stage: Usd.Stage, places: Sequence[LevelPlace], *, source: str, is_judged: bool) -> BuiltGarage:
+def _of_levels(
+    stage: Usd.Stage, places: Sequence[LevelPlace], *, source: str, is_judged: bool, progress: Progress
+) -> BuiltGarage:
     """Read the levels of a stage, and join them as its lane graph tells."""
     whole, told = read_lanes(stage), garage_root(stage).GetCustomDataByKey("levels")
     names = [*map(str, told)] if isinstance(told, Sequence | Vt.StringArray) else []
     ahead = _towards_ramps(whole.graph)
     levels = []
     numbers = numbers_of_levels(names, [place.name for place in places])
-    for place, number in zip(places, numbers, strict=True):
+    for place, number in counted("reading", zip(places, numbers, strict=True), len(places), progress):
         level = level_of_stage(level_stage(stage, place), source=source, place=place, is_judged=is_judged)
         landings = {
             node.name: ahead[key]

@@ -18,6 +18,7 @@ from garage2usd.checks.rule import (
     not_checked_lines,
     unmet_clauses,
 )
+from garage2usd.common.progress import Progress, counted, silent
 from garage2usd.config import GarageConfig
 from garage2usd.layout import Layout
 from garage2usd.profiles import Profile, Severity
@@ -59,17 +60,22 @@ RULES: tuple[Rule, ...] = tuple(
 _LONG = (*usd.BOOK.rules, *swept_path.BOOK.rules)
 
 
-def findings_of(garage: BuiltGarage, profile: Profile) -> list[Finding]:
+def findings_of(garage: BuiltGarage, profile: Profile, *, progress: Progress = silent) -> list[Finding]:
     """Return the findings of a garage under a profile and the rules that need no profile, errors first.
 
     Each level is checked with its landings as portals; a finding's place is its path or name in the whole garage.
+    `progress` is told the rules that are checked, then the stalls that are driven into.
     """
-    found = [
-        replace(finding, place=level.place.path_in_whole(finding.place))
-        for level in garage.levels
-        for rule in RULES
+    asked = [(level, rule) for level in garage.levels for rule in RULES if rule not in swept_path.BOOK.rules]
+    checked = [
+        (level, finding)
+        for level, rule in counted("rules", asked, len(asked), progress)
         for finding in rule.findings(level, profile)
     ]
+    for level in garage.levels:
+        swept_path.prove(level, profile, progress)
+        checked += [(level, finding) for rule in swept_path.BOOK.rules for finding in rule.findings(level, profile)]
+    found = [replace(finding, place=level.place.path_in_whole(finding.place)) for level, finding in checked]
     return sorted([*found, *findings_of_whole(garage, profile)], key=Finding.sort_key)
 
 

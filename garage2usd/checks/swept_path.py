@@ -7,6 +7,7 @@ from garage2usd.as_built.driven_ground import CAR_HEIGHT_M, driven_garage, round
 from garage2usd.as_built.level import BuiltLevel
 from garage2usd.checks import aisle, clearance, feasibility, stall
 from garage2usd.checks.rule import Miss, RuleBook
+from garage2usd.common.progress import Progress, silent
 from garage2usd.driving import DesignCar, Limits, StallProof, prove_garage
 from garage2usd.garage import Stall, StallUse
 from garage2usd.profiles import Length, Profile, Severity
@@ -23,7 +24,7 @@ _EXPLAINED = 10
 @BOOK.rule("swept-path", asks="the design car drives into each stall and out again while all others are taken")
 def _swept(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     """Yield stalls without a collision-free path, apart from stalls and objects that other rules report."""
-    for at, proof in _proofs(level, profile):
+    for at, proof in prove(level, profile):
         if not (proof.is_proven or proof.is_undecided):
             required = None if proof.clearance_m is None else Limits().margin_m
             yield Miss(proof.stall, rounded(at.centre), _message(proof), proof.clearance_m, required)
@@ -35,7 +36,7 @@ def _swept(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
     severity=Severity.WARNING,
 )
 def _undecided(level: BuiltLevel, profile: Profile) -> Iterator[Miss]:
-    for at, proof in _proofs(level, profile):
+    for at, proof in prove(level, profile):
         if not proof.is_proven and proof.is_undecided:
             yield Miss(proof.stall, rounded(at.centre), _message(proof))
 
@@ -50,16 +51,16 @@ def _motorcycles(level: BuiltLevel, _: Profile) -> Iterator[Miss]:
         yield Miss(found[0].name, rounded(found[0].centre), message)
 
 
-def _proofs(level: BuiltLevel, profile: Profile) -> _Proofs:
-    """Return the swept-path proofs of the stalls that no other rule reports."""
+def prove(level: BuiltLevel, profile: Profile, progress: Progress = silent) -> _Proofs:
+    """Return the swept-path proofs of the stalls that no other rule reports; the last ones of each level are kept."""
     of_profile, proofs = _PROVEN.get(level, (None, ()))
     if of_profile is not profile:
-        proofs = _proven(level, profile)
+        proofs = _proven(level, profile, progress)
         _PROVEN[level] = profile, proofs
     return proofs
 
 
-def _proven(level: BuiltLevel, profile: Profile) -> _Proofs:
+def _proven(level: BuiltLevel, profile: Profile, progress: Progress) -> _Proofs:
     lanes = level.lanes
     has_way = lanes.joined_portals("entrance") and lanes.joined_portals("exit")
     if not (has_way and level.has_whole_graph and level.things):
@@ -71,7 +72,10 @@ def _proven(level: BuiltLevel, profile: Profile) -> _Proofs:
     things = {name for fault in faults for name in fault.things}
     driven = driven_garage(level, height_m=height_m, left_out=things)
     asked = [at for at in driven.stalls if at.name not in places and at.access not in missed]
-    proofs = prove_garage(driven, asked, car=design_car(profile), with_all_taken_only=True, most_explained=_EXPLAINED)
+    car = design_car(profile)
+    proofs = prove_garage(
+        driven, asked, car=car, with_all_taken_only=True, most_explained=_EXPLAINED, progress=progress
+    )
     return tuple(zip(asked, proofs, strict=True))
 
 

@@ -1,4 +1,4 @@
-"""Progress bars on a terminal with a cursor; elsewhere a line of text every ten seconds."""
+"""Progress bars with the time left on a terminal with a cursor; elsewhere a line of text every ten seconds."""
 
 import os
 import time
@@ -15,10 +15,13 @@ if TYPE_CHECKING:
 
 _EVERY_S = 10.0
 """Interval between two lines without a cursor; shorter steps print nothing."""
+_BAR, _NAME = "%(label)s  [%(bar)s]  %(info)s", "%(label)s ..."
 
 
 class Bars:
     """Progress bars, one for each step; without a cursor to move, lines with the progress.
+
+    A step of a single unit, whose time nobody knows, is its name alone. The time left is shown after a second.
 
     Parameters
     ----------
@@ -52,12 +55,13 @@ class Bars:
         if not self._has_cursor:
             self._say(step, done, total)
             return
-        if step != self._step or self._bar is None:
+        if self._bar is None or (step, total) != (self._step, self._bar.length) or done < self._bar.pos:
             self._end()
             self._step = step
             self._bar = click.progressbar(
                 length=total,
                 label=f"{step:>10}",
+                bar_template=_BAR if total > 1 else _NAME,
                 file=self._screen,
                 show_pos=self._unit is not None,
                 item_show_func=self._rate,

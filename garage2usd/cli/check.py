@@ -38,7 +38,7 @@ def check(ctx: click.Context, *, path: Path, profile: str | None, as_json: bool)
     given = None if profile is None else load_profile(profile)
     with Bars(sys.stderr) as progress:
         source = read_built(path, profile=given, progress=progress)
-        against, findings, not_checked = source.profile, source.findings(), source.not_checked()
+        against, findings, not_checked = source.profile, source.findings(progress=progress), source.not_checked()
     usd_messages()  # discard them, as the findings say the same
     counts = Counter(finding.severity.value for finding in findings)
     if as_json:

@@ -124,6 +124,7 @@ def _drive_to(
     car = None if carrier is None else carrier.body
     with Bars(sys.stderr) as progress:
         source = _source(path, seed, progress)
+        progress("drive", 0, 1)
         driven = DrivePlanner(source.garage, source.drive).drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
     if output is not None:
         _write_drive(output, driven, car)

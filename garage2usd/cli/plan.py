@@ -10,12 +10,10 @@ from garage2usd.cli.bars import Bars
 from garage2usd.cli.options import INPUT_FILE, echo_table, output_option, seed_option
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from garage2usd.common.progress import Progress
-    from garage2usd.driving.tracks import Tracks
     from garage2usd.garage_model import Garage, GarageLevel
-    from garage2usd.view.drawing import Drawing
     from garage2usd.view.plan_sheet import Mark
 
 _FORMATS = (".png", ".svg")
@@ -69,11 +67,9 @@ def plan(
     from garage2usd.common.errors import ConfigError  # noqa: PLC0415 - keeps --help instant
     from garage2usd.common.output import check_file, drafting, publish_at, staging_folder  # noqa: PLC0415
     from garage2usd.garage_sources import generated_of  # noqa: PLC0415
-    from garage2usd.view.drawing import (  # noqa: PLC0415
-        to_image,
-        to_svg,
-        write_png,
-    )
+    from garage2usd.view.drawing import to_image, to_svg, write_png  # noqa: PLC0415
+    from garage2usd.view.garage_plans import draw_levels  # noqa: PLC0415
+    from garage2usd.view.plan_picture import find_stall  # noqa: PLC0415
 
     outputs = outputs or (Path(f"{path.stem.removesuffix('_report')}_plan.svg"),)
     for output in outputs:
@@ -84,14 +80,20 @@ def plan(
         garage = generated_of(path, seed, progress=progress)
         # before the check of a stage, which limits the processor time of all later work
         told = _beside_optimum(garage, progress) if with_optimum else []
+        marks = _marks(path, garage, progress) if with_findings else {}
     driven = None
     if tracks is not None:
         from garage2usd.maps.track_tables import read_tracks  # noqa: PLC0415 - needs an extra
 
         driven = read_tracks(tracks)
-    drawings = _drawings(garage, number, _marks(path, garage) if with_findings else {}, driven)
+    drawings = draw_levels(
+        garage,
+        stall=find_stall(garage.stalls, number) if number else None,
+        marks=marks,
+        tracks=driven,
+    )
     sheets = [
-        (output.with_name(f"{output.stem}{name}{output.suffix}"), drawing)
+        (output.with_name("_".join(filter(None, (output.stem, name))) + output.suffix), drawing)
         for output in outputs
         for name, drawing in drawings.items()
     ]
@@ -109,40 +111,13 @@ def plan(
     echo_table([*(("picture", str(place)) for place, _ in sheets), *told])
 
 
-def _drawings(
-    garage: "Garage", number: str | None, marks: "Mapping[str, Sequence[Mark]]", tracks: "Tracks | None"
-) -> "dict[str, Drawing]":
-    """Draw the plan of each level with the route to a stall, findings and tracks; with several, also the section."""
-    from garage2usd.view.plan_picture import (  # noqa: PLC0415
-        draw_plan,
-        find_stall,
-        ways_on_level,
-    )
-    from garage2usd.view.plan_tracks import track_lines  # noqa: PLC0415
-    from garage2usd.view.section import draw_section  # noqa: PLC0415
-
-    chosen = find_stall(garage.stalls, number) if number else None
-    drawings = {}
-    for index, level in enumerate(garage.levels):
-        name = level.place.after("", joint="_")
-        on_level = chosen if chosen is not None and chosen.level == index else None
-        ways = None if chosen is None else ways_on_level(garage.lanes, chosen, index)
-        driven = () if tracks is None else track_lines(tracks, index)
-        drawings[name] = draw_plan(
-            level.layout, stall=on_level, ways=ways, marks=marks.get(level.name, ()), driven=driven
-        )
-    if garage.building.links:
-        drawings["_section"] = draw_section(garage.levels, storey_m=garage.building.storey_m)
-    return drawings
-
-
-def _marks(path: Path, garage: "Garage") -> "dict[str, list[Mark]]":
+def _marks(path: Path, garage: "Garage", progress: "Progress") -> "dict[str, list[Mark]]":
     """Findings of a check that have places, by the name of their level."""
     from garage2usd.garage_sources import read_built  # noqa: PLC0415 - keeps --help instant
     from garage2usd.view.plan_sheet import Mark  # noqa: PLC0415
 
     marks: dict[str, list[Mark]] = {}
-    for finding in read_built(path).findings():
+    for finding in read_built(path, progress=progress).findings(progress=progress):
         if finding.position_m is not None:
             words = f"{finding.rule}: {finding.message}"
             level = _level_of(finding.place, garage.levels)

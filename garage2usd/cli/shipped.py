@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
+from garage2usd.common.progress import counted
 
 if TYPE_CHECKING:
     from garage2usd.objects import Spec
@@ -36,7 +37,8 @@ def textures(folder: Path) -> None:
 
     check_writable(folder)
     with staging_folder(folder) as staging:
-        bake_textures(staging)
+        with Bars(sys.stderr) as progress:
+            bake_textures(staging, progress=progress)
         folders = publish(sorted(staging.iterdir()), folder)
     click.echo(f"{sum(len(list(place.iterdir())) for place in folders)} textures in {folder}")
 
@@ -53,7 +55,8 @@ def meshes(folder: Path, *, choose: bool) -> None:
     shapes = _usual_shapes() if choose else list(baked_shapes())
     with staging_folder(folder / MESH_FILE.name) as staging:
         made = staging / MESH_FILE.name
-        bake_meshes(shapes, made)
+        with Bars(sys.stderr) as progress:
+            bake_meshes(shapes, made, progress=progress)
         (place,) = publish([made], folder)
     click.echo(f"{len(shapes)} shapes in {place}")
 
@@ -68,8 +71,7 @@ def _usual_shapes() -> list["Spec"]:
     asked = [(site, seed) for seeds, site in _GARAGES for seed in range(seeds)]
     garages: Counter[Spec] = Counter()
     with Bars(sys.stderr) as progress:
-        for done, (site, seed) in enumerate(asked):
-            progress("garages", done, len(asked))
+        for site, seed in counted("garages", asked, len(asked), progress):
             config = GarageConfig.model_validate({"site": site, "seed": seed})
             specs = generate(config).layout.placements.specs
             garages.update({spec.shape for spec in specs})

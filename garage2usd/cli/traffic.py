@@ -9,6 +9,7 @@ import click
 from garage2usd.cli.bars import Bars
 from garage2usd.cli.options import INPUT_FILE
 from garage2usd.common.errors import ConfigError
+from garage2usd.common.progress import counted
 
 if TYPE_CHECKING:
     from garage2usd.driving.tracks import Tracks
@@ -95,9 +96,9 @@ def traffic(
             run = read_tracks(tracks)
         else:
             settings = validated(TrafficConfig, {**source.traffic.model_dump(), **asked}, within="traffic")
-            run = Operation(source.garage).run(settings, seed=seed, progress=progress)
-    for output in outputs:
-        write_tracks(output, run, source.garage)
+            run = Operation(source.garage, progress=progress).run(settings, seed=seed, progress=progress)
+        for output in counted("files", outputs, len(outputs), progress):
+            write_tracks(output, run, source.garage)
     if predictions is not None:
         count = write_predictions(predictions, run, source.garage)
         click.echo(f"{count:>6}  prediction tasks")

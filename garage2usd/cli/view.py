@@ -95,7 +95,9 @@ def view(
             if film is None:
                 click.echo(f"{path.name} at {server.url}")
             looks = Looks()
-            scene = read_scene(stage, path, looks)
+            with Bars(sys.stderr) as progress:
+                progress("reading", 0, 1)
+                scene = read_scene(stage, path, looks)
             server.show(scene, None if played is None else read_agents(played, looks))
             # before the browser starts, which would inherit the limits of a process that reads a stage
             lift()

@@ -1,4 +1,4 @@
-"""The package itself: its version, its public names loaded on first use, and the modules of its optional extras."""
+"""The package itself: its version, names of it that are loaded on first use, and the modules of its optional extras."""
 
 import json
 import sys
@@ -20,7 +20,7 @@ RAYS = ("embreex", "trimesh") if HAS_EMBREE else ("trimesh",)
 """Modules for ray casting; without embreex, the much slower `garage2usd.sensors.rays.ray_caster` is used."""
 _BROUGHT = {
     "bpy": ("blender", "Blender's Python module"),
-    "OpenEXR": ("blender", "OpenEXR"),
+    "OpenEXR": ("sensors", "OpenEXR"),
     "distributed": ("dataset", "Dask's distributed"),
     "jinja2": ("dataset", "Jinja"),
     "matplotlib": ("dataset", "Matplotlib"),
@@ -56,7 +56,7 @@ def require(purpose: str, modules: Iterable[str], *, without: str = "", extra: s
     modules
         Import names of the modules.
     without
-        Alternative without the modules, in words; appended to the message if parts of Blender are missing.
+        Alternative without the modules, in words; appended to the message if Blender's module is missing.
     extra
         An extra that brings them, if several do.
 
@@ -94,14 +94,16 @@ def of_extra(purpose: str, extra: str = "") -> Iterator[None]:
 
 
 def _missing(purpose: str, modules: list[str], without: str = "", extra: str = "") -> MissingExtraError:
-    extras = [extra] if extra else sorted({_BROUGHT[module][0] for module in modules})
+    with_blender = {*BLENDER} if "bpy" in modules else set()
+    of_each = ("blender" if module in with_blender else _BROUGHT[module][0] for module in modules)
+    extras = [extra] if extra else sorted({*of_each})
     *others, last = (_BROUGHT[module][1] for module in modules)
     brings = f"{', '.join(others)} and {last}" if others else last
     here = sys.version_info[:2]
     if "bpy" in modules and here != _PYTHON_OF_BLENDER:
         needed, found = (".".join(map(str, version)) for version in (_PYTHON_OF_BLENDER, here))
         brings = f"Python {needed} instead of {found}, and in it {brings}"
-    if without and set(BLENDER).intersection(modules):
+    if without and with_blender:
         brings = f"{brings} ({without})"
     return MissingExtraError(purpose, ",".join(extras), brings, installation_of(",".join(extras)))
 
@@ -121,6 +123,20 @@ def installation_of(extras: str) -> str:
         return f"pip install 'garage2usd[{extras}] @ {origin['url']}'"
     option = "-e " if origin["dir_info"].get("editable") else ""
     return f"pip install {option}'{'.' if place == Path.cwd() else place}[{extras}]'"
+
+
+def drawn_by(module: str, function: str) -> Callable[[object], str]:
+    """Make a method that a function of a room above draws, imported on first use: the form that notebooks display.
+
+    Values know nothing of the rooms above them that draw them, so the function is given by name:
+    ``_repr_svg_ = drawn_by("garage2usd.view.notebook", "plan_svg")``.
+    """
+
+    def drawn(value: object) -> str:
+        return str(getattr(import_module(module), function)(value))
+
+    drawn.__doc__ = f"Draw it for a notebook, by `{module}.{function}`."
+    return drawn
 
 
 def on_first_use(package: str, modules: Mapping[str, Iterable[str]]) -> Callable[[str], object]:

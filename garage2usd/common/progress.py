@@ -1,8 +1,10 @@
 """Progress callbacks of long steps; only ``cli`` prints."""
 
-from typing import Protocol
+from collections.abc import Iterable, Iterator
+from typing import Protocol, TypeVar
 
 _TEN_S, _MINUTE_S = 10, 60
+_Unit = TypeVar("_Unit")
 
 
 class Progress(Protocol):
@@ -14,6 +16,14 @@ class Progress(Protocol):
 
 def silent(step: str, done: int, total: int) -> None:
     """Ignore progress; the default of every step."""
+
+
+def counted(step: str, units: Iterable[_Unit], total: int, progress: Progress) -> Iterator[_Unit]:
+    """Yield the units of a step, and report each as finished once the next one is asked for."""
+    progress(step, 0, total)
+    for done, unit in enumerate(units, 1):
+        yield unit
+        progress(step, done, total)
 
 
 class Announce(Protocol):

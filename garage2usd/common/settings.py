@@ -5,6 +5,7 @@ import inspect
 import re
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
 
 
+@cache
 def attribute_docstrings(cls: type) -> dict[str, str]:
     """Return the docstring below each annotated attribute that a class or one of its bases declares.
 

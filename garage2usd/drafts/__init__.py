@@ -1,1 +1,1 @@
-"""Garages that are drawn in the browser: their configuration as a document with undo, its plan, and the server."""
+"""Garages drawn in the browser: a configuration or survey as a document with undo, its plan, and the server."""

@@ -1,78 +1,79 @@
-"""The desk at which a garage is drawn: its draft and file, lanes planned for it, and its stage for the 3D view."""
+"""The desk at which a file is drawn: its draft, its file, windows that share it, and its stage for the 3D view."""
 
 import tempfile
 import threading
-import time
+from abc import ABC, abstractmethod
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar, Generic, TypeVar
 
 from garage2usd.common.errors import ConfigError, Garage2UsdError, OutputError
-from garage2usd.config import ClutterConfig, GarageConfig, LookConfig, MapsConfig, ParkingConfig, StageConfig
-from garage2usd.drafts import settings_told
-from garage2usd.drafts.draft import NEW, Draft
+from garage2usd.drafts.draft import Draft
 from garage2usd.drafts.draft_file import SUFFIX, DraftFile
-from garage2usd.drafts.edits import edit_of
-from garage2usd.drafts.sketch import Told, checked, has_lanes, sketch_of
-from garage2usd.garage_model import Garage
-from garage2usd.pipeline import generate
 from garage2usd.reading.files import open_stage
-from garage2usd.stage import write_stage
 from garage2usd.view.viewer import Looks, ShownScene, read_scene
 
-_OF_NO_PLAN: dict[str, Any] = {
-    "look": LookConfig(),
-    "parking": ParkingConfig(),
-    "clutter": ClutterConfig(),
-    "stage": StageConfig(),
-    "maps": MapsConfig(),
-}
-"""Settings that no lane depends on."""
-_LEAST_WAIT_S = 0.2
-
-
-class _Stopped(Exception):  # noqa: N818 - no error
-    """Learning was stopped by the user."""
+Told = dict[str, Any]
+"""A message to the page, as JSON has it."""
+_Model = TypeVar("_Model")
 
 
 class RefusalError(Garage2UsdError):
     """A message that does not fit the drawing as it is now: of an older version, or over changes of the file."""
 
 
-class Desk:
+class Desk(ABC, Generic[_Model]):
     """A drawing, in the hands of one or several windows of a browser.
 
     Parameters
     ----------
     file
         Its file.
-
-    Raises
-    ------
-    ConfigError
-        If the file is not a configuration, or its squares cannot be drawn.
+    draft
+        The drawing, as it is in the file or new.
     """
 
-    def __init__(self, file: DraftFile) -> None:
+    page: ClassVar[str]
+    """File of the page that draws it."""
+    told: ClassVar[tuple[str, ...]] = ("state", "findings", "changed_outside")
+    """Names of the methods that tell the page something."""
+    done: ClassVar[tuple[str, ...]] = ("edit", "undo", "redo", "restore", "reload", "save", "build")
+    """Names of the methods that take messages of the page."""
+
+    def __init__(self, file: DraftFile, draft: Draft[_Model]) -> None:
         self._lock = threading.RLock()
-        self._file = file
-        self.draft = Draft(NEW if file.saved is None else file.saved, file.path.parent)
+        self._file, self.draft = file, draft
         self._kept = file.kept()
-        self._planned: tuple[str, Garage] | None = None
-        self._work: Told = {"step": "", "done": 0, "total": 0, "error": "", "seconds": 0.0}
-        self._worker: threading.Thread | None = None
-        self._is_stopped = False
+        self._hold = ExitStack()
+        self._at_build = threading.Lock()
         self._views: dict[str, ShownScene] = {}
+        self._built: dict[str, Told] = {}
+
+    def hold(self) -> None:
+        """Ensure until it is closed that the file stands open on no other page; raises `OutputError` where it does."""
+        self._hold_on(self._file)
+
+    def _hold_on(self, file: DraftFile) -> None:
+        with ExitStack() as hold:
+            hold.enter_context(file.held())
+            self._hold.close()
+            self._hold = hold.pop_all()
+        self._file = file
+
+    @property
+    def file(self) -> DraftFile:
+        """The file of the drawing."""
+        return self._file
 
     # what the page is told
 
     def state(self) -> Told:
         """Tell all that the page shows."""
         with self._lock:
-            draft, planned = self.draft, self._garage()
-            number, config = draft.number, draft.config
+            draft = self.draft
             told = {
-                "number": number,
+                "number": draft.number,
                 "name": self._file.path.name,
                 "folder": str(self._file.path.parent),
                 "is_new": self._file.saved is None,
@@ -80,34 +81,22 @@ class Desk:
                 "can_undo": draft.can_undo,
                 "can_redo": draft.can_redo,
                 "kept": self._kept is not None,
-                "levels": config.building.levels,
-                "place": None if config.building.place is None else config.building.place.model_dump(mode="json"),
-                "given_sides": [side is not None for side in (config.bay.row_depths_m, config.bay.column_widths_m)],
-                "runs": [run.model_dump(mode="json") for run in config.stalls.runs],
-                "values": settings_told.values(config),
-                "given": settings_told.given(config),
-                "drawn_look": bool(config.look.axes),
-                "has_lanes": has_lanes(config),
-                "is_working": self._is_working,
                 "view": self._view_name(),
             }
-        began = time.perf_counter()
-        return {**told, "sketch": sketch_of(config, planned), "seconds": round(time.perf_counter() - began, 4)}
+            more = self._drawing()
+        return {**told, **more()}
 
-    @staticmethod
-    def controls() -> Told:
-        """Tell the settings that have controls."""
-        return {"controls": settings_told.controls(), "colours": settings_told.colours()}
+    @abstractmethod
+    def _drawing(self) -> Callable[[], Told]:
+        """Prepare, while nothing changes, what the page is told of the drawing itself."""
+
+    @abstractmethod
+    def findings(self) -> Told:
+        """Check the drawing with all objects; a second or more."""
 
     def changed_outside(self) -> Told:
-        """Tell whether the file is no longer as it was read, and the number of the version, for other windows."""
-        return {"changed": self._file.has_changed, "number": self.draft.number}
-
-    def findings(self) -> Told:
-        """Lay the garage out and check it with all objects."""
-        with self._lock:
-            number, config, planned = self.draft.number, self.draft.config, self._garage()
-        return {"number": number, **checked(config, planned)}
+        """Tell if the file is no longer as it was read, and for other windows which version of which file this is."""
+        return {"changed": self._file.has_changed, "number": self.draft.number, "name": self._file.path.name}
 
     # what the page does
 
@@ -117,9 +106,13 @@ class Desk:
         def change() -> None:
             if message.get("number") != self.draft.number:
                 raise RefusalError("the drawing was changed in another window; it is shown as it is now")
-            self.draft.edit(edit_of(message.get("edit")), stroke=str(message.get("stroke", "")))
+            self._edit(message.get("edit"), str(message.get("stroke", "")))
 
         return self._changed(change)
+
+    @abstractmethod
+    def _edit(self, edit: Any, stroke: str) -> None:  # noqa: ANN401 - what JSON holds
+        """Read an edit and apply it; raises `ConfigError`."""
 
     def undo(self, _: Told) -> Told:
         """Undo an edit."""
@@ -153,101 +146,61 @@ class Desk:
     def save(self, message: Told) -> Told:
         """Save the drawing, under another name of the same folder if one is given."""
         with self._lock:
-            name = str(message.get("name") or self._file.path.name)
-            if name != Path(name).name or not name.endswith(SUFFIX) or name == SUFFIX:
-                raise ConfigError("name", name, f"a file name in this folder that ends in {SUFFIX}")
-            file = self._file if name == self._file.path.name else DraftFile(self._file.path.with_name(name))
+            file = file_beside(self._file, message.get("name") or self._file.path.name)
+            name = file.path.name
             if file is not self._file and file.saved is not None and not message.get("over"):
                 raise RefusalError(f"{name} is there already")
             if file is self._file and file.has_changed and not message.get("over"):
                 raise RefusalError(f"{name} has changed since it was read here")
+            before = self._file
+            if file is not before:
+                self._hold_on(file)
             file.save(self.draft.text, over_changes=True)
-            if file is not self._file:
-                self._file.discard()
-                self._file = file
+            if file is not before:
+                before.discard()
             self._kept = None
         return self.state()
 
-    def learn(self, _: Told) -> Told:
-        """Begin to plan the lanes."""
-        with self._lock:
-            if not self._is_working:
-                self._is_stopped = False
-                self._work = {"step": "lanes", "done": 0, "total": 0, "error": "", "seconds": 0.0}
-                self._worker = threading.Thread(target=self._learn, args=(self.draft.config,), daemon=True)
-                self._worker.start()
-        return self.progress()
-
-    def stop(self, _: Told) -> Told:
-        """Stop the planning of lanes."""
-        self._is_stopped = True
-        return self.progress()
-
-    def progress(self) -> Told:
-        """Tell how far the planning of lanes is."""
-        if self._worker is not None:
-            self._worker.join(_LEAST_WAIT_S)
-        return {**self._work, "is_working": self._is_working}
-
-    def adopt(self, _: Told) -> Told:
-        """Keep the planned lanes as drawn ones."""
-
-        def change() -> None:
-            garage = self._garage()
-            if garage is None or len(garage.levels) > 1:
-                raise ConfigError("site.structure", "no plan of one level", "lanes that were planned for one level")
-            rows = str(garage.levels[0].plan.structure).splitlines()
-            self.draft.edit(edit_of({"kind": "adopt", "rows": rows}))
-
-        return self._changed(change)
-
     def build(self, _: Told) -> Told:
-        """Build the garage and open it for the 3D view; tells the name of the view, and the time that it took."""
-        with self._lock:
-            config, planned, name = self.draft.config, self._garage(), self._view_name()
-        if planned is None and not has_lanes(config):
-            raise ConfigError("site.structure", "no lanes", "lanes, drawn or planned; plan them first")
-        began = time.perf_counter()
-        shown = self.view(name)
-        plans = None if planned is None else [level.plan for level in planned.levels]
-        try:
-            garage = generate(config, plan=plans)
-            if shown is not None and not shown.is_ready:
-                with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-                    place = Path(folder, f"{self._file.path.stem}.usdc")
-                    written = write_stage(garage, place).stage
-                    shown.show(read_scene(open_stage(written), written, Looks()))
-        except Garage2UsdError:
-            self._drop_views()
-            raise
-        return {"view": name, "seconds": round(time.perf_counter() - began, 3), "stalls": garage.parking_stalls}
+        """Build the garage for the 3D view, once; tells the name of the view, and its number of stalls."""
+        with self._at_build:
+            with self._lock:
+                write, name = self._writer(), self._view_name()
+                shown = self.view(name)
+            try:
+                if shown is not None and not shown.is_ready:
+                    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+                        stage, told = write(Path(folder, self._file.path.stem))
+                        shown.show(read_scene(open_stage(stage), stage, Looks()))
+                    self._built = {name: told}
+            except Garage2UsdError:
+                self._drop_views(but=0)
+                raise
+            return {"view": name, **self._built[name]}
+
+    @abstractmethod
+    def _writer(self) -> Callable[[Path], tuple[Path, Told]]:
+        """Return what writes the stage of the present drawing below a path without suffix, and tells of it."""
 
     def view(self, name: str) -> ShownScene | None:
         """Return a 3D view by its name; that of the present drawing also before it is built, and waits for that."""
         with self._lock:
             if name not in self._views and name == self._view_name():
-                self._drop_views()
+                self._drop_views(but=1)  # the one before may stand open
                 self._views[name] = ShownScene()
             return self._views.get(name)
 
     def _view_name(self) -> str:
-        return f"{self.draft.number}{'' if self._garage() is None else '-planned'}"
+        return str(self.draft.number)
 
-    def _drop_views(self) -> None:
-        for view in self._views.values():
-            view.release()
-        self._views = {}
+    def _drop_views(self, *, but: int) -> None:
+        for name in list(self._views)[: len(self._views) - but]:
+            self._views.pop(name).release()
 
     def close(self) -> None:
-        """Stop all work; unsaved work stays beside the file."""
-        self._is_stopped = True
-        self._drop_views()
-
-    # how
-
-    @property
-    def _is_working(self) -> bool:
-        return self._worker is not None and self._worker.is_alive()
+        """Stop all work and let the file go; unsaved work stays beside it."""
+        self._drop_views(but=0)
+        self._hold.close()
 
     def _changed(self, change: Callable[[], None]) -> Told:
         with self._lock:
@@ -259,32 +212,9 @@ class Desk:
                     return {**self.state(), "warning": str(error)}
         return self.state()
 
-    def _garage(self) -> Garage | None:
-        """Return the garage that was planned for the present drawing."""
-        if self._planned is None or self._planned[0] != _key(self.draft.config):
-            return None
-        return self._planned[1]
 
-    def _learn(self, config: GarageConfig) -> None:
-        began = time.perf_counter()
-
-        def told(step: str, done: int, total: int) -> None:
-            if self._is_stopped:
-                raise _Stopped
-            self._work = {**self._work, "step": step, "done": done, "total": total}
-            self._work["seconds"] = round(time.perf_counter() - began, 2)
-
-        try:
-            garage = generate(config, progress=told)
-        except _Stopped:
-            self._work = {**self._work, "error": "stopped"}
-        except Garage2UsdError as error:
-            self._work = {**self._work, "error": str(error).splitlines()[0]}
-        else:
-            self._planned = (_key(config), garage)
-            self._work["seconds"] = round(time.perf_counter() - began, 2)
-
-
-def _key(config: GarageConfig) -> str:
-    """Digest of the settings that lanes depend on."""
-    return config.model_copy(update=_OF_NO_PLAN).digest()
+def file_beside(file: DraftFile, name: object) -> DraftFile:
+    """Return the file of a name in the same folder, the same one for its own name; raises `ConfigError`."""
+    if not isinstance(name, str) or name != Path(name).name or not name.endswith(SUFFIX) or name == SUFFIX:
+        raise ConfigError("name", name, f"a file name in this folder that ends in {SUFFIX}")
+    return file if name == file.path.name else DraftFile(file.path.with_name(name))

@@ -10,7 +10,7 @@ from garage2usd.common.errors import ConfigError, OutputError
 from garage2usd.common.output import check_file, only_run, store
 
 SUFFIX = ".toml"
-_UNSAVED = ".unsaved"
+UNSAVED = ".unsaved"
 
 
 class DraftFile:
@@ -41,10 +41,10 @@ class DraftFile:
         self.saved = self._on_disk()
 
     @classmethod
-    def new(cls, folder: Path) -> Self:
+    def new(cls, folder: Path, stem: str = "garage") -> Self:
         """Return the file of a new drawing: the first free one of ``garage.toml``, ``garage_2.toml`` and so on."""
         number = 1
-        while (path := folder / f"garage{f'_{number}' * (number > 1)}{SUFFIX}").exists():
+        while (path := folder / f"{stem}{f'_{number}' * (number > 1)}{SUFFIX}").exists():
             number += 1
         return cls(path)
 
@@ -80,7 +80,7 @@ class DraftFile:
 
     @property
     def _beside(self) -> Path:
-        return self.path.with_name(f".{self.path.name}{_UNSAVED}")
+        return self.path.with_name(f".{self.path.name}{UNSAVED}")
 
     def keep(self, text: str) -> None:
         """Write unsaved work beside the file, or remove it where there is none."""

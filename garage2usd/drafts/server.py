@@ -2,19 +2,18 @@
 
 import json
 import secrets
+import threading
 from http import HTTPStatus
 from types import TracebackType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from garage2usd.common.errors import Garage2UsdError
-from garage2usd.drafts.desk import Desk, RefusalError
+from garage2usd.drafts.desk import Desk, RefusalError, Told
+from garage2usd.drafts.opening import files_beside, opened_beside
 from garage2usd.view.viewer import LoopbackServer
 from garage2usd.view.viewer.server import Answer, page_files
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-_PAGE = ("draw.html", "draw.css", "draw.js", "licenses.txt")
+_FILES = {"draw.js", "trace.js", "file_bar.js", "file_bar.css", "licenses.txt"}
 _JSON = "application/json"
 _TOKEN_BYTES = 16
 
@@ -42,27 +41,12 @@ class DrawServer(LoopbackServer):
 
     takes_posts = True
 
-    def __init__(self, desk: Desk, port: int = 0) -> None:
+    def __init__(self, desk: Desk[Any], port: int = 0) -> None:
         super().__init__(port, framed_by="'self'")
         self.desk = desk
         self._token = secrets.token_urlsafe(_TOKEN_BYTES)
-        files = page_files()
-        self._files = {name: files[f"/{name}"] for name in _PAGE}
-        self._files[""] = self._files["draw.html"]
-        self._told: dict[str, Callable[[], Any]] = {
-            "state": desk.state,
-            "controls": desk.controls,
-            "findings": desk.findings,
-            "progress": desk.progress,
-            "file": desk.changed_outside,
-        }
-        self._done: dict[str, Callable[[dict[str, Any]], Any]] = {
-            each.__name__: each
-            for each in (
-                desk.edit, desk.undo, desk.redo, desk.restore, desk.reload, desk.save, desk.learn, desk.stop,
-                desk.adopt, desk.build,
-            )
-        }  # fmt: skip
+        self._pages = page_files()
+        self._at_opening = threading.Lock()
 
     @property
     def url(self) -> str:
@@ -91,20 +75,31 @@ class DrawServer(LoopbackServer):
             number, _, inner = name.removeprefix("3d/").partition("/")
             shown = self.desk.view(number)
             return None if shown is None else shown.answer(f"/{inner}")
-        if name in self._told:
-            return _JSON, _json(self._told[name]())
-        return self._files.get(name)
+        if name in self.desk.told:
+            return _JSON, _json(getattr(self.desk, name)())
+        if name == "files":
+            return _JSON, _json(files_beside(self.desk.file))
+        if name in _FILES:
+            return self._pages[f"/{name}"]
+        return self._pages[f"/{self.desk.page}"] if name == "" else None
+
+    def open(self, message: dict[str, Any]) -> Told:
+        """Open another file in place of the present one, whose unsaved work stays beside it."""
+        with self._at_opening:
+            before, self.desk = self.desk, opened_beside(self.desk, message)
+            before.close()
+        return {"name": self.desk.file.path.name}
 
     def posted(self, path: str, body: bytes) -> tuple[HTTPStatus, Answer] | None:
         """Answer a message of the page; None if there is no such message."""
         name = self._name(path)
-        if name is None or name not in self._done:
+        if name is None or name not in {*self.desk.done, "open"}:
             return None
         try:
             message = json.loads(body or b"{}")
             if not isinstance(message, dict):
                 return HTTPStatus.BAD_REQUEST, (_JSON, _json({"error": "a message is an object"}))
-            return HTTPStatus.OK, (_JSON, _json(self._done[name](message)))
+            return HTTPStatus.OK, (_JSON, _json(getattr(self if name == "open" else self.desk, name)(message)))
         except RefusalError as error:
             return HTTPStatus.CONFLICT, (_JSON, _json({"error": str(error)}))
         except Garage2UsdError as error:

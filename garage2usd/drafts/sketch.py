@@ -8,7 +8,7 @@ from garage2usd.as_built.plan_reader import garage_of_config
 from garage2usd.checks import Finding, findings_of
 from garage2usd.common.errors import ConfigError, Garage2UsdError, UnreachableStallError
 from garage2usd.config import GarageConfig
-from garage2usd.drafts.edits import LANE
+from garage2usd.drafts.change import LANE
 from garage2usd.garage import LaneGraph, LaneKind, Stall
 from garage2usd.garage_model import Garage
 from garage2usd.garage_sources import built_source

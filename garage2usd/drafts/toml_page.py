@@ -51,6 +51,37 @@ class TomlPage:
                 place[key] = _item(value)
             plain[key] = value
 
+    def add(self, name: str, table: Mapping[str, Any]) -> None:
+        """Append a table to the list of tables of a name at the top of the document."""
+        if name not in self._document:
+            self._document[name] = tomlkit.aot()
+        tables = self._document[name]
+        tables.append(_table(table) if isinstance(tables, AoT) else _item(table))
+        self.settings.setdefault(name, []).append(dict(table))
+
+    def alter(self, name: str, at: int, keys: Mapping[str, Any]) -> None:
+        """Set keys of a table of such a list, or remove those that are None; raises `ConfigError` for no such table."""
+        self._number(name, at)
+        place, plain = self._document[name][at], self.settings[name][at]
+        for key, value in keys.items():
+            if value is None and key in plain:
+                del place[key], plain[key]
+            elif value is not None and plain.get(key) != value:
+                place[key] = _item(value)
+                plain[key] = value
+
+    def take(self, name: str, at: int) -> None:
+        """Take a table out of such a list, and an empty list out of the document; raises `ConfigError`."""
+        self._number(name, at)
+        del self._document[name][at], self.settings[name][at]
+        if not self.settings[name]:
+            del self._document[name], self.settings[name]
+
+    def _number(self, name: str, at: int) -> None:
+        count = len(self.settings.get(name, ()))
+        if not 0 <= at < count:
+            raise ConfigError("at", at, f"a number below {count}, of {name}")
+
     def _remove(self, tables: Sequence[str], key: str) -> None:
         """Remove a key, and the tables that are left with nothing, not even a comment."""
         holders = [(self._document, self.settings)]
@@ -98,6 +129,14 @@ def _changed_within(item: Any, old: Any, new: Any) -> bool:  # noqa: ANN401
     return True
 
 
+def _table(values: Mapping[str, Any]) -> Table:
+    table = tomlkit.table()
+    table.trivia.indent = "\n"  # an empty line before its header
+    for key, value in values.items():
+        table[key] = _item(value)
+    return table
+
+
 def _item(value: Any) -> Any:  # noqa: ANN401
     if isinstance(value, str) and "\n" in value:
         escaped = value.replace("\\", "\\\\").replace('"', '\\"')
@@ -112,4 +151,7 @@ def _item(value: Any) -> Any:  # noqa: ANN401
         for each in value:
             array.append(_item(each))
         return array.multiline(any(isinstance(each, Mapping) for each in value))
-    return tomlkit.item(value)
+    try:
+        return tomlkit.item(value)
+    except ValueError:
+        raise ConfigError("value", value, "a value of TOML") from None

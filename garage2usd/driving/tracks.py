@@ -8,6 +8,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from garage2usd.common.package import drawn_by
+
 Floats = NDArray[np.float64]
 COLUMNS = {
     "time_s": 6,
@@ -204,6 +206,8 @@ class Tracks:
     facts: Mapping[str, object] = field(default_factory=dict)
     log: tuple[str, ...] = ()
 
+    _repr_html_ = drawn_by("garage2usd.view.notebook", "tracks_html")
+
     def rounded(self) -> "Tracks":
         """Return the tracks with the decimals of `COLUMNS`, which a table preserves."""
         return replace(self, tracks=tuple(track.rounded() for track in self.tracks))
@@ -212,6 +216,10 @@ class Tracks:
         """Return the times of all steps from 0 on, or of those of another step."""
         step = step_s or self.step_s
         return np.round(np.arange(int(self.duration_s / step + _SAME_TIME_S) + 1) * step, COLUMNS["time_s"])
+
+    def __repr__(self) -> str:
+        """Return the number of agents and the duration."""
+        return f"<Tracks of {len(self)} agents in {self.duration_s:g} s>"
 
     def __iter__(self) -> Iterator[Track]:
         """Iterate over the tracks."""

@@ -143,7 +143,7 @@ class Stall:
             min(math.dist(left, rear_left), math.dist(right, rear_right)),
         )
 
-    @property
+    @cached_property
     def angle_deg(self) -> float:
         """Angle in degrees from the stall's mouth to its left side; 90 for a perpendicular stall."""
         (left_x, left_z), (right_x, right_z), _, (rear_x, rear_z) = self.corners
@@ -152,7 +152,7 @@ class Stall:
         # seen from above, with X to the right and Z downwards, the left side is a turn to the left from the mouth
         return math.degrees(elementary.arctan2(forward * along - right * back, right * along + forward * back))
 
-    @property
+    @cached_property
     def kind(self) -> StallKind:
         """Orientation of the stall relative to its lane."""
         if abs(self.angle_deg - 90) > _SQUARE_DEG:

@@ -12,6 +12,7 @@ import shapely
 from numpy.typing import NDArray
 
 from garage2usd.common.errors import ConfigError
+from garage2usd.common.package import drawn_by
 from garage2usd.config import GarageConfig, LookConfig
 from garage2usd.config.plan import DeadEnds, UnreachableStalls
 from garage2usd.garage import LaneGraph, Stall, StallUse
@@ -116,6 +117,8 @@ class Layout:
     well: Well | None = None
     shafts: tuple[Core, ...] = ()
 
+    _repr_svg_ = drawn_by("garage2usd.view.notebook", "layout_svg")
+
     @property
     def matrices(self) -> Structure | None:
         """S, R and C of the plan; None for a survey, which has no grid."""
@@ -191,6 +194,10 @@ class Layout:
         Stalls that are kept free, such as access aisles and turning stalls, do not count.
         """
         return int(self.stalls.takes_cars.sum())
+
+    def __repr__(self) -> str:
+        """Return the numbers of stalls and of objects."""
+        return f"<Layout of {self.parking_stalls} stalls and {len(self.placements)} objects>"
 
     @property
     def landings(self) -> frozenset[tuple[int, int]]:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.common.errors import GenerationError
+from garage2usd.common.package import drawn_by
 from garage2usd.common.progress import Progress, silent
 from garage2usd.common.randomness import Step, generator
 from garage2usd.config import BayConfig, GarageConfig, PlanConfig
@@ -97,6 +98,8 @@ class Plan:
     runs: tuple[StallRun, ...] = ()
     directions: LaneDirections = BOTH_WAYS
 
+    _repr_svg_ = drawn_by("garage2usd.view.notebook", "plan_svg")
+
     @property
     def stretches(self) -> tuple[tuple[tuple[int, int], ...], ...]:
         """Squares of each stretch of lane from one junction or dead end to the next, in reading order."""
@@ -106,6 +109,11 @@ class Plan:
     def one_way_stretches(self) -> tuple[tuple[tuple[int, int], ...], ...]:
         """Squares of each one-way stretch in the direction of driving, in reading order."""
         return self.directions.stretches(self.structure)
+
+    def __repr__(self) -> str:
+        """Return the size, the number of stalls and the score."""
+        rows, cols = self.structure.shape
+        return f"<Plan of {rows} x {cols} squares with {self.score.stalls} stalls, score {self.score.value:.2f}>"
 
     def __post_init__(self) -> None:
         """Keep read-only copies of the curve and of the rules that gave way."""

@@ -4,7 +4,7 @@ import hashlib
 import json
 import zlib
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields
 from functools import lru_cache
 from itertools import chain
@@ -18,6 +18,7 @@ from pydantic import BaseModel, TypeAdapter
 from garage2usd.assets import Asset, Collider, Part, pascal_case
 from garage2usd.assets.mesh import Pose
 from garage2usd.common.errors import StageError
+from garage2usd.common.progress import Progress, counted, silent
 from garage2usd.layout import Layout
 from garage2usd.objects import Spec
 from garage2usd.objects.car import CarSpec
@@ -79,16 +80,15 @@ class _Group(NamedTuple):
     borders: NDArray[np.int64]
 
 
-def bake_meshes(shapes: Iterable[Spec], path: Path) -> None:
-    """Compute the meshes of shapes without lights and write them to a NumPy ``.npz`` file.
+def bake_meshes(shapes: Sequence[Spec], path: Path, *, progress: Progress = silent) -> None:
+    """Compute the meshes of shapes without lights and write them to a NumPy ``.npz`` file; `progress` counts shapes.
 
     Notes
     -----
-    The file holds the names of the groups, their end offsets, and the groups. Each group is compressed separately, so
-    that a build decompresses only the groups that it needs.
+    The file holds names and end offsets of the groups, then each compressed on its own: builds read what they need.
     """
     groups: dict[str, list[tuple[str, Asset]]] = {}
-    for key, shape in sorted((_key(shape), shape) for shape in shapes):
+    for key, shape in counted("shapes", sorted((_key(each), each) for each in shapes), len(shapes), progress):
         asset, name = shape.asset(), type(shape).__name__
         numbers = sum(getattr(part, array).size for part in asset.parts for array in _STEPS)
         groups.setdefault(_own_group(name, key) if numbers > _OWN_GROUP_NUMBERS else name, []).append((key, asset))

@@ -50,8 +50,12 @@ def joined_lines(
     grounds: shapely.STRtree,
     walls: shapely.Geometry | None = None,
     inside: shapely.Geometry | None = None,
+    landings: Sequence["Gate"] = (),
 ) -> list[CentreLine]:
-    """Extend the ends of centre lines that stop short of another one, over no stall, through no wall, and inside."""
+    """Extend the ends of centre lines that stop short of another one, over no stall, through no wall, and inside.
+
+    An end before a landing remains: the lane continues on the ramp.
+    """
     walls = shapely.MultiLineString() if walls is None else walls
     joined = []
     for number, each in enumerate(lines):
@@ -60,6 +64,8 @@ def joined_lines(
         for place in () if each.line.is_ring else (0, -1):
             end = shapely.Point(points[place])
             if any(other.line.distance(end) <= SAME_M for other in others):
+                continue
+            if any(gate.is_before(_ends(each.line)[place]) for gate in landings):
                 continue
             near = [other for other in others if other.line.distance(end) <= other.width_m / 2 + _GAP_M]
             if near:
@@ -139,6 +145,13 @@ class Gate(NamedTuple):
         along = (end_x - x) * self.outwards[0] + (end_z - z) * self.outwards[1]
         return along > _AHEAD_COS * math.dist((x, z), (end_x, end_z))
 
+    def is_before(self, points: Sequence[Point]) -> bool:
+        """Return True if the last of some points lies before the door, and they lead towards it."""
+        (x, z), (foot_x, foot_z) = points[-1], self.foot
+        along = (foot_x - x) * self.outwards[0] + (foot_z - z) * self.outwards[1]
+        aside = abs((foot_x - x) * self.outwards[1] - (foot_z - z) * self.outwards[0])
+        return 0.0 <= along <= _AHEAD_M and aside <= self.wall_m / 2 and self.is_ahead(points)
+
 
 class _Approach(NamedTuple):
     """The lane graph's node of a door, the half side of its ground, and the line between it and the lane ahead."""
@@ -177,7 +190,8 @@ def lane_network(
     others remain in the graph: no stall is reached there.
     """
     stalls = shapely.STRtree(list(grounds))
-    lines = joined_lines([_line(lane) for lane in lanes], stalls, walls, inside)
+    landings = [gate for gate in gates if gate.is_landing]
+    lines = joined_lines([_line(lane) for lane in lanes], stalls, walls, inside, landings)
     free_m = [_free_m(gate, stalls) for gate in gates]
     ends = shapely.STRtree([line.line for line in lines])
     lines = [_short_of(line, gates, free_m, ends) for line in lines]
@@ -253,12 +267,14 @@ def _approach(
 ) -> _Approach:
     """Find the line from a door's node to the lane ahead, else the nearest one; reversed for an exit.
 
+    A lane that ends before the door is ahead of it, though it bends and ends beside the middle of the door.
     A way over stalls or through walls is taken only where there is no other.
     """
     foot, (out_x, out_z) = shapely.Point(gate.foot), gate.outwards
     reach_m = 2 * min(each.line.distance(foot) for each in lines) + SAME_M
     ray = shapely.LineString([gate.foot, (foot.x - out_x * reach_m, foot.y - out_z * reach_m)])
     ways = []
+    tree = shapely.STRtree([each.line for each in lines])
     asked = lines if gate.lane is None else [min(lines, key=lambda each: each.line.distance(shapely.Point(gate.lane)))]
     for number, each in enumerate(asked):
         ends = [shapely.Point(each.line.coords[place]) for place in (0, -1)]
@@ -266,7 +282,9 @@ def _approach(
             ends.append(shapely.Point(shapely.shortest_line(foot, each.line.intersection(ray)).coords[-1]))
         ends.append(each.line.interpolate(each.line.project(foot)))
         for end in ends:
-            is_ahead = each.line.intersects(ray) and ray.distance(end) < _TOUCH_M
+            is_end = len(tree.query(end, predicate="dwithin", distance=SAME_M)) == 1
+            aside_m = each.width_m / 2 if is_end else _TOUCH_M
+            is_ahead = ray.distance(end) < aside_m and (is_end or each.line.intersects(ray))
             way = shapely.LineString([foot, end]).difference(foot.buffer(_TOUCH_M))
             shut = 0 if walls is None else int(walls.intersects(way))
             shut += len(stalls.query(way, predicate="crosses"))

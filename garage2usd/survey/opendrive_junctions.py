@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.survey.lanelets import line_between
 from garage2usd.survey.opendrive_lanes import RoadLane
 
 Floats = NDArray[np.float64]
@@ -36,9 +37,10 @@ def with_joined_lanes(
     -----
     The lanes of a connecting road continue single lanes of the roads that it connects, beside the middle of these if
     they are driven in both directions. A survey has one centre line for such a road, so the ends of connecting lanes
-    are moved onto it. Lanes that are the same then are one, and one of both directions where they lead both ways.
+    are moved onto it. Lanes that are the same then are one, and one of both directions, in the middle of both, where
+    they lead both ways.
     """
-    joined: dict[tuple[tuple[float, ...], tuple[float, ...]], tuple[str, int, RoadLane]] = {}
+    joined: dict[tuple[tuple[float, ...], tuple[float, ...], frozenset[str | None]], tuple[str, int, RoadLane]] = {}
     for road, found in lanes.items():
         for number, lane in enumerate(found):
             if not links[road].is_connecting:
@@ -47,12 +49,14 @@ def with_joined_lanes(
             ends = [_ends_of(lanes.get(other or "", ())) for other in links[road].roads]
             moved = _moved(lane, [end for own in ends for end in own])
             start, end = (tuple(np.round(moved.points[place], _DIGITS).tolist()) for place in (0, -1))
-            if (end, start) in joined:
-                other_road, other_number, other = joined[end, start]
+            roads = frozenset(links[road].roads)  # those of another level may have the same ends
+            if (end, start, roads) in joined:
+                other_road, other_number, other = joined[end, start, roads]
                 width_m = other.width_m + lane.width_m
-                joined[end, start] = other_road, other_number, other._replace(one_way=False, width_m=width_m)
+                middle, _ = line_between(other.points, moved.points[::-1])
+                joined[end, start, roads] = other_road, other_number, RoadLane(np.array(middle), width_m, one_way=False)
             else:
-                joined.setdefault((start, end), (road, number, moved))
+                joined.setdefault((start, end, roads), (road, number, moved))
     yield from joined.values()
 
 

@@ -132,9 +132,12 @@ def _link(road: ET.Element) -> Link:
 
 
 def _add_told(levels: Sequence[SurveyParts], root: ET.Element) -> None:
-    """Add the outlines, blocks and doors of levels, from above, that the user data tell as x y after x y."""
+    """Add the outlines, blocks and doors of levels, from above, that the user data tell as x y after x y.
+
+    Their codes are such as ``outline U2``; without a level, the first one is meant.
+    """
     for data in root.findall("header/userData"):
-        level, _, code = data.get("code", "").rpartition(" ")
+        code, _, level = data.get("code", "").partition(" ")
         number = int(level[1:]) if re.fullmatch(r"U[1-9]\d?", level) else 1
         kind = portal_kind_of(code)
         if number > len(levels):

@@ -60,6 +60,20 @@ class DrawnStall(Settings):
             raise ValueError("mouth for stalls with corners; the mouth of others is at the tail of their heading")
         return self
 
+    def quad(self) -> tuple[Point, Point, Point, Point]:
+        """Return the corners (x, z); of a stall with a heading, those of its mouth first."""
+        if self.corners is not None:
+            return self.corners
+        x, z = self.centre or (0.0, 0.0)
+        heading = math.radians(self.heading_deg or 0.0)
+        cos, sin = elementary.cos(heading), elementary.sin(heading)
+        length_m, width_m = (self.length_m or 0.0) / 2, (self.width_m or 0.0) / 2
+
+        def at(along: float, left: float) -> Point:
+            return x + along * cos - left * sin, z - along * sin - left * cos
+
+        return at(-length_m, width_m), at(-length_m, -width_m), at(length_m, -width_m), at(length_m, width_m)
+
 
 class DrawnRun(Settings):
     """Equal stalls side by side along a straight line in front of them, the line of their mouths."""
@@ -248,7 +262,7 @@ def read_toml_survey(path: Path) -> Survey:
 
 def _add_stalls(parts: SurveyParts, drawing: DrawnGarage) -> None:
     for index, stall in enumerate(drawing.stalls):
-        corners = stall.corners or _rectangle(stall)
+        corners = stall.quad()
         mouth = 0 if stall.corners is None else stall.mouth
         parts.add_stall(
             stall.id or f"stalls.{index}",
@@ -268,19 +282,6 @@ def _add_stalls(parts: SurveyParts, drawing: DrawnGarage) -> None:
                 size=run.size,
                 number="" if run.number is None else str(run.number + place),
             )
-
-
-def _rectangle(stall: DrawnStall) -> tuple[Point, Point, Point, Point]:
-    """Return the corners (x, z) of a stall with a heading, those of its mouth first."""
-    x, z = stall.centre or (0.0, 0.0)
-    heading = math.radians(stall.heading_deg or 0.0)
-    cos, sin = elementary.cos(heading), elementary.sin(heading)
-    length_m, width_m = (stall.length_m or 0.0) / 2, (stall.width_m or 0.0) / 2
-
-    def at(along: float, left: float) -> Point:
-        return x + along * cos - left * sin, z - along * sin - left * cos
-
-    return at(-length_m, width_m), at(-length_m, -width_m), at(length_m, -width_m), at(length_m, width_m)
 
 
 def _middle(start: Point, end: Point) -> Point:

@@ -12,7 +12,7 @@ import shapely
 
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.common.errors import ConfigError
-from garage2usd.common.progress import Progress, silent
+from garage2usd.common.progress import Progress, counted, silent
 from garage2usd.common.randomness import Step, generator
 from garage2usd.config.outputs import DriveConfig, Leg
 from garage2usd.config.traffic import TrafficConfig
@@ -60,7 +60,7 @@ class Operation:
         If no stall of the garage can be driven to and left.
     """
 
-    def __init__(self, garage: BuiltGarage, settings: DriveConfig = _SPEEDS) -> None:
+    def __init__(self, garage: BuiltGarage, settings: DriveConfig = _SPEEDS, *, progress: Progress = silent) -> None:
         self.garage, self._settings = garage, settings
         self._lanes = [level.lanes for level in garage.levels]
         driven = garage.lanes.driven
@@ -69,7 +69,7 @@ class Operation:
         self.accessible = tuple(stall for stall in stalls if stall.use is StallUse.ACCESSIBLE)
         if not self.stalls:
             raise ConfigError("PATH", garage.source, "a garage with a stall that lanes join with the street")
-        self.hull, self._planner = self._most_common()
+        self.hull, self._planner = self._most_common(progress)
         self.trip = lru_cache(maxsize=None)(self._trip)
         self._standing = standing_cars(garage)
         places = [level.lanes.positions_m for level in garage.levels]
@@ -79,12 +79,12 @@ class Operation:
         self._raster = Raster(np.repeat(np.array([[every.min(axis=0), every.max(axis=0)]]), layers, axis=0))
         self.walkers = Walkers(garage)
 
-    def _most_common(self) -> tuple[DesignCar, DrivePlanner]:
+    def _most_common(self, progress: Progress) -> tuple[DesignCar, DrivePlanner]:
         """Return the largest outline that most of some stalls take, and its planner."""
         tried = self.stalls[:: max(len(self.stalls) // _TRIED, 1)]
         for hull in HULLS:
             planner = DrivePlanner(self.garage, self._settings, car=hull, are_stalls_changing=True)
-            proven = sum(planner.proof_of(stall).is_full for stall in tried)
+            proven = sum(planner.proof_of(stall).is_full for stall in counted("stalls", tried, len(tried), progress))
             if proven >= _MOST * len(tried) or hull is HULLS[-1]:
                 break
         return hull, planner
@@ -154,15 +154,17 @@ class Operation:
         seed
             Seed of the run; the same seed gives the same tracks.
         progress
-            Function called for each simulated minute.
+            Function called for each way that is searched before the start, and for each simulated minute.
         """
-        return _Run(self, settings, seed, self._standing).tracks(progress)
+        return _Run(self, settings, seed, self._standing, progress).tracks(progress)
 
 
 class _Run:
     """One run of a garage in operation."""
 
-    def __init__(self, operation: Operation, settings: TrafficConfig, seed: int, standing: list[Car]) -> None:
+    def __init__(
+        self, operation: Operation, settings: TrafficConfig, seed: int, standing: list[Car], progress: Progress
+    ) -> None:
         self.operation, self.settings, self.seed = operation, settings, seed
         self.ground = operation.new_ground()
         self.cars = Simulation(self.ground, operation._settings)  # noqa: SLF001 - the run is the operation's own
@@ -195,15 +197,16 @@ class _Run:
         demand = drawn_demand(settings, len(movable), capacity, generator(seed, Step.TRAFFIC), staying=staying)
         for visit, leave_s in zip(movable, demand.leave_s, strict=True):
             visit.leave_s = leave_s
-        self.staying = self._leaving(movable)
+        self.staying = self._leaving(movable, progress)
         self.arrivals = list(demand.arrivals)
         self.street: list[tuple[Visit, float]] = []
 
-    def _leaving(self, parked: Sequence[Visit]) -> list[Visit]:
+    def _leaving(self, parked: Sequence[Visit], progress: Progress) -> list[Visit]:
         """Return the parked cars that leave; those that no path leads out hand their time on to one that stays."""
         found: list[Visit] = []
         others = [visit for visit in parked if math.isinf(visit.leave_s)]
-        for each in [visit for visit in parked if math.isfinite(visit.leave_s)]:
+        leaving = [visit for visit in parked if math.isfinite(visit.leave_s)]
+        for each in counted("ways", leaving, len(leaving), progress):
             visit, leave_s = each, each.leave_s
             while True:
                 visit.leave_s = leave_s

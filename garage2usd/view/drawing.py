@@ -195,8 +195,16 @@ def _letters_font(size_px: int, file: str) -> ImageFont.FreeTypeFont | ImageFont
     return ImageFont.load_default(size=size_px)
 
 
-def to_svg(drawing: Drawing) -> str:
+def to_svg(drawing: Drawing, *, is_inline: bool = False) -> str:
     """Write a drawing as an SVG document with the centimetre as its unit.
+
+    Parameters
+    ----------
+    drawing
+        The drawing.
+    is_inline
+        True for a part of a page with other drawings: it is never wider than the page, and the names and kinds of
+        regions are their tooltips, in place of ids, which could occur twice on the page.
 
     Notes
     -----
@@ -214,23 +222,27 @@ def to_svg(drawing: Drawing) -> str:
             "font-family": _FONT,
             "text-anchor": "middle",
             "stroke-linejoin": "round",
+            **({"style": "max-width:100%;height:auto"} if is_inline else {}),
         },
     )
     ET.SubElement(root, "title").text = drawing.title
     _add(root, Region([(left, top), (right, top), (right, bottom), (left, bottom)], drawing.paper, "paper"))
     for element in drawing.elements:
-        _add(root, element)
+        _add(root, element, is_inline=is_inline)
     ET.indent(root, space="")
     return ET.tostring(root, encoding="unicode") + "\n"
 
 
-def _add(root: ET.Element, element: Region | Line | Disc | Text) -> None:
+def _add(root: ET.Element, element: Region | Line | Disc | Text, *, is_inline: bool = False) -> None:
     about = {"class": element.kind} if element.kind else {}
     match element:
         case Region():
-            if element.name:
+            if element.name and not is_inline:
                 about["id"] = element.name
-            ET.SubElement(root, "polygon", {**about, "points": _points(element.points), "fill": _colour(element.fill)})
+            shape = {"points": _points(element.points), "fill": _colour(element.fill)}
+            polygon = ET.SubElement(root, "polygon", {**about, **shape})
+            if is_inline and (words := f"{element.name} {element.kind}".strip()):
+                ET.SubElement(polygon, "title").text = words
         case Line():
             stroke = {"stroke": _colour(element.colour), "stroke-width": _length(element.width_m), "fill": "none"}
             ET.SubElement(root, "polyline", {**about, "points": _points(element.points), **stroke})

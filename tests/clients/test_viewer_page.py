@@ -32,8 +32,8 @@ def test_a_rebuild_gives_the_same_bytes(tmp_path):
     (web / "node_modules").symlink_to(MODULES)
     run(web, "vite", "build", "--logLevel", "error")
     built, kept = ({file.name: file.read_bytes() for file in folder.iterdir()} for folder in (tmp_path / "page", BUILT))
-    pages = {"index.html", "index.css", "viewer.js", "draw.html", "draw.css", "draw.js"}
-    assert built.keys() == kept.keys() == pages | {"licenses.txt"}
+    pages = {"index.html", "index.css", "viewer.js", "draw.html", "draw.js", "trace.html", "trace.js"}
+    assert built.keys() == kept.keys() == pages | {"file_bar.css", "file_bar.js", "licenses.txt"}
     for name, data in kept.items():
         assert built[name] == data, f"{name}: run `npm run build` in {SOURCE.relative_to(REPOSITORY)}"
     assert b"MIT" in kept["licenses.txt"]

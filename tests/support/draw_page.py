@@ -23,6 +23,7 @@ class DrawPage:
 
     def __init__(self, page, url):
         self.page, self.complaints = page, []
+        page.set_default_timeout(120_000)  # ten of such pages may share two cores
         page.on("console", self._hear)
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
         page.goto(url)
@@ -40,7 +41,7 @@ class DrawPage:
     def settle(self):
         """Wait until the server has answered to all that was done."""
         self.page.wait_for_timeout(30)
-        while self.eval("page.desk.isBusy || page.board.isPainting"):
+        while self.eval("page.desk.isBusy || (page.board ?? page.tracer).isPainting"):
             self.page.wait_for_timeout(20)
 
     @property
@@ -55,6 +56,20 @@ class DrawPage:
     def place(self, row, col, down=0.5, right=0.5):
         """Pixel of a place in a square, by shares of its sides."""
         return self.page.evaluate(_PLACE, [row, col, down, right])
+
+    def point(self, x_m, z_m):
+        """Pixel of a place of a survey."""
+        at = "({ left, top }, { x, z, scale }) => [left + (%s - x) / scale, top + (%s - z) / scale]"
+        return self.eval(f"({at % (x_m, z_m)})(page.tracer.svg.getBoundingClientRect(), page.tracer.sheet.view)")
+
+    def trace(self, tool, *points):
+        """Click places of a survey with a tool; lines and outlines end with Enter."""
+        self.page.locator(f"label:has(input[name=tool][value={tool}])").click()
+        for place in points:
+            self.page.mouse.click(*self.point(*place))
+        if tool in {"outline", "lanes", "solids"}:
+            self.page.keyboard.press("Enter")
+        self.settle()
 
     def choose(self, symbol=None, shape=None):
         for name, value in (("symbol", symbol), ("shape", shape)):
@@ -100,9 +115,9 @@ def opened_browser():
 
 
 @contextmanager
-def drawn(browser, config, *, size=(1280, 800), **context):
-    """`garage2usd draw` of a configuration, and its page."""
-    command = [sys.executable, "-m", "garage2usd", "draw", str(config), "--no-browser"]
+def drawn(browser, config, *more, size=(1280, 800), **context):
+    """`garage2usd draw` of a configuration or survey, and its page."""
+    command = [sys.executable, "-m", "garage2usd", "draw", str(config), "--no-browser", *more]
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as server:
         try:

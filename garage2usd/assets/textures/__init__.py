@@ -11,6 +11,7 @@ from garage2usd.assets.textures.ceilings import CEILING_FINISHES, CEILINGS, STEE
 from garage2usd.assets.textures.floors import FLOOR_FINISHES, FLOORS, GLOSSES
 from garage2usd.assets.textures.paints import GUARDS, PAINTS, WEAR, WEAR_STEPS, Bakers, Pixels, wear_palette
 from garage2usd.assets.textures.walls import WALL_FINISHES, WALLS
+from garage2usd.common.progress import Progress, counted, silent
 from garage2usd.config.outputs import TextureQuality
 
 __all__ = ["bake_textures", "texture_folder"]
@@ -50,14 +51,14 @@ def texture_folder(quality: TextureQuality) -> Path:
     return (shipped if shipped.is_dir() else package.parent / "textures") / quality
 
 
-def bake_textures(folder: Path) -> None:
-    """Write the texture set into an existing folder, with a subfolder for each quality.
+def bake_textures(folder: Path, *, progress: Progress = silent) -> None:
+    """Write the texture set into an existing folder, with a subfolder for each quality; `progress` counts textures.
 
     A pixel of a lower quality is the mean of those that it covers, which keeps the texture tileable.
     """
     for quality in _DIVISORS:
         (folder / quality).mkdir()
-    for name, bake in _BAKERS.items():
+    for name, bake in counted("textures", _BAKERS.items(), len(_BAKERS), progress):
         rng = np.random.Generator(np.random.PCG64(np.random.SeedSequence([_SEED, *name.encode()])))
         pixels = bake(rng)
         for quality, divisor in _DIVISORS.items():

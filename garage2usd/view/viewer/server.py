@@ -175,9 +175,9 @@ class ShownScene:
 class ViewerServer(LoopbackServer):
     """Server of the viewer's page and a scene; parameters and errors as of `LoopbackServer`."""
 
-    def __init__(self, port: int = 0) -> None:
+    def __init__(self, port: int = 0, *, framed_by: str = "'none'") -> None:
         self._shown = ShownScene()
-        super().__init__(port)
+        super().__init__(port, framed_by=framed_by)
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None

@@ -153,17 +153,17 @@ def _shapes(shapes: Sequence[Shape], skins: Mapping[int, ShownSkin], buffers: _B
     slots: list[NDArray[Any]] = []
     indices: list[NDArray[Any]] = []
     vertices = triangles = 0
+    turns = iter(_turns(np.array([piece.matrix[:3, :3] for shape in shapes for piece in shape.pieces])))
     for number, shape in enumerate(shapes):
         opaque: list[NDArray[np.uint32]] = []
         blended: list[NDArray[np.uint32]] = []
         first = 0
         for piece in shape.pieces:
             part, matrix = piece.mesh, piece.matrix
-            turn = np.linalg.inv(matrix[:3, :3]).T if np.linalg.det(matrix[:3, :3]) else np.eye(3)
+            turn, is_mirrored = next(turns)
             directions = part.normals @ turn
             directions /= np.maximum(np.linalg.norm(directions, axis=1, keepdims=True), 1e-12)
-            mirrored = np.linalg.det(matrix[:3, :3]) < 0
-            corners = part.indices[:, [0, 2, 1]] if mirrored else part.indices
+            corners = part.indices[:, [0, 2, 1]] if is_mirrored else part.indices
             positions.append(moved(part.positions_m, matrix))
             normals.append(np.rint(directions * 127).astype(np.int8))
             coordinates.append(piece.coordinates)
@@ -202,6 +202,21 @@ def _shapes(shapes: Sequence[Shape], skins: Mapping[int, ShownSkin], buffers: _B
         "slots": buffers.add(_joined(slots, np.uint8)),
         "indices": buffers.add(_joined(indices, np.uint32, 3)),
     }
+
+
+def _turns(matrices: NDArray[np.float64]) -> list[tuple[NDArray[np.float64], bool]]:
+    """Return for each matrix, shape (matrices, 3, 3), what turns normals up to a factor; True where it mirrors.
+
+    The cofactors are the transposed inverse times the determinant. Inverses one by one wait for threads of BLAS, for
+    seconds on a busy machine.
+    """
+    if not len(matrices):
+        return []
+    x, y, z = matrices.transpose(1, 0, 2)
+    cofactors = np.stack([np.cross(y, z), np.cross(z, x), np.cross(x, y)], axis=1)
+    signs = np.sign((x * cofactors[:, 0]).sum(axis=1))
+    cofactors[signs == 0] = np.eye(3)
+    return [(cofactor * (sign or 1), bool(sign < 0)) for cofactor, sign in zip(cofactors, signs, strict=True)]
 
 
 def _skin(skin: ShownSkin, buffers: _Buffers) -> dict[str, Any]:

@@ -29,7 +29,7 @@ export default defineConfig({
     chunkSizeWarningLimit: 900,
     // names without hashes, so that a rebuild changes the bytes that the sources changed and no names
     rollupOptions: {
-      input: { index: "index.html", draw: "draw.html" },
+      input: { index: "index.html", draw: "draw.html", trace: "trace.html" },
       output: {
         entryFileNames: ({ name }) => (name === "index" ? "viewer.js" : "[name].js"),
         chunkFileNames: "[name].js",

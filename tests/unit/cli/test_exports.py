@@ -279,3 +279,16 @@ def test_what_a_scene_cannot_say_is_named_on_standard_error(tmp_path):
     heard = []
     garage2usd.export(stage, [tmp_path / "b.glb"], notice=heard.append)
     assert [line.partition(": ")[2] for line in heard] == [line.partition(": ")[2] for line in run.stderr.splitlines()]
+
+
+def test_maps_that_keep_to_the_right_say_so_where_cars_keep_to_the_left(tmp_path):
+    settings = {"site": {"width_cells": 6, "height_cells": 6}, "plan": {"episodes": 20, "starts": 1}}
+    heard = {}
+    for profile in ("uk-istructe", "de-garvo"):
+        config = garage2usd.GarageConfig(seed=3, profile={"name": profile}, **settings)
+        stage = garage2usd.build(config, tmp_path / f"{profile}.usdc").stage
+        said = heard[profile] = []
+        garage2usd.export(stage, [tmp_path / "a.xodr", tmp_path / "a.geojson"], notice=said.append)
+    (line,) = heard["uk-istructe"]
+    assert line.startswith("a.xodr: lanes keep to the right, while cars in this garage keep to the left")
+    assert not heard["de-garvo"]

@@ -29,7 +29,9 @@ CASES = {
     "a folder for Autoware": (["embreex", "pyproj"], ["export", "none.usdz", "-o", "out.autoware/"], "maps,sensors"),
     "an export": (["pyproj"], ["export", "none.usdz", "-o", "out.osm"], "maps"),
     "pictures": (["bpy"], RENDER, "blender"),
-    "pictures that are read": (["OpenEXR"], RENDER, "blender"),
+    "pictures that are read": (["OpenEXR"], RENDER, "sensors"),
+    "pictures of Blender that are read": (["bpy", "OpenEXR"], RENDER, "blender"),
+    "pictures by rays": (["bpy", "embreex", "OpenEXR"], [*RENDER, "--device", "rays"], "sensors"),
     "fisheyes": (["embreex"], [*RENDER, "--rig", "avp_surround", *ALONG], "sensors"),
     "views from above": (
         ["bpy", "embreex"],

@@ -9,8 +9,10 @@ from support.sample_files import REPOSITORY
 
 from garage2usd import load_config
 from garage2usd.common.errors import ConfigError, Garage2UsdError
+from garage2usd.config import config_in
+from garage2usd.drafts.change import rows_of
 from garage2usd.drafts.draft import NEW, Draft
-from garage2usd.drafts.edits import edit_of, rows_of
+from garage2usd.drafts.edits import edit_of
 
 SAMPLES = sorted((REPOSITORY / "samples").glob("*.toml"))
 SMALL = '''# a garage of mine
@@ -36,7 +38,7 @@ row_depths_m = [
 
 
 def draft_of(text, *edits):
-    draft = Draft(text, REPOSITORY / "samples")
+    draft = Draft(text, REPOSITORY / "samples", config_in)
     for edit in edits:
         draft.edit(edit_of(edit))
     return draft
@@ -125,7 +127,7 @@ def test_a_second_level_takes_the_lanes_out_and_undo_brings_them_back():
 
 def test_a_site_that_the_seed_draws_becomes_a_structure_when_one_paints():
     text = (REPOSITORY / "samples" / "irregular.toml").read_text()
-    draft = Draft(text, REPOSITORY / "samples")
+    draft = Draft(text, REPOSITORY / "samples", config_in)
     drawn = rows_of(draft.config)
     row, col = next((row, line.index(".")) for row, line in enumerate(drawn) if "." in line)
     draft.edit(edit_of(paint("#", [row, col])))
@@ -152,14 +154,14 @@ def test_a_site_that_the_seed_draws_becomes_a_structure_when_one_paints():
     ],
 )
 def test_a_refused_edit_names_its_field_and_changes_nothing(edit, said):
-    draft = Draft(SMALL, Path())
+    draft = Draft(SMALL, Path(), config_in)
     with pytest.raises(ConfigError, match=said):
         draft.edit(edit_of(edit))
     assert (draft.text, draft.number, draft.can_undo) == (SMALL, 0, False)
 
 
 def test_a_stroke_is_undone_at_once():
-    draft = Draft(SMALL, Path())
+    draft = Draft(SMALL, Path(), config_in)
     for col in range(3):
         draft.edit(edit_of(paint("#", [0, col])), stroke="a")
     draft.edit(edit_of(paint("#", [2, 0])), stroke="b")
@@ -231,7 +233,7 @@ def test_any_edits_leave_a_file_that_loads_and_undo_returns_the_same_bytes(seed,
     draw = random.Random(seed)  # noqa: S311
     texts = [SMALL, NEW, *(sample.read_text() for sample in SAMPLES if "20x30" not in sample.name)]
     begun = texts[seed % len(texts)]
-    draft = Draft(begun, REPOSITORY / "samples")
+    draft = Draft(begun, REPOSITORY / "samples", config_in)
     versions, taken = [draft.text], 0
     for _ in range(12):
         try:

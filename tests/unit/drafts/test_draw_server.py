@@ -16,9 +16,9 @@ from click.testing import CliRunner
 from garage2usd import load_config
 from garage2usd.cli import main
 from garage2usd.common.errors import ConfigError, OutputError
-from garage2usd.drafts.desk import Desk
 from garage2usd.drafts.draft import NEW
 from garage2usd.drafts.draft_file import DraftFile
+from garage2usd.drafts.garage_desk import GarageDesk
 from garage2usd.drafts.server import DrawServer
 
 SMALL = '# mine\nseed = 3\n\n[site]\nstructure = """\n......\n=====E\n=.....\n=====X\n......\n"""\n'
@@ -34,7 +34,7 @@ def path(tmp_path):
 
 @pytest.fixture
 def desk(path):
-    return Desk(DraftFile(path))
+    return GarageDesk(DraftFile(path))
 
 
 def edit(desk, edit, **more):
@@ -68,10 +68,10 @@ def server(desk):
 def test_the_page_stands_behind_its_token_and_may_be_framed_by_itself_only(server):
     page = ask(server, server.root)
     assert page.status == 200
-    assert sorted(re.findall(rb'(?:src|href)="\./([^"]+)"', page.body)) == [b"draw.css", b"draw.js"]
+    assert sorted(re.findall(rb'(?:src|href)="\./([^"]+)"', page.body)) == [b"draw.js", b"file_bar.css"]
     assert "frame-ancestors 'self'" in page.headers["Content-Security-Policy"]
     assert "unsafe-inline" not in page.headers["Content-Security-Policy"]
-    for name in ("draw.js", "draw.css", "licenses.txt", "state", "controls", "findings", "progress", "file"):
+    for name in ("draw.js", "file_bar.css", "licenses.txt", "state", "controls", "findings", "progress", "files"):
         assert ask(server, server.root + name).status == 200
     for path in ("/", "/state", "/draw.js", server.root[:-2] + "/state", server.root[:-1], server.root + "../state"):
         assert ask(server, path).status == 404
@@ -159,7 +159,7 @@ def test_unsaved_work_is_kept_and_offered_again(desk, path):
     kept = path.with_name(".garage.toml.unsaved")
     assert kept.read_text() == desk.draft.text
     assert path.read_text() == SMALL
-    again = Desk(DraftFile(path))
+    again = GarageDesk(DraftFile(path))
     assert again.state()["kept"]
     assert again.draft.text == SMALL
     assert kept.exists()
@@ -168,7 +168,7 @@ def test_unsaved_work_is_kept_and_offered_again(desk, path):
     again.save({})
     assert path.read_text() == desk.draft.text
     assert not kept.exists()
-    assert not Desk(DraftFile(path)).state()["kept"]
+    assert not GarageDesk(DraftFile(path)).state()["kept"]
 
 
 def test_work_that_is_undone_is_not_kept(desk, path):
@@ -211,7 +211,7 @@ def test_save_as_takes_names_of_this_folder_that_are_free(desk, path):
 def test_lanes_are_planned_kept_and_built(tmp_path):
     path = tmp_path / "open.toml"
     path.write_text(OPEN)
-    desk = Desk(DraftFile(path))
+    desk = GarageDesk(DraftFile(path))
     assert desk.state()["sketch"]["state"] == "open"
     with pytest.raises(ConfigError, match="plan them first"):
         desk.build({})
@@ -240,7 +240,7 @@ def test_lanes_are_planned_kept_and_built(tmp_path):
 def test_planning_stops_when_asked(tmp_path):
     path = tmp_path / "open.toml"
     path.write_text(OPEN.replace("200", "1000000"))
-    desk = Desk(DraftFile(path))
+    desk = GarageDesk(DraftFile(path))
     desk.learn({})
     time.sleep(0.3)
     desk.stop({})
@@ -254,7 +254,7 @@ def test_a_new_drawing_is_a_garage_and_takes_a_free_name(tmp_path):
     (tmp_path / "garage.toml").write_text(SMALL)
     file = DraftFile.new(tmp_path)
     assert (file.path.name, file.saved) == ("garage_2.toml", None)
-    desk = Desk(file)
+    desk = GarageDesk(file)
     assert desk.draft.text == NEW
     assert desk.state()["sketch"]["state"] == "drawn"
     assert not desk.state()["is_saved"]

@@ -21,7 +21,7 @@ ALLOWED = {
     "pipeline.py": {"LaneSquares"},
     "as_built/plan_reader.py": {"build_lane_graph", "stall_rows", "unproven_lane_graph"},
     # squares themselves are drawn
-    "drafts/edits.py": {"Edge"},
+    "drafts/change.py": {"Edge"},
 }
 NAMED_AFTER_SQUARES = {"stage/arrangement.py", "driving/layout_garage.py"}
 """Modules with names of prims: of tiles, and of objects on them."""

@@ -536,3 +536,11 @@ def test_a_garage_its_stage_and_its_report_are_checked_and_driven_alike(built):
     assert driven[0].route.stall.startswith("U2/")
     ends_s = [drive.motion.ends_s for drive in driven]
     assert ends_s == pytest.approx(ends_s[:1] * 3, abs=0.01)
+
+
+@pytest.mark.parametrize(("seed", "width", "height"), [(7, 9, 8), (8, 10, 10)])
+def test_lanes_on_a_seam_of_their_ramp_have_its_floor(seed, width, height, tmp_path):
+    # the middle lies on an edge between two triangles, beside both by the rounding of a stage
+    site, plan = {"width_cells": width, "height_cells": height}, {"episodes": 60, "starts": 1}
+    config = GarageConfig(seed=seed, building={"levels": 2}, site=site, plan=plan, parking={"occupancy": 0.0})
+    assert garage2usd.check(garage2usd.build(config, tmp_path / "two.usdc").stage)[0] == []

@@ -1,32 +1,65 @@
-"""The notebooks of the documentation run from top to bottom."""
+"""The notebooks of the documentation run from top to bottom in a kernel, and show what they say."""
 
-import contextlib
-import io
 import json
+import re
+from xml.etree import ElementTree as ET
 
-import matplotlib as mpl
+import nbformat
 import pytest
+from nbclient import NotebookClient
+from support.browser import find_browser
+from support.framed_page import framed
 from support.sample_files import REPOSITORY
 
 NOTEBOOKS = sorted((REPOSITORY / "docs").rglob("*.ipynb"))
+SVG = "{http://www.w3.org/2000/svg}svg"
+
+
+def run(name, folder, *, seen=None):
+    """Run a notebook of the documentation; `seen` is given each output with an inline frame while the kernel lives."""
+    notebook = nbformat.read(REPOSITORY / "docs" / name, as_version=4)
+    nbformat.validate(notebook)
+    client = NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(folder)}})
+    with client.setup_kernel():
+        for index, cell in enumerate(notebook.cells):
+            client.execute_cell(cell, index)
+            for output in cell.get("outputs", ()):
+                if "<iframe" in output.get("data", {}).get("text/html", ""):
+                    seen(output.data["text/html"])
+    return {cell.id: cell.outputs for cell in notebook.cells if cell.cell_type == "code"}
 
 
 @pytest.mark.soak
-@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.name)
-def test_a_notebook_runs_cell_by_cell(path, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    mpl.use("Agg")
-    import matplotlib.pyplot as plt
+def test_prediction_tasks_are_drawn(tmp_path):
+    outputs = run("prediction_tasks.ipynb", tmp_path)
+    (picture,) = [output for output in outputs["draw"] if "data" in output]
+    assert len(picture.data["image/png"]) > 10_000
 
-    monkeypatch.setattr(plt, "show", lambda: plt.savefig("drawn.png"))
-    names = {"__name__": "__main__"}
-    for cell in json.loads(path.read_text())["cells"]:
-        if cell["cell_type"] == "code":
-            code = compile("".join(cell["source"]), f"{path.name}:{cell['id']}", "exec")
-            with contextlib.redirect_stdout(io.StringIO()):
-                exec(code, names)  # noqa: S102 - our own notebook
-    assert (tmp_path / "drawn.png").stat().st_size > 10_000
-    plt.close("all")
+
+@pytest.mark.client
+@pytest.mark.skipif(find_browser() is None, reason="no Chromium on the path")
+def test_a_first_garage_is_drawn_and_its_viewer_stands_in_a_frame(tmp_path):
+    shown = []
+    outputs = run("first_garage.ipynb", tmp_path, seen=lambda html: shown.append((html, framed(html))))
+    whole, drawn = (svgs(outputs[cell][0].data["text/html"]) for cell in ("build", "tracks_on_plan"))
+    assert len(whole) == len(drawn) == 3  # two levels and the section
+    ways = [len([line for line in svg.iter() if line.get("class", "").startswith("track ")]) for svg in drawn]
+    assert min(ways[:2]) > 0
+    assert len(svgs(outputs["tracks"][0].data["text/html"])) == 2
+    for cell in ("floor", "plan"):
+        assert ET.fromstring(outputs[cell][0].data["image/svg+xml"]).tag == SVG
+    assert "0 findings against cn-jgj100" in outputs["check"][-1].text
+    ((html, viewer),) = shown
+    stalls = re.search(r"([0-9]+) stalls on 2 levels", outputs["build"][0].data["text/html"])[1]
+    assert f"{stalls} stalls" in viewer.facts
+    assert viewer.colours > 1000
+    assert viewer.complaints == []
+    # the last cell has closed it
+    assert framed(html, timeout_ms=2000).facts == ""
+
+
+def svgs(html):
+    return list(ET.fromstring(f"<div>{html}</div>").iter(SVG))
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.name)

@@ -101,6 +101,29 @@ def test_one_way_lanes_are_driven_along_their_points_alone():
     assert not nx.has_path(graph.graph, exit_, entrance)
 
 
+def test_a_lane_that_bends_before_a_door_leads_to_the_door():
+    way_out = ((26.0, 7.5), (31.0, 7.8), (36.0, 9.0), (40.0, 10.0))
+    lanes = (SurveyedLane(((4.0, 10.0), (26.0, 10.0)), 6.0), SurveyedLane(((26.0, -5.0), (26.0, 25.0)), 6.0))
+    graph = lane_network((*lanes, SurveyedLane(way_out, 3.7, one_way=True)), GATES)
+    (before,) = graph.graph.predecessors(graph.portals("exit")[0])
+    assert shapely.LineString(way_out).distance(shapely.Point(graph.nodes[before].position)) < 0.1
+
+
+def test_lanes_to_landings_in_a_corner_are_not_joined_to_each_other():
+    up = Gate(LaneKind.EXIT, (30.0, 19.4), (0.0, 1.0), 4.0, is_landing=True)
+    down = Gate(LaneKind.ENTRANCE, (31.1, 18.4), (1.0, 0.0), 4.0, is_landing=True)
+    lanes = (
+        LANE,
+        SurveyedLane(((30.0, 10.0), (30.0, 14.0)), 3.7, one_way=True),
+        SurveyedLane(((25.6, 18.4), (20.0, 18.4), (20.0, 10.0)), 3.7, one_way=True),
+    )
+    graph = lane_network(lanes, (up, down))
+    (exit_,), (entrance,) = graph.portals("exit"), graph.portals("entrance")
+    assert graph.nodes[exit_].position[0] == 30.0
+    assert graph.nodes[entrance].position[1] == 18.4
+    assert nx.shortest_path(graph.graph, entrance, exit_)[1:-1]  # by the aisle
+
+
 def test_lanes_are_as_wide_as_the_ground_between_stalls():
     stalls = [box(f"{n}", 10 + 2.5 * n, 1.4, 2.5, 5) for n in range(8)]
     standing = shapely.union_all([shapely.Polygon(stall.corners) for stall in stalls])

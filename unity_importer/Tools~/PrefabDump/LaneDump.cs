@@ -67,7 +67,7 @@ namespace Garage.Unity.Dump
             json.Close(']');
         }
 
-        static void Number(JsonText json, string key, double value)
+        public static void Number(JsonText json, string key, double value)
         {
             json.Key(key);
             json.Number(value);

@@ -53,7 +53,7 @@ namespace Garage.Unity.Dump
             if (arguments.Length < 2)
             {
                 Console.Error.WriteLine("usage: PrefabDump prefab FILE [SETTING=VALUE ...] | time FILE COUNT | load FILE"
-                    + " | ways FILE FROM TO ... | near FILE X Y Z ... | drive FILE COUNT | traffic FILE TABLE SECOND ..."
+                    + " | ways FILE FROM TO ... | near FILE X Y Z ... | drive FILE COUNT | scene FILE COUNT FIELD=VALUE ... | traffic FILE TABLE SECOND ..."
                     + " | batch");
                 return 2;
             }
@@ -91,6 +91,7 @@ namespace Garage.Unity.Dump
                 case "load": return Load(file, rest);
                 case "ways": return LaneDump.Ways(Imported(file, new string[0]), rest);
                 case "drive": return LaneDump.Drive(Imported(file, new string[0]), int.Parse(rest[0]));
+                case "scene": return SceneDump.Play(Imported(file, new string[0]), file, rest);
                 case "near": return LaneDump.Near(Imported(file, new string[0]), rest);
                 case "traffic": return TrafficDump.Play(Imported(file, new string[0]), rest);
                 default: return "{\"error\":\"unknown command\"}";

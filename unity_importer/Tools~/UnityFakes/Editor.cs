@@ -176,6 +176,21 @@ namespace UnityEditor
             return assets.TryGetValue(assetPath, out found) ? found as T : null;
         }
 
+        /// <summary>The path of an asset whose .meta in the folder Assets has a GUID; empty where there is none, as
+        /// Unity's.</summary>
+        public static string GUIDToAssetPath(string guid)
+        {
+            foreach (string meta in System.IO.Directory.GetFiles("Assets", "*.meta",
+                System.IO.SearchOption.AllDirectories))
+            {
+                if (System.IO.File.ReadAllText(meta).Contains("guid: " + guid + "\n"))
+                {
+                    return System.IO.Path.ChangeExtension(meta, null).Replace('\\', '/');
+                }
+            }
+            return "";
+        }
+
         public static void SaveAssets()
         {
         }

@@ -162,22 +162,30 @@ namespace UnityEngine
             foreach (FieldInfo field in fields.Arrays)
             {
                 var array = (Array)field.GetValue(this);
-                if (array is Object[])
-                {
-                    throw new NotSupportedException("no copy is made here of " + GetType().Name + "." + field.Name);
-                }
                 if (array != null) { field.SetValue(copy, array.Clone()); }
-            }
-            // Unity's copy refers to the copy of what is cloned with it
-            foreach (FieldInfo field in fields.References)
-            {
-                if ((Object)field.GetValue(this) != null)
-                {
-                    throw new NotSupportedException("no copy is made here of " + GetType().Name + "." + field.Name);
-                }
             }
             foreach (FieldInfo field in fields.Transient) { field.SetValue(copy, null); }
             return copy;
+        }
+
+        /// <summary>Lets a copy refer to the copies of what was cloned with it, as Unity's does.</summary>
+        internal void Refer(Dictionary<Object, Object> copies)
+        {
+            Object copy;
+            Fields fields = FieldsOf[GetType()];
+            foreach (FieldInfo field in fields.References)
+            {
+                var old = (Object)field.GetValue(this);
+                if (!ReferenceEquals(old, null) && copies.TryGetValue(old, out copy)) { field.SetValue(this, copy); }
+            }
+            foreach (FieldInfo field in fields.Arrays)
+            {
+                var array = field.GetValue(this) as Object[];
+                for (int i = 0; array != null && i < array.Length; i++)
+                {
+                    if (!ReferenceEquals(array[i], null) && copies.TryGetValue(array[i], out copy)) { array[i] = copy; }
+                }
+            }
         }
     }
 
@@ -283,18 +291,32 @@ namespace UnityEngine
 
         internal GameObject Clone(Transform parent)
         {
+            var copies = new Dictionary<Object, Object>();
+            GameObject copy = Clone(parent, copies);
+            foreach (Object made in copies.Values)
+            {
+                var behaviour = made as MonoBehaviour;
+                if (!ReferenceEquals(behaviour, null)) { behaviour.Refer(copies); }
+            }
+            return copy;
+        }
+
+        GameObject Clone(Transform parent, Dictionary<Object, Object> copies)
+        {
             var copy = (GameObject)MemberwiseClone();
+            copies.Add(this, copy);
             copy.components = new Component[count];
             for (int i = 0; i < count; i++)
             {
                 Component component = components[i].Copy();
+                copies.Add(components[i], component);
                 component.gameObject = copy;
                 copy.components[i] = component;
             }
             Transform place = copy.transform;
             place.MakeLone(transform.childCount);
             if (parent != null) { place.SetParent(parent, false); }
-            for (int i = 0; i < transform.childCount; i++) { transform.GetChild(i).gameObject.Clone(place); }
+            for (int i = 0; i < transform.childCount; i++) { transform.GetChild(i).gameObject.Clone(place, copies); }
             return copy;
         }
 

@@ -105,16 +105,18 @@ class Viewer {
   }
 
   static async open(): Promise<Viewer> {
-    const answer = await fetch("scene.bin");
+    const asked = fetch("scene.bin");
+    // smooth edges cost a renderer in software more than all else
+    const antialias = !isSoftware();
+    // the context is made while the server may still be building the scene
+    const renderer = new THREE.WebGLRenderer({ canvas: element<HTMLCanvasElement>("view"), antialias });
+    const answer = await asked;
     if (!answer.ok) throw new Error("The stage could not be read; the command line says why.");
     performance.mark("scene");
     const scene = new SceneFile(await answer.arrayBuffer());
     const textures = layersOf(scene);
     const boxes = new Boxes(scene);
     const chunks = chunksOf(boxes, scene.count, CHUNK_M);
-    // smooth edges cost a renderer in software more than all else
-    const antialias = !isSoftware();
-    const renderer = new THREE.WebGLRenderer({ canvas: element<HTMLCanvasElement>("view"), antialias });
     // as garage2usd render has it; the shader of surfaces takes this curve from three.js
     renderer.toneMapping = THREE.AgXToneMapping;
     renderer.toneMappingExposure = scene.header.exposure;

@@ -1,6 +1,7 @@
 /** The plan as SVG, in metres: squares, stalls, findings, rulers, and the hand that paints on it. */
 
 import type { Axis, Finding, Level, Sketch, Square } from "./desk";
+import { clamp, element, set, Sheet } from "./sheet";
 
 export type Shape = "squares" | "rectangle" | "flood" | "run" | "move";
 export const NAMES: Record<string, string> = { "#": "outside or obstacle", ".": "free", "=": "lane", E: "entrance", X: "exit" };
@@ -8,7 +9,6 @@ const RULER_PX = 34;
 const HANDLE_PX = 7;
 const SEND_MS = 120;
 const USES = ["standard", "ev", "accessible", "access_aisle", "turning", "unreachable", "motorcycle"];
-const SVG = "http://www.w3.org/2000/svg";
 
 interface Listener {
   painted(shape: "squares" | "rectangle" | "flood", at: Square[], stroke: string): void;
@@ -18,7 +18,6 @@ interface Listener {
   found(finding: number): void;
 }
 
-const clamp = (value: number, least: number, most: number) => Math.min(Math.max(value, least), most);
 const edgesOf = (sides: number[]) => sides.reduce((edges, side) => [...edges, edges[edges.length - 1]! + side], [0]);
 const round = (value: number) => Math.round(value * 1000) / 1000;
 
@@ -34,18 +33,14 @@ export class Board {
   private level = 0;
   private xs: number[] = [0, 1];
   private zs: number[] = [0, 1];
-  /** What is seen: the corner in metres, and metres per pixel. */
-  private view = { x: 0, z: 0, scale: 0.1 };
   private fitted = false;
-  /** True once the user has zoomed or moved the plan, which then stays as it is when the window changes. */
-  private isMoved = false;
   private stroke: { id: string; sent: number; squares: Square[]; all: Square[]; start: Square; point: [number, number] } | null = null;
   private sizing: { axis: Axis; line: number; start: number; side: number; sides: number[]; id: string } | null = null;
-  private readonly fingers = new Map<number, [number, number]>();
   private panned: number | null = null;
   private strokes = 0;
   private readonly picture = element("image", { preserveAspectRatio: "none" });
   private readonly layers = new Map<string, SVGGElement>();
+  private readonly sheet: Sheet;
 
   constructor(readonly svg: SVGSVGElement, private readonly listener: Listener) {
     for (const name of ["squares", "picture", "stalls", "ways", "grid", "symmetry", "selection", "findings", "rulers"]) {
@@ -58,9 +53,12 @@ export class Board {
     svg.addEventListener("pointermove", (event) => this.drag(event));
     svg.addEventListener("pointerup", (event) => this.release(event));
     svg.addEventListener("pointercancel", (event) => this.release(event));
-    svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
-    svg.addEventListener("contextmenu", (event) => event.preventDefault());
-    new ResizeObserver(() => this.sketch.levels.length && (this.isMoved ? this.draw() : this.fit())).observe(svg);
+    this.sheet = new Sheet(svg, () => this.draw());
+    new ResizeObserver(() => this.sketch.levels.length && (this.sheet.isMoved ? this.draw() : this.fit())).observe(svg);
+  }
+
+  private get view(): Sheet["view"] {
+    return this.sheet.view;
   }
 
   get isPainting(): boolean {
@@ -104,35 +102,15 @@ export class Board {
   }
 
   fit(): void {
-    const box = this.svg.getBoundingClientRect();
-    if (!box.width) return;
-    const [width, depth] = [this.xs[this.xs.length - 1]!, this.zs[this.zs.length - 1]!];
-    const room = RULER_PX + 24;
-    this.view.scale = Math.max(width / Math.max(box.width - 2 * room, 50), depth / Math.max(box.height - 2 * room, 50));
-    this.view.x = (width - box.width * this.view.scale) / 2 - (RULER_PX / 2) * this.view.scale;
-    this.view.z = (depth - box.height * this.view.scale) / 2 - (RULER_PX / 2) * this.view.scale;
-    this.fitted = true;
-    this.isMoved = false;
-    this.draw();
+    if (this.sheet.fit(this.xs[this.xs.length - 1]!, this.zs[this.zs.length - 1]!, RULER_PX + 24, RULER_PX)) this.fitted = true;
   }
 
-  zoom(factor: number, at?: [number, number]): void {
-    const box = this.svg.getBoundingClientRect();
-    const [px, pz] = at ?? [box.width / 2, box.height / 2];
-    const scale = clamp(this.view.scale * factor, 0.005, 2);
-    this.view.x += px * (this.view.scale - scale);
-    this.view.z += pz * (this.view.scale - scale);
-    this.view.scale = scale;
-    this.isMoved = true;
-    this.draw();
+  zoom(factor: number): void {
+    this.sheet.zoom(factor);
   }
 
-  reveal([x, z]: [number, number]): void {
-    const box = this.svg.getBoundingClientRect();
-    this.view.x = x - (box.width / 2) * this.view.scale;
-    this.view.z = z - (box.height / 2) * this.view.scale;
-    this.isMoved = true;
-    this.draw();
+  reveal(place: [number, number]): void {
+    this.sheet.reveal(place);
   }
 
   /** Move the cursor by a step; with `selects` the other corner of the selection stays. */
@@ -167,15 +145,6 @@ export class Board {
     return [clamp(row, 0, this.rows.length - 1), clamp(col, 0, this.rows[0]!.length - 1)];
   }
 
-  private pixel(event: MouseEvent): [number, number] {
-    const box = this.svg.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
-  }
-
-  private metres([px, pz]: [number, number]): [number, number] {
-    return [this.view.x + px * this.view.scale, this.view.z + pz * this.view.scale];
-  }
-
   private squareAt([x, z]: [number, number]): Square | null {
     const col = this.xs.findIndex((edge) => x < edge) - 1;
     const row = this.zs.findIndex((edge) => z < edge) - 1;
@@ -185,9 +154,9 @@ export class Board {
   private press(event: PointerEvent): void {
     this.svg.focus({ preventScroll: true });
     this.svg.setPointerCapture(event.pointerId);
-    const pixel = this.pixel(event);
-    this.fingers.set(event.pointerId, pixel);
-    if (this.fingers.size > 1) {
+    const pixel = this.sheet.pixel(event);
+    this.sheet.fingers.set(event.pointerId, pixel);
+    if (this.sheet.fingers.size > 1) {
       this.stroke = null; // a second finger moves the plan
       this.draw();
       return;
@@ -207,7 +176,7 @@ export class Board {
       this.panned = event.pointerId;
       return;
     }
-    const point = this.metres(pixel);
+    const point = this.sheet.metres(pixel);
     const square = this.squareAt(point);
     if (!square) return;
     this.cursor = this.anchor = square;
@@ -217,35 +186,28 @@ export class Board {
   }
 
   private drag(event: PointerEvent): void {
-    const pixel = this.pixel(event);
-    const before = this.fingers.get(event.pointerId);
+    const pixel = this.sheet.pixel(event);
+    const before = this.sheet.fingers.get(event.pointerId);
     if (!before) {
       this.svg.style.cursor = { rows: "row-resize", cols: "col-resize", "": "" }[this.handleAt(pixel)?.axis ?? ""];
       return;
     }
-    if (this.fingers.size > 1) {
-      const other = [...this.fingers].find(([id]) => id !== event.pointerId)![1];
-      const apart = (a: [number, number]) => Math.hypot(a[0] - other[0], a[1] - other[1]);
-      this.view.x -= ((pixel[0] - before[0]) * this.view.scale) / 2;
-      this.view.z -= ((pixel[1] - before[1]) * this.view.scale) / 2;
-      this.zoom(apart(before) / Math.max(apart(pixel), 1), [(pixel[0] + other[0]) / 2, (pixel[1] + other[1]) / 2]);
+    if (this.sheet.fingers.size > 1) {
+      this.sheet.pinch(event.pointerId, before, pixel);
     } else if (this.sizing) this.size(pixel);
     else if (this.panned === event.pointerId) {
-      this.view.x -= (pixel[0] - before[0]) * this.view.scale;
-      this.view.z -= (pixel[1] - before[1]) * this.view.scale;
-      this.isMoved = true;
-      this.draw();
+      this.sheet.pan(before, pixel);
     } else if (this.stroke) {
-      for (const place of between(this.metres(before), this.metres(pixel), this.view.scale * 4)) {
+      for (const place of between(this.sheet.metres(before), this.sheet.metres(pixel), this.view.scale * 4)) {
         const square = this.squareAt(place);
         if (square) this.extend(square);
       }
     }
-    this.fingers.set(event.pointerId, pixel);
+    this.sheet.fingers.set(event.pointerId, pixel);
   }
 
   private release(event: PointerEvent): void {
-    this.fingers.delete(event.pointerId);
+    this.sheet.fingers.delete(event.pointerId);
     if (this.panned === event.pointerId) this.panned = null;
     if (this.sizing) {
       const { axis, sides, id } = this.sizing;
@@ -260,11 +222,6 @@ export class Board {
     else if (this.shape === "rectangle") this.listener.painted("rectangle", [this.anchor, this.cursor], stroke.id);
     else if (this.shape === "run") this.listener.ran(...this.selection, stroke.point);
     this.listener.moved();
-  }
-
-  private wheel(event: WheelEvent): void {
-    event.preventDefault();
-    this.zoom(Math.exp(clamp(event.deltaY, -200, 200) / 500), this.pixel(event));
   }
 
   /** Take a square into the stroke; a pencil's are painted at once, before the server answers. */
@@ -333,8 +290,7 @@ export class Board {
   }
 
   draw(): void {
-    const box = this.svg.getBoundingClientRect();
-    set(this.svg, { viewBox: `${this.view.x} ${this.view.z} ${box.width * this.view.scale} ${box.height * this.view.scale}` });
+    this.sheet.place();
     this.drawSquares();
     const level = this.current;
     const paths = new Map<string, string>();
@@ -469,14 +425,4 @@ function arrow(x0: number, z0: number, x1: number, z1: number): string {
   const [x, z] = [(x0 + x1) / 2, (z0 + z1) / 2];
   const head = (side: number) => `${x + dx - side * dz - dx * 1.2} ${z + dz + side * dx - dz * 1.2}`;
   return `M${x - 1.4 * dx} ${z - 1.4 * dz}L${x + dx} ${z + dz}M${head(0.8)}L${x + dx} ${z + dz}L${head(-0.8)}`;
-}
-
-function element<Name extends keyof SVGElementTagNameMap>(name: Name, attributes: Record<string, string | number>): SVGElementTagNameMap[Name] {
-  const made = document.createElementNS(SVG, name);
-  set(made, attributes);
-  return made;
-}
-
-function set(target: SVGElement, attributes: Record<string, string | number>): void {
-  for (const [name, value] of Object.entries(attributes)) target.setAttribute(name, String(value));
 }

@@ -8,11 +8,14 @@ export interface Level { name: string; rows: string[]; stalls: Stall[]; ways: [n
 export interface Finding { severity: string; rule: string; message: string; place: string; at: [number, number] | null }
 export interface Sketch { state: "drawn" | "planned" | "open" | "refused"; levels: Level[]; rows_m: number[]; cols_m: number[]; findings: Finding[] }
 export interface Run { first: Square; last: Square; edge: string; kind: string; size: string }
-export interface State {
+export interface FileState {
   number: number; name: string; folder: string; is_new: boolean; is_saved: boolean; can_undo: boolean; can_redo: boolean; kept: boolean;
+  view: string; warning?: string;
+}
+export interface State extends FileState {
   levels: number; place: { square: Square; way: string; aside: string | null } | null; given_sides: [boolean, boolean]; runs: Run[];
-  values: Record<string, string | number | boolean>; given: string[]; drawn_look: boolean; has_lanes: boolean; is_working: boolean; view: string; sketch: Sketch;
-  seconds: number; warning?: string;
+  values: Record<string, string | number | boolean>; given: string[]; drawn_look: boolean; has_lanes: boolean; is_working: boolean; sketch: Sketch;
+  seconds: number;
 }
 export interface Control {
   name: string; group: string; kind: "choice" | "switch" | "whole" | "number" | "colour"; text: string;
@@ -41,13 +44,13 @@ export async function tell<T>(name: string, message: object = {}): Promise<T> {
 }
 
 /** Messages that change the drawing, in their order; each tells the version that it is for. */
-export class Desk {
+export class Desk<Kind extends FileState> {
   /** As of the last answer; from the first one on. */
-  state!: State;
+  state!: Kind;
   private last: Promise<unknown> = Promise.resolve();
   private waiting = 0;
 
-  constructor(private readonly shown: (state: State) => void, private readonly refused: (error: Error) => void) {}
+  constructor(private readonly shown: (state: Kind) => void, private readonly refused: (error: Error) => void) {}
 
   get isBusy(): boolean {
     return this.waiting > 0;
@@ -61,7 +64,7 @@ export class Desk {
     this.waiting++;
     const sent = this.last.then(async () => {
       try {
-        this.take(await tell<State>(name, message()));
+        this.take(await tell<Kind>(name, message()));
         return true;
       } catch (error) {
         await this.refresh();
@@ -77,13 +80,13 @@ export class Desk {
 
   async refresh(): Promise<void> {
     try {
-      this.take(await ask<State>("state"));
+      this.take(await ask<Kind>("state"));
     } catch (error) {
       this.refused(error as Error);
     }
   }
 
-  private take(state: State): void {
+  private take(state: Kind): void {
     this.state = state;
     this.shown(state);
   }

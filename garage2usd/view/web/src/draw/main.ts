@@ -1,22 +1,20 @@
 import { Board, isOn, NAMES, type Shape } from "./board";
-import { ask, type Axis, type Control, Desk, type Finding, type Level, type Progress, Refusal, type Square, type State, tell } from "./desk";
-import { made, SettingsPanel } from "./settings";
-import "./style.css";
+import { ask, type Axis, type Control, Desk, type Finding, type Level, type Progress, type Square, type State, tell } from "./desk";
+import { byId, FileBar, input, made, plural, select } from "./file_bar";
+import { SettingsPanel } from "./settings";
 
 const SHAPES: [Shape, string, string][] = [
   ["squares", "Pencil", "P"], ["rectangle", "Rectangle", "R"], ["flood", "Flood", "F"], ["run", "Stalls", "T"], ["move", "Move plan", "M"],
 ];
+const USES: Record<string, string> = {
+  standard: "stall", ev: "charging", accessible: "accessible", access_aisle: "access aisle", turning: "turning bay", unreachable: "not reachable", motorcycle: "motorcycles",
+};
 const NOT_TO_PARK_IN = ["access_aisle", "turning", "unreachable"];
 const CHECK_AFTER_MS = 700;
-const LOOK_EVERY_MS = 4000;
-
-const byId = <Kind extends HTMLElement = HTMLElement>(id: string) => document.getElementById(id) as Kind;
-const input = (id: string) => byId<HTMLInputElement>(id);
-const select = (id: string) => byId<HTMLSelectElement>(id);
-const plural = (count: number, word: string) => `${count} ${word}${count === 1 ? "" : "s"}`;
 
 class DrawPage {
-  readonly desk = new Desk((state) => this.show(state), (error) => this.refuse(error));
+  readonly desk: Desk<State> = new Desk<State>((state) => this.show(state), (error) => this.bar.refuse(error));
+  private readonly bar = new FileBar(this.desk, () => this.board.isPainting);
   readonly board: Board;
   private readonly settings: SettingsPanel;
   private level = 0;
@@ -39,12 +37,7 @@ class DrawPage {
   }
 
   async open(): Promise<void> {
-    await this.desk.refresh();
-    if (this.desk.state.kept)
-      this.ask("A page ended here with work that was not saved.", [
-        ["Take it", () => void this.desk.send("restore", () => ({ take: true }))],
-        ["Leave it", () => void this.desk.send("restore", () => ({ take: false }))],
-      ]);
+    await this.bar.begin();
     if (this.desk.state.is_working) void this.follow();
     document.documentElement.dataset["ready"] = "yes";
   }
@@ -54,22 +47,17 @@ class DrawPage {
     this.level = Math.min(this.level, state.sketch.levels.length - 1);
     this.board.show(state.sketch, this.level);
     this.settings.show(state);
-    this.showBar(state);
+    this.bar.show(state);
+    this.showFigures(state);
     this.showFindings();
     this.showLevels(state);
     this.tellCursor(false);
-    if (state.warning) this.ask(state.warning, []);
     window.clearTimeout(this.check);
     if (state.sketch.state === "drawn" || state.sketch.state === "planned")
       this.check = window.setTimeout(() => void this.checkAll(), CHECK_AFTER_MS);
   }
 
-  private showBar(state: State): void {
-    byId("name").textContent = state.name;
-    byId("saved").textContent = state.is_saved ? "saved" : state.is_new ? "not saved yet" : "changed";
-    document.title = `${state.is_saved ? "" : "\u2022 "}${state.name}`;
-    byId<HTMLButtonElement>("undo").disabled = !state.can_undo;
-    byId<HTMLButtonElement>("redo").disabled = !state.can_redo;
+  private showFigures(state: State): void {
     byId<HTMLButtonElement>("plan").disabled = this.isLearning || (state.has_lanes && state.levels === 1) || state.sketch.state === "refused";
     byId<HTMLButtonElement>("build").disabled = state.sketch.state !== "drawn" && state.sketch.state !== "planned";
     byId("adopt").hidden = state.sketch.state !== "planned" || state.levels > 1;
@@ -82,10 +70,22 @@ class DrawPage {
     byId("figures").dataset["number"] = String(state.number);
     for (const [id, value] of [["rows", rows_m.length], ["cols", cols_m.length], ["level-count", state.levels]] as const)
       if (document.activeElement !== byId(id)) input(id).value = String(value);
+    const uses = new Set(levels.flatMap((level) => level.stalls.map(({ use }) => use)));
+    byId("legend").replaceChildren(
+      ...Object.entries(USES).flatMap(([use, name]) => (uses.has(use) ? [made("li", {}, made("i", { class: `chip ${use}` }), name)] : [])),
+    );
+    this.allowLanes(state.levels === 1);
     byId("ramps").hidden = state.levels === 1;
     byId<HTMLButtonElement>("draw-ramp").disabled = !state.place;
     byId<HTMLButtonElement>("free-sides").disabled = !state.given_sides.some(Boolean);
-    byId("folder").textContent = state.folder;
+  }
+
+  /** Lanes of several levels are planned, and cannot be painted. */
+  private allowLanes(are: boolean): void {
+    const choice = document.querySelector<HTMLInputElement>('input[name=symbol][value="="]')!;
+    choice.disabled = !are;
+    byId("lane-note").hidden = are;
+    if (!are && this.board.symbol === "=") this.choose("symbol", ".");
   }
 
   private showFindings(): void {
@@ -101,7 +101,7 @@ class DrawPage {
       });
       return made("li", { id: `finding-${number}`, value: number + 1 }, button);
     });
-    if (!rows.length) rows.push(made("li", { class: "none" }, "Nothing to complain of"));
+    if (!rows.length) rows.push(made("li", { class: "none" }, "No findings"));
     byId("findings").replaceChildren(...rows);
   }
 
@@ -131,7 +131,7 @@ class DrawPage {
     try {
       told = await ask("findings");
     } catch (error) {
-      return this.refuse(error as Error);
+      return this.bar.refuse(error as Error);
     }
     if (told.number !== this.desk.state.number) return; // the answer to the change asks again
     const { sketch } = this.desk.state;
@@ -139,9 +139,11 @@ class DrawPage {
     // stair cores and turning bays take stalls, which the squares alone do not tell
     if (told.levels.length === sketch.levels.length) sketch.levels = told.levels;
     this.board.show(sketch, this.level);
-    this.showBar(this.desk.state);
+    this.showFigures(this.desk.state);
     this.showFindings();
     document.documentElement.dataset["checked"] = String(told.number);
+    // so that the 3D view is there when its button is pressed, which also says why where it cannot be
+    if (!byId<HTMLButtonElement>("build").disabled) void tell("build").catch(() => undefined);
   }
 
   private tellCursor(speaks = true): void {
@@ -174,7 +176,7 @@ class DrawPage {
 
   private choose(name: "symbol" | "shape", value: string): void {
     const choice = document.querySelector<HTMLInputElement>(`input[name=${name}][value="${value}"]`);
-    if (!choice) return;
+    if (!choice || choice.disabled) return;
     choice.checked = true;
     choice.dispatchEvent(new Event("change"));
     byId("spoken").textContent = choice.parentElement!.textContent;
@@ -182,7 +184,7 @@ class DrawPage {
 
   private setRun(first: Square, last: Square, point?: [number, number]): void {
     const edge = this.board.edgeToLane(first, point);
-    if (!edge) return this.ask("Stalls stand on free squares beside a lane; this one has none.", []);
+    if (!edge) return this.bar.ask("Stalls stand on free squares beside a lane; this one has none.", []);
     const [kind, angle] = select("run-kind").value.split(" ");
     const run = kind ? { kind, size: select("run-size").value, ...(angle ? { angle_deg: Number(angle) } : {}) } : null;
     void this.desk.edit({ kind: "run", first, last, edge, run });
@@ -195,17 +197,9 @@ class DrawPage {
         if (input(id).checkValidity() && input(id).value) act(input(id).valueAsNumber);
         else input(id).reportValidity();
       });
-    on("undo", () => void this.desk.send("undo"));
-    on("redo", () => void this.desk.send("redo"));
-    on("save", () => void this.save());
-    on("save-as", () => this.openSave());
     on("plan", () => void this.learn());
     on("stop", () => void tell("stop"));
     on("adopt", () => void this.desk.send("adopt"));
-    on("build", () => void this.build());
-    on("view-close", () => byId<HTMLDialogElement>("view-dialog").close());
-    byId("view-dialog").addEventListener("close", () => byId("view-frame").removeAttribute("src"));
-    byId("save-dialog").addEventListener("close", () => void this.saveAs());
     byId("symmetry").addEventListener("change", () => {
       this.board.symmetry = select("symmetry").value;
       this.board.draw();
@@ -235,12 +229,6 @@ class DrawPage {
     for (const id of ["picture", "picture-width", "picture-share", "picture-x", "picture-z"])
       byId(id).addEventListener("change", () => void this.showPicture());
     this.board.svg.addEventListener("keydown", (event) => this.key(event));
-    document.addEventListener("keydown", (event) => this.shortcut(event));
-    window.addEventListener("beforeunload", (event) => {
-      if (!this.desk.state?.is_saved || this.desk.isBusy) event.preventDefault();
-    });
-    window.addEventListener("focus", () => void this.look());
-    window.setInterval(() => void this.look(), LOOK_EVERY_MS);
   }
 
   private key(event: KeyboardEvent): void {
@@ -259,53 +247,12 @@ class DrawPage {
     event.preventDefault();
   }
 
-  private shortcut(event: KeyboardEvent): void {
-    if (!(event.ctrlKey || event.metaKey)) return;
-    const key = event.key.toLowerCase();
-    const isTyping = event.target instanceof HTMLInputElement && event.target.type !== "radio" && event.target.type !== "checkbox";
-    if (key === "s") void this.save();
-    else if (isTyping) return;
-    else if (key === "z" && !event.shiftKey) void this.desk.send("undo");
-    else if (key === "y" || key === "z") void this.desk.send("redo");
-    else return;
-    event.preventDefault();
-  }
-
-  private async save(over = false): Promise<void> {
-    await this.send({ over });
-  }
-
-  private openSave(): void {
-    input("file-name").value = this.desk.state.name;
-    byId("save-error").textContent = "";
-    const dialog = byId<HTMLDialogElement>("save-dialog");
-    dialog.returnValue = "";
-    dialog.showModal();
-    input("file-name").select();
-  }
-
-  private async saveAs(): Promise<void> {
-    if (byId<HTMLDialogElement>("save-dialog").returnValue === "save") await this.send({ name: input("file-name").value });
-  }
-
-  private async send(message: { name?: string; over?: boolean }): Promise<void> {
-    while (this.desk.isBusy) await new Promise((done) => setTimeout(done, 20));
-    try {
-      await tell<State>("save", message);
-      this.hideNotice();
-    } catch (error) {
-      const stale = error instanceof Refusal && error.isStale;
-      this.ask((error as Error).message, stale ? [["Write over it", () => void this.send({ ...message, over: true })]] : []);
-    }
-    await this.desk.refresh();
-  }
-
   private async learn(): Promise<void> {
     try {
       await tell("learn");
       await this.follow();
     } catch (error) {
-      this.refuse(error as Error);
+      this.bar.refuse(error as Error);
     }
   }
 
@@ -324,23 +271,8 @@ class DrawPage {
     } while (progress.is_working);
     this.isLearning = false;
     byId("working").hidden = true;
-    if (progress.error && progress.error !== "stopped") this.ask(progress.error, []);
+    if (progress.error && progress.error !== "stopped") this.bar.ask(progress.error, []);
     await this.desk.refresh();
-  }
-
-  private async build(): Promise<void> {
-    const dialog = byId<HTMLDialogElement>("view-dialog");
-    byId("view-facts").textContent = "Building\u2026";
-    // the viewer starts while the garage is built, and waits for its scene
-    byId<HTMLIFrameElement>("view-frame").src = byId<HTMLAnchorElement>("view-link").href = `3d/${this.desk.state.view}/`;
-    dialog.showModal();
-    try {
-      const told = await tell<{ seconds: number; stalls: number }>("build");
-      byId("view-facts").textContent = `${plural(told.stalls, "stall")}, built in ${told.seconds.toFixed(1)} s`;
-    } catch (error) {
-      dialog.close();
-      this.refuse(error as Error);
-    }
   }
 
   private async showPicture(): Promise<void> {
@@ -352,43 +284,6 @@ class DrawPage {
     this.board.showPicture(URL.createObjectURL(file), metres, (metres * height) / width, ...place, input("picture-share").valueAsNumber / 100);
   }
 
-  /** See whether the file, or the drawing in another window, has changed. */
-  private async look(): Promise<void> {
-    if (!this.desk.state || this.desk.isBusy || this.board.isPainting || document.hidden) return;
-    try {
-      const told = await ask<{ changed: boolean; number: number }>("file");
-      if (told.changed && byId("notice").hidden)
-        this.ask(`${this.desk.state.name} was changed by another program.`, [
-          ["Take what it has now", () => void this.desk.send("reload")],
-          ["Go on with this drawing", () => undefined],
-        ]);
-      if (told.number !== this.desk.state.number && !this.desk.isBusy) await this.desk.refresh();
-    } catch (error) {
-      this.refuse(error as Error);
-    }
-  }
-
-  private refuse(error: Error): void {
-    this.ask(error.message, []);
-  }
-
-  private ask(text: string, answers: [string, () => void][]): void {
-    byId("notice-text").textContent = text;
-    const buttons = [...answers, ...(answers.length ? [] : [["Close", () => undefined] as [string, () => void]])].map(([name, act]) => {
-      const button = made("button", {}, name);
-      button.addEventListener("click", () => {
-        this.hideNotice();
-        act();
-      });
-      return button;
-    });
-    byId("notice-buttons").replaceChildren(...buttons);
-    byId("notice").hidden = false;
-  }
-
-  private hideNotice(): void {
-    byId("notice").hidden = true;
-  }
 }
 
 const page = new DrawPage(await ask<{ controls: Control[]; colours: Record<string, string> }>("controls"));

@@ -1,6 +1,7 @@
 /** Controls of the settings, made from what the server tells of each. */
 
 import type { Control, State } from "./desk";
+import { made } from "./file_bar";
 
 type Put = (name: string, value: string | number | boolean | null) => void;
 const TITLES: Record<string, string> = { garage: "Garage", floor: "Floor" };
@@ -77,13 +78,4 @@ export class SettingsPanel {
     const group = made("div", { class: "swatches", role: "group", "aria-label": inWords(control.name), title: control.text }, ...buttons.values(), any);
     return made("div", { class: "field" }, made("span", {}, inWords(control.name)), group);
   }
-}
-
-export function made<Name extends keyof HTMLElementTagNameMap>(
-  name: Name, attributes: Record<string, string | number>, ...children: (Node | string)[]
-): HTMLElementTagNameMap[Name] {
-  const element = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) if (value !== "") element.setAttribute(key, String(value));
-  element.append(...children);
-  return element;
 }
