@@ -1,8 +1,8 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
 Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, floor, optimisers, rules, circulation,
-scale, stages, levels, exports, datasets, workers, living, looks, lidar, parking, parking_learnt, unity, traffic,
-compiled and binding.
+scale, stages, levels, drawing, exports, datasets, workers, living, looks, lidar, parking, parking_learnt, unity,
+traffic, compiled and binding.
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.
@@ -22,6 +22,7 @@ from pathlib import Path
 from binding import binding
 from circulation import circulation
 from datasets import datasets, workers
+from drawing import drawing
 from exports import exports
 from floor_use import floor_use
 from levels import levels
@@ -58,6 +59,7 @@ def main() -> None:
         "scale": scale,
         "stages": stages,
         "levels": levels,
+        "drawing": drawing,
         "exports": exports,
         "datasets": datasets,
         "workers": workers,
