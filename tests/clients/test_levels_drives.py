@@ -52,8 +52,8 @@ RIG = {
         },
     ],
 }
-EVERY_M = 140.0
-"""Distance of the poses of a recording, of which one is half way down the ramp."""
+EVERY_M = 16.0
+"""Distance of the poses of a recording: less than that over which a ramp is far from both floors."""
 ABOVE = BirdsEye(metres_per_px=0.1, size_px=(160, 160))
 PICTURES = Picture.DEPTH, Picture.INSTANCE, Picture.SEMANTIC
 needs_blender = pytest.mark.skipif(

@@ -124,7 +124,7 @@ def test_shared_assets_and_a_stage_that_refers_to_them_pass_both(tmp_path):
         assert nvidia_findings(path, tmp_path / f"{number}.csv", "--no-variants") == []
 
 
-@pytest.mark.parametrize("samples", [USUAL_SAMPLES, OBJECT_SAMPLES], ids=["usual", "all"])
+@pytest.mark.parametrize("samples", soak_but(1, [USUAL_SAMPLES, OBJECT_SAMPLES]), ids=["usual", "all"])
 def test_nvidia_validation_of_prototypes_finds_nothing(samples, builds, tmp_path):
     """Those of samples that have all kinds of objects between them, at once, as many are of several."""
     for sample in samples:

@@ -13,7 +13,7 @@ from support.survey_texts import TEXTS
 from garage2usd.survey.reader import SURVEY_SUFFIXES
 
 
-@pytest.mark.parametrize("count", soak_but(1, [100, 600]))
+@pytest.mark.parametrize("count", soak_but(1, [50, 100, 600]))
 def test_a_damaged_survey_is_imported_or_ends_in_one_line_within_a_minute_and_a_gigabyte(count):
     command = [sys.executable, "-m", "support.fuzzing.survey_fuzz", "--count", str(count), "--seed", str(count)]
     run = subprocess.run(command, cwd=REPOSITORY / "tests", capture_output=True, text=True, check=False)
