@@ -15,7 +15,7 @@ SIDES: dict[Axis, tuple[str, str]] = {
     "rows": ("bay.row_depths_m", "bay.row_depths_file"),
     "cols": ("bay.column_widths_m", "bay.column_widths_file"),
 }
-_INSTEAD_OFSTRUCTURE = (
+_INSTEAD_OF_STRUCTURE = (
     "structure_file", "contour", "entrance_cells", "exit_cells", "obstacle_cells", "width_cells", "height_cells",
     "rectangles", "min_fill", "entrances", "exits", "min_portal_distance_cells", "obstacles",
     "min_obstacle_distance_cells",
@@ -51,7 +51,7 @@ class Change:
     def put_grid(self, grid: list[list[str]]) -> None:
         """Write squares as the structure, in place of what they were drawn from, and drop runs without ground."""
         self._rows = rows = ["".join(row) for row in grid]
-        for key in _INSTEAD_OFSTRUCTURE:
+        for key in _INSTEAD_OF_STRUCTURE:
             self.page.put(f"site.{key}", None)
         is_list = isinstance(self.page.get(STRUCTURE), list)
         self.page.put(STRUCTURE, rows if is_list else "\n".join(rows) + "\n")

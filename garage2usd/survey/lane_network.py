@@ -195,7 +195,8 @@ def lane_network(
     free_m = [_free_m(gate, stalls) for gate in gates]
     ends = shapely.STRtree([line.line for line in lines])
     lines = [_short_of(line, gates, free_m, ends) for line in lines]
-    approaches = [_approach(gate, lines, stalls, walls) for gate in gates]
+    shortened = shapely.STRtree([line.line for line in lines])
+    approaches = [_approach(gate, lines, shortened, stalls, walls) for gate in gates]
     lines += [approach.line for approach in approaches]
     cuts = _cuts(lines)
     nodes, number_of = _merged([point for points in cuts for _, point in points])
@@ -241,7 +242,7 @@ def _short_of(line: CentreLine, gates: Sequence[Gate], free_m: Sequence[float], 
         (x, z), (out_x, out_z) = gate.foot, gate.outwards
         for place in () if line.line.is_ring else (0, -1):
             end_x, end_z = line.line.coords[place]
-            if len(lines.query(shapely.Point(end_x, end_z), predicate="dwithin", distance=SAME_M)) > 1:
+            if _is_joined(shapely.Point(end_x, end_z), lines):
                 continue
             aside_m = abs((end_x - x) * out_z - (end_z - z) * out_x)
             if gate.is_landing and not gate.is_ahead(_ends(line.line)[place]):
@@ -262,8 +263,17 @@ def _short_of(line: CentreLine, gates: Sequence[Gate], free_m: Sequence[float], 
     return line
 
 
+def _is_joined(end: shapely.Point, lines: shapely.STRtree) -> bool:
+    """Return True if the end of a line lies on another one."""
+    return len(lines.query(end, predicate="dwithin", distance=SAME_M)) > 1
+
+
 def _approach(
-    gate: Gate, lines: Sequence[CentreLine], stalls: shapely.STRtree, walls: shapely.Geometry | None
+    gate: Gate,
+    lines: Sequence[CentreLine],
+    tree: shapely.STRtree,
+    stalls: shapely.STRtree,
+    walls: shapely.Geometry | None,
 ) -> _Approach:
     """Find the line from a door's node to the lane ahead, else the nearest one; reversed for an exit.
 
@@ -274,17 +284,16 @@ def _approach(
     reach_m = 2 * min(each.line.distance(foot) for each in lines) + SAME_M
     ray = shapely.LineString([gate.foot, (foot.x - out_x * reach_m, foot.y - out_z * reach_m)])
     ways = []
-    tree = shapely.STRtree([each.line for each in lines])
     asked = lines if gate.lane is None else [min(lines, key=lambda each: each.line.distance(shapely.Point(gate.lane)))]
     for number, each in enumerate(asked):
         ends = [shapely.Point(each.line.coords[place]) for place in (0, -1)]
         if each.line.intersects(ray):
             ends.append(shapely.Point(shapely.shortest_line(foot, each.line.intersection(ray)).coords[-1]))
         ends.append(each.line.interpolate(each.line.project(foot)))
-        for end in ends:
-            is_end = len(tree.query(end, predicate="dwithin", distance=SAME_M)) == 1
-            aside_m = each.width_m / 2 if is_end else _TOUCH_M
-            is_ahead = ray.distance(end) < aside_m and (is_end or each.line.intersects(ray))
+        for place, end in enumerate(ends):
+            is_loose = place < _TWO_ENDS and not _is_joined(end, tree)
+            aside_m = each.width_m / 2 if is_loose else _TOUCH_M
+            is_ahead = ray.distance(end) < aside_m and (is_loose or each.line.intersects(ray))
             way = shapely.LineString([foot, end]).difference(foot.buffer(_TOUCH_M))
             shut = 0 if walls is None else int(walls.intersects(way))
             shut += len(stalls.query(way, predicate="crosses"))
